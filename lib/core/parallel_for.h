@@ -1,0 +1,28 @@
+// The one threading primitive: f(i) for every i in [0, n), each index exactly once. A call must
+// write only what belongs to its index; sums are taken in index order afterwards, so results never
+// depend on the number of threads. Exceptions of f reach the caller.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+
+namespace walktrack {
+
+// Hardware threads of this machine, at least 1.
+int hardware_threads();
+
+// Calls body(context, begin, end) on disjoint ranges that cover [0, n).
+void parallel_ranges(size_t n, int threads, void (*body)(void*, size_t, size_t), void* context);
+
+template <typename F>
+void parallel_for(size_t n, int threads, F&& f) {
+  using Callable = std::remove_reference_t<F>;
+  auto body = [](void* context, size_t begin, size_t end) {
+    Callable& call = *static_cast<Callable*>(context);
+    for (size_t i = begin; i < end; ++i) call(i);
+  };
+  parallel_ranges(n, threads, body, const_cast<void*>(static_cast<const void*>(std::addressof(f))));
+}
+
+}  // namespace walktrack

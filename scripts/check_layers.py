@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Compares the #includes below lib/ with the module graph declared in lib/CMakeLists.txt.
+
+A module may include its own headers and those of the modules that it names in DEPS, directly or
+through them. It also keeps OpenCV, yaml-cpp and Boost inside the modules meant for them.
+"""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+ALLOWED_OUTSIDE = {
+    "opencv2": {"observation", "synth", "io", "jobs"},
+    "yaml-cpp": {"io"},
+    "boost": set(),
+    "toml++": {"io"},
+    "nlohmann": {"io", "jobs"},
+}
+
+
+def declared_graph():
+    text = re.sub(r"#.*", "", (ROOT / "lib/CMakeLists.txt").read_text())
+    graph = {}
+    for body in re.findall(r"walktrack_module\(([^)]*)\)", text):
+        words = body.split()
+        name, deps, take = words[0], [], False
+        for word in words[1:]:
+            if word.isupper():
+                take = word == "DEPS"
+            elif take:
+                deps.append(word)
+        graph[name] = deps
+    return graph
+
+
+def reachable(graph, name):
+    seen, todo = {name}, [name]
+    while todo:
+        for dep in graph[todo.pop()]:
+            if dep not in seen:
+                seen.add(dep)
+                todo.append(dep)
+    return seen
+
+
+def violations(graph):
+    for module in sorted(graph):
+        allowed = reachable(graph, module)
+        for path in sorted((ROOT / "lib" / module).rglob("*")):
+            if path.suffix not in (".h", ".cpp"):
+                continue
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                found = re.match(r'\s*#\s*include\s*[<"]([^/>"]+)/', line)
+                if not found:
+                    continue
+                first = found.group(1)
+                if first in graph and first not in allowed:
+                    yield f"{path.relative_to(ROOT)}:{number}: {module} may not include {first}"
+                if module not in ALLOWED_OUTSIDE.get(first, {module}):
+                    yield f"{path.relative_to(ROOT)}:{number}: {first} is not for {module}"
+
+
+def main():
+    graph = declared_graph()
+    if "core" not in graph:
+        sys.exit("no module found in lib/CMakeLists.txt")
+    found = list(violations(graph))
+    print("\n".join(found) or f"{len(graph)} modules respect their layers")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Installs what building, testing and running walktrack needs, from Debian's packages alone.
+# Does nothing when everything is there.
+set -euo pipefail
+
+packages=(
+  cmake ninja-build g++ ccache python3 git
+  libeigen3-dev libboost-program-options-dev libyaml-cpp-dev libfmt-dev
+  libtbb-dev libhwy-dev nlohmann-json3-dev libtomlplusplus-dev libnlopt-cxx-dev
+  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
+  libopencv-video-dev libopencv-videoio-dev libopencv-calib3d-dev libopencv-ml-dev
+  libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang-format clang-tidy
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then as_root=(sudo); fi
+echo "installing: ${missing[*]}" >&2
+"${as_root[@]}" apt-get update -qq
+DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}"

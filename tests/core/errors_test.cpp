@@ -1,0 +1,27 @@
+#include "core/errors.h"
+
+#include <gtest/gtest.h>
+
+namespace walktrack {
+namespace {
+
+TEST(Describe, NamesPlaceFoundAndAllowed) {
+  EXPECT_EQ(describe({"scene.yaml", 7, "cameras[0].video"}, "'3'", "a file"),
+            "scene.yaml:7: cameras[0].video: found '3', allowed: a file");
+}
+
+TEST(Describe, LeavesOutWhatIsUnknown) {
+  EXPECT_EQ(describe({"", 0, "threads"}, "'x'", ""), "threads: found 'x'");
+  EXPECT_EQ(describe({"a.csv", 0, ""}, "no rows", ""), "a.csv: found no rows");
+}
+
+TEST(NearestWord, FindsATypoAndRefusesAStranger) {
+  const std::vector<std::string> keys{"particles", "seed", "flow"};
+  EXPECT_EQ(nearest_word("particels", keys), "particles");
+  EXPECT_EQ(nearest_word("sed", keys), "seed");
+  EXPECT_EQ(nearest_word("background", keys), "");
+  EXPECT_EQ(nearest_word("", {}), "");
+}
+
+}  // namespace
+}  // namespace walktrack
