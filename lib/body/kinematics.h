@@ -1,0 +1,56 @@
+// Forward kinematics: pose -> joint centres, segment orientations and posed parts.
+//
+// Standing on a foot: the sole lies flat from strike to heel-off, then turns about the ball, which
+// never moves (model of the three rockers without the first, Perry 1992). The root follows from the
+// ball's place on the ground and the leg's angles.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "body/body.h"
+#include "body/pose.h"
+
+namespace walktrack {
+
+struct Skeleton {
+  JointPositions joints;                                          // world
+  std::array<Eigen::Matrix3d, kSegmentCount> world_from_segment;  // unset for groups left out
+  const Eigen::Matrix3d& axes(Segment s) const {
+    return world_from_segment[static_cast<size_t>(s)];
+  }
+};
+
+// A part in the world. `lower`, `upper`: ends of its axis; `lateral`, `forward`: unit vectors of
+// its cross-section, orthogonal to each other and to the segment's long axis.
+struct PosedPart {
+  Eigen::Vector3d lower, upper;
+  Eigen::Vector3d lateral, forward;
+  CrossSection at_lower, at_upper;
+  Appearance appearance;
+};
+
+Skeleton forward_kinematics(const Body& body, const Pose& pose);
+
+// The parts of a skeleton, one for each of body.parts and in their order. `out` keeps its capacity.
+void pose_parts(const Body& body, const Skeleton& skeleton, std::vector<PosedPart>& out);
+
+// The hip-to-ankle vector of one leg in the world for root orientation and leg angles of `pose`;
+// the root's position does not matter.
+Eigen::Vector3d ankle_from_root(const Body& body, const Pose& pose, Side side);
+
+// Pitch of the sole (0 flat, positive = heel up) at which the foot turned about its ball has its
+// ankle `ankle_height` above the ground; 0 for a height at or below that of a flat foot, at most a
+// right angle.
+double sole_pitch(const BodyLengths& lengths, double ankle_height);
+
+// Ankle relative to the ball for a sole pitched by `pitch`: (forward, up), metres.
+Eigen::Vector2d ankle_from_ball(const BodyLengths& lengths, double pitch);
+
+// Puts the pose's `side` foot with its ball at `ball` (on the sole's level, z = ground) and the
+// sole pitched by `pitch`: sets the root and that ankle's dorsiflexion.
+void stand_on(const Body& body, Side side, const Eigen::Vector3d& ball, double pitch, Pose& pose);
+
+}  // namespace walktrack
