@@ -1,0 +1,81 @@
+#include "body/motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/errors.h"
+
+namespace walktrack {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// Rows are written with at most 1e-5 s, so times nearer than this are the same instant.
+constexpr double kSameTime = 2e-5;
+
+// Slope (per second) at row i by the rows around it, NaN if one of them is unknown or missing.
+Vector3d central_slope(const Motion& motion, Joint joint, size_t i) {
+  if (i == 0 || i + 1 >= motion.time.size())
+    return Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  return (motion.joints[i + 1][joint] - motion.joints[i - 1][joint]) /
+         (motion.time[i + 1] - motion.time[i - 1]);
+}
+
+// Between rows i and i + 1 at the share s in (0, 1).
+Vector3d between(const Motion& motion, Joint joint, size_t i, double s) {
+  const Vector3d& from = motion.joints[i][joint];
+  const Vector3d& to = motion.joints[i + 1][joint];
+  const double step = motion.time[i + 1] - motion.time[i];
+  Vector3d start = step * central_slope(motion, joint, i);
+  Vector3d end = step * central_slope(motion, joint, i + 1);
+  if (!known(start) && !known(end)) return (1 - s) * from + s * to;
+  // With one slope unknown, the parabola through both points with the other slope.
+  if (!known(start)) start = 2 * (to - from) - end;
+  if (!known(end)) end = 2 * (to - from) - start;
+  const double s2 = s * s, s3 = s2 * s;
+  return (2 * s3 - 3 * s2 + 1) * from + (s3 - 2 * s2 + s) * start + (3 * s2 - 2 * s3) * to +
+         (s3 - s2) * end;
+}
+
+}  // namespace
+
+JointPositions unknown_joints() {
+  JointPositions out;
+  out.at.fill(Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  return out;
+}
+
+double sample_period(const Motion& motion) {
+  if (motion.time.size() < 2) throw InputError("a motion needs at least two rows to have a rate");
+  std::vector<double> steps;
+  for (size_t i = 1; i < motion.time.size(); ++i)
+    steps.push_back(motion.time[i] - motion.time[i - 1]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+Motion resampled(const Motion& motion, std::span<const double> times, double longest_gap) {
+  Motion out{{times.begin(), times.end()},
+             std::vector<JointPositions>(times.size(), unknown_joints())};
+  for (size_t k = 0; k < times.size(); ++k) {
+    const auto after =
+        std::lower_bound(motion.time.begin(), motion.time.end(), times[k] - kSameTime);
+    if (after == motion.time.end()) continue;
+    const size_t j = static_cast<size_t>(after - motion.time.begin());
+    if (motion.time[j] <= times[k] + kSameTime) {
+      out.joints[k] = motion.joints[j];
+      continue;
+    }
+    if (j == 0 || motion.time[j] - motion.time[j - 1] > longest_gap) continue;
+    const double s = (times[k] - motion.time[j - 1]) / (motion.time[j] - motion.time[j - 1]);
+    for (int joint = 0; joint < kJointCount; ++joint)
+      out.joints[k][static_cast<Joint>(joint)] =
+          between(motion, static_cast<Joint>(joint), j - 1, s);
+  }
+  return out;
+}
+
+}  // namespace walktrack
