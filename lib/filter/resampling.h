@@ -1,0 +1,17 @@
+// Systematic resampling (Kitagawa 1996): one uniform draw, N equally spaced pointers into the
+// cumulated weights. Unbiased: particle i is chosen N * p_i times on average, and never more than
+// one time away from that.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace walktrack {
+
+// Fills `parents` with indices into `log_weights`, in ascending order. `u` lies in (0, 1). The
+// number of parents may differ from the number of weights. Returns false, leaving `parents` alone,
+// when every weight is -infinity.
+bool systematic_resample(std::span<const double> log_weights, double u,
+                         std::span<uint32_t> parents);
+
+}  // namespace walktrack
