@@ -1,0 +1,34 @@
+// Whether stated intervals hold the truth as often as they say.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "body/motion.h"
+
+namespace walktrack {
+
+// uncertainty.csv: for each row and joint coordinate a standard deviation and the 5th and 95th
+// percentile, metres. NaN = unknown.
+struct JointUncertainty {
+  std::vector<double> time;
+  std::vector<JointPositions> sd, p05, p95;
+};
+
+inline constexpr double kStatedCoverage = 0.90;  // between the 5th and the 95th percentile
+
+struct Coverage {
+  size_t count = 0;       // joint coordinates compared
+  double share = 0;       // of them inside [p05, p95]
+  double mean_width = 0;  // of the intervals, m
+};
+
+struct CoverageReport {
+  Coverage scored;  // the seven scored joints together
+  std::array<Coverage, kJointCount> by_joint;
+};
+
+// Compares at the truth's rows that have an uncertainty row at the same instant.
+CoverageReport coverage(const Motion& truth, const JointUncertainty& uncertainty);
+
+}  // namespace walktrack

@@ -1,0 +1,280 @@
+#include "metrics/gait.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace walktrack {
+
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kPathWindow = 0.5;      // s; about a step, so that sway and bounce average out
+constexpr double kMatchWithin = 0.25;    // s; under half of the shortest usual stride
+constexpr double kLeastProgress = 0.15;  // m/s; slower than any walk, the direction means nothing
+
+// Consecutive rows [begin, end) in which pelvis and feet are known.
+struct Run {
+  size_t begin, end;
+};
+
+bool usable(const JointPositions& joints) {
+  if (!known(joints[Joint::kPelvis])) return false;
+  return known(foot_point(joints, Side::kLeft)) && known(foot_point(joints, Side::kRight));
+}
+
+std::vector<Run> known_runs(const Motion& motion) {
+  std::vector<Run> runs;
+  for (size_t i = 0; i < motion.time.size(); ++i) {
+    if (!usable(motion.joints[i])) continue;
+    if (runs.empty() || runs.back().end != i) runs.push_back({i, i});
+    runs.back().end = i + 1;
+  }
+  std::erase_if(runs, [](const Run& run) { return run.end - run.begin < 3; });
+  return runs;
+}
+
+Vector2d ground(const Eigen::Vector3d& point) { return point.head<2>(); }
+
+// Rows of the run within half of kPathWindow around row i, cut symmetrically at the ends.
+Run window_around(const Motion& motion, const Run& run, size_t i) {
+  size_t reach = 0;
+  while (i >= run.begin + reach + 1 && i + reach + 1 < run.end &&
+         motion.time[i + reach + 1] - motion.time[i - reach - 1] <= kPathWindow)
+    ++reach;
+  return {i - reach, i + reach + 1};
+}
+
+// The pelvis on the ground, averaged over kPathWindow.
+std::vector<Vector2d> smoothed_path(const Motion& motion, const Run& run) {
+  std::vector<Vector2d> path;
+  for (size_t i = run.begin; i < run.end; ++i) {
+    const Run window = window_around(motion, run, i);
+    Vector2d sum = Vector2d::Zero();
+    for (size_t k = window.begin; k < window.end; ++k)
+      sum += ground(motion.joints[k][Joint::kPelvis]);
+    path.push_back(sum / static_cast<double>(window.end - window.begin));
+  }
+  return path;
+}
+
+// Unit direction of walking at each row of the run: from kPathWindow / 2 before to as much after.
+std::vector<Vector2d> directions(const Motion& motion, const Run& run,
+                                 const std::vector<Vector2d>& path) {
+  std::vector<Vector2d> out;
+  for (size_t i = run.begin; i < run.end; ++i) {
+    size_t a = i, b = i;
+    while (a > run.begin && motion.time[i] - motion.time[a] < kPathWindow / 2) --a;
+    while (b + 1 < run.end && motion.time[b] - motion.time[i] < kPathWindow / 2) ++b;
+    const Vector2d way = path[b - run.begin] - path[a - run.begin];
+    const bool walks = way.norm() > kLeastProgress * (motion.time[b] - motion.time[a]);
+    out.push_back(walks ? Vector2d(way.normalized()) : Vector2d(Vector2d::Zero()));
+  }
+  return out;
+}
+
+// Time of the extremum of the parabola through samples i - 1, i, i + 1.
+double refined_time(const Motion& motion, const Run& run, const std::vector<double>& signal,
+                    size_t i) {
+  const size_t row = run.begin + i;
+  if (i == 0 || i + 1 >= signal.size()) return motion.time[row];
+  const double curve = signal[i - 1] - 2 * signal[i] + signal[i + 1];
+  if (curve == 0) return motion.time[row];
+  const double shift = std::clamp(0.5 * (signal[i - 1] - signal[i + 1]) / curve, -0.5, 0.5);
+  return motion.time[row] +
+         shift * (motion.time[row + (shift > 0)] - motion.time[row - (shift <= 0)]);
+}
+
+// Maxima of the signal that it has risen to and fallen from by at least kLeastSwing.
+std::vector<size_t> maxima(const std::vector<double>& signal) {
+  std::vector<size_t> found;
+  size_t low = 0, high = 0;
+  bool rising = false;
+  for (size_t i = 1; i < signal.size(); ++i) {
+    if (rising) {
+      if (signal[i] > signal[high]) high = i;
+      if (signal[i] < signal[high] - kLeastSwing) {
+        found.push_back(high);
+        rising = false;
+        low = i;
+      }
+    } else {
+      if (signal[i] < signal[low]) low = i;
+      if (signal[i] > signal[low] + kLeastSwing) {
+        rising = true;
+        high = i;
+      }
+    }
+  }
+  return found;
+}
+
+void add_events(const Motion& motion, const Run& run, const std::vector<Vector2d>& direction,
+                Side side, std::vector<GaitEvent>& events) {
+  std::vector<double> ankle_ahead, toe_behind;
+  for (size_t i = run.begin; i < run.end; ++i) {
+    const JointPositions& joints = motion.joints[i];
+    const Vector2d pelvis = ground(joints[Joint::kPelvis]), way = direction[i - run.begin];
+    ankle_ahead.push_back(way.dot(ground(joints[ankle(side)]) - pelvis));
+    toe_behind.push_back(-way.dot(ground(joints[toe(side)]) - pelvis));
+  }
+  for (const size_t i : maxima(ankle_ahead))
+    events.push_back({refined_time(motion, run, ankle_ahead, i), side, GaitEventKind::kFootStrike});
+  for (const size_t i : maxima(toe_behind))
+    events.push_back({refined_time(motion, run, toe_behind, i), side, GaitEventKind::kToeOff});
+}
+
+// Mean of the foot over the flat part of the stance, or over all of it if that part has no row.
+Vector2d stance_place(const Motion& motion, const Run& run, const Stance& stance) {
+  const double length = stance.off - stance.on;
+  for (const auto& [from, to] : {std::pair{kFlatFrom, kFlatTo}, std::pair{0.0, 1.0}}) {
+    Vector2d sum = Vector2d::Zero();
+    size_t count = 0;
+    for (size_t i = run.begin; i < run.end; ++i) {
+      const double t = motion.time[i];
+      if (t < stance.on + from * length || t > stance.on + to * length) continue;
+      sum += ground(foot_point(motion.joints[i], stance.side));
+      ++count;
+    }
+    if (count > 0) return sum / static_cast<double>(count);
+  }
+  return ground(foot_point(motion.joints[run.begin], stance.side));
+}
+
+void add_stances(const Motion& motion, const Run& run, const std::vector<GaitEvent>& events,
+                 Side side, std::vector<Stance>& stances) {
+  const double start = motion.time[run.begin], end = motion.time[run.end - 1];
+  std::optional<double> on;
+  bool from_event = false, first = true;
+  const auto close = [&](double off, bool to_event) {
+    Stance stance{side, *on, off, from_event, to_event, Vector2d::Zero()};
+    stance.place = stance_place(motion, run, stance);
+    stances.push_back(stance);
+    on.reset();
+  };
+  for (const GaitEvent& event : events) {
+    if (event.side != side) continue;
+    if (event.kind == GaitEventKind::kFootStrike) {
+      on = event.time;
+      from_event = true;
+    } else {
+      if (first) on = start, from_event = false;
+      if (on) close(event.time, true);
+    }
+    first = false;
+  }
+  if (on) close(end, false);
+}
+
+// Direction of walking between two stances: that of the pelvis over the time between them.
+Vector2d direction_between(const Motion& motion, double from, double to) {
+  const auto row = [&](double t) {
+    const auto at = std::lower_bound(motion.time.begin(), motion.time.end(), t);
+    return std::min<size_t>(static_cast<size_t>(at - motion.time.begin()), motion.time.size() - 1);
+  };
+  return (ground(motion.joints[row(to)][Joint::kPelvis]) -
+          ground(motion.joints[row(from)][Joint::kPelvis]))
+      .normalized();
+}
+
+void add_steps(const Motion& motion, Gait& gait) {
+  double length = 0, width = 0, time = 0;
+  size_t timed = 0;
+  for (size_t i = 1; i < gait.stances.size(); ++i) {
+    const Stance& a = gait.stances[i - 1];
+    const Stance& b = gait.stances[i];
+    if (a.side == b.side || b.on > a.off + kPathWindow) continue;
+    const Vector2d way = direction_between(motion, 0.5 * (a.on + a.off), 0.5 * (b.on + b.off));
+    if (!way.allFinite() || way.isZero()) continue;
+    const Vector2d step = b.place - a.place;
+    length += way.dot(step);
+    width += std::abs(way.x() * step.y() - way.y() * step.x());
+    ++gait.steps;
+    if (!a.starts_in_motion || !b.starts_in_motion) continue;
+    time += b.on - a.on;
+    ++timed;
+  }
+  if (gait.steps > 0) {
+    gait.mean_step_length = length / static_cast<double>(gait.steps);
+    gait.mean_step_width = width / static_cast<double>(gait.steps);
+  }
+  if (timed > 0) gait.mean_step_time = time / static_cast<double>(timed);
+}
+
+double mean_stance_share(const std::vector<Stance>& stances) {
+  double sum = 0;
+  size_t count = 0;
+  for (size_t i = 0; i < stances.size(); ++i) {
+    if (!stances[i].starts_in_motion || !stances[i].ends_in_motion) continue;
+    const auto next = std::find_if(
+        stances.begin() + static_cast<std::ptrdiff_t>(i) + 1, stances.end(),
+        [&](const Stance& other_stance) { return other_stance.side == stances[i].side; });
+    if (next == stances.end()) continue;
+    sum += (stances[i].off - stances[i].on) / (next->on - stances[i].on);
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+}  // namespace
+
+Gait gait_from_motion(const Motion& motion) {
+  Gait gait;
+  double length = 0, duration = 0;
+  for (const Run& run : known_runs(motion)) {
+    const std::vector<Vector2d> path = smoothed_path(motion, run);
+    for (size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+    duration += motion.time[run.end - 1] - motion.time[run.begin];
+    const std::vector<Vector2d> direction = directions(motion, run, path);
+    std::vector<GaitEvent> events;
+    for (const Side side : {Side::kLeft, Side::kRight})
+      add_events(motion, run, direction, side, events);
+    std::stable_sort(events.begin(), events.end(),
+                     [](const GaitEvent& a, const GaitEvent& b) { return a.time < b.time; });
+    for (const Side side : {Side::kLeft, Side::kRight})
+      add_stances(motion, run, events, side, gait.stances);
+    gait.events.insert(gait.events.end(), events.begin(), events.end());
+  }
+  std::stable_sort(gait.stances.begin(), gait.stances.end(), [](const Stance& a, const Stance& b) {
+    return a.on < b.on || (a.on == b.on && a.off < b.off);
+  });
+  if (duration > 0) gait.speed = length / duration;
+  add_steps(motion, gait);
+  gait.stance_share = mean_stance_share(gait.stances);
+  return gait;
+}
+
+EventErrors event_errors(const std::vector<GaitEvent>& truth,
+                         const std::vector<GaitEvent>& estimate) {
+  EventErrors out;
+  std::vector<bool> used(estimate.size(), false);
+  double late = 0, absolute = 0;
+  for (const GaitEvent& event : truth) {
+    size_t best = estimate.size();
+    for (size_t i = 0; i < estimate.size(); ++i) {
+      if (used[i] || estimate[i].side != event.side || estimate[i].kind != event.kind) continue;
+      const double distance = std::abs(estimate[i].time - event.time);
+      if (distance > kMatchWithin) continue;
+      if (best == estimate.size() || distance < std::abs(estimate[best].time - event.time))
+        best = i;
+    }
+    if (best == estimate.size()) {
+      ++out.missed;
+      continue;
+    }
+    used[best] = true;
+    ++out.matched;
+    late += estimate[best].time - event.time;
+    absolute += std::abs(estimate[best].time - event.time);
+  }
+  out.extra = estimate.size() - out.matched;
+  if (out.matched > 0) {
+    out.mean_late = late / static_cast<double>(out.matched);
+    out.mean_absolute = absolute / static_cast<double>(out.matched);
+  }
+  return out;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,69 @@
+// Gait from joint centres: foot strikes, toe-offs, stances, speed and steps.
+//
+// A foot strikes where its ankle is furthest ahead of the pelvis along the direction of walking and
+// leaves the ground where its toe is furthest behind (Zeni, Richards & Higginson, Gait & Posture
+// 27, 2008, with the ankle for the heel). Turning points count when the foot has swung by at least
+// kLeastSwing, so someone who stands or sways has no gait. Times are refined by a parabola. Metres,
+// seconds; the ground is z = 0.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "body/motion.h"
+
+namespace walktrack {
+
+inline constexpr double kLeastSwing = 0.12;  // m; a third of the shuffling gait's 0.4 m steps
+
+enum class GaitEventKind { kFootStrike, kToeOff };
+
+struct GaitEvent {
+  double time;
+  Side side;
+  GaitEventKind kind;
+};
+
+// One foot on the ground. A stance cut by an end of the motion has no event there.
+struct Stance {
+  Side side;
+  double on, off;                         // s
+  bool starts_in_motion, ends_in_motion;  // whether on and off are events or ends of the motion
+  Eigen::Vector2d place;  // where (ankle + toe) / 2 stands: mean over the middle of the stance
+};
+
+struct Gait {
+  std::vector<GaitEvent> events;  // by time
+  std::vector<Stance> stances;    // by time of `on`, then `off`
+  double speed = 0;               // m/s, length of the smoothed path of the pelvis over its time
+  size_t steps = 0;               // pairs of successive stances of opposite feet
+  double mean_step_length = 0;    // m, along the direction of walking; 0 without steps
+  double mean_step_time = 0;      // s, between their strikes; 0 without
+  double mean_step_width = 0;     // m, across the direction of walking
+  double stance_share = 0;        // of the stride, over strides with both ends seen; 0 without
+};
+
+Gait gait_from_motion(const Motion& motion);
+
+// The part of a stance in which the sole lies flat: 15 % to 60 % of it.
+inline constexpr double kFlatFrom = 0.15, kFlatTo = 0.60;
+
+// The middle of the foot, (ankle + toe) / 2.
+inline Eigen::Vector3d foot_point(const JointPositions& joints, Side side) {
+  return 0.5 * (joints[ankle(side)] + joints[toe(side)]);
+}
+
+// Differences between the events of two gaits of one walk, matched by side and kind to the nearest
+// within a quarter of a second.
+struct EventErrors {
+  size_t matched = 0, missed = 0, extra = 0;
+  double mean_late = 0;      // s, estimate minus truth
+  double mean_absolute = 0;  // s
+};
+
+EventErrors event_errors(const std::vector<GaitEvent>& truth,
+                         const std::vector<GaitEvent>& estimate);
+
+}  // namespace walktrack

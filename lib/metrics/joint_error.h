@@ -1,0 +1,44 @@
+// Distances between estimated and true joint centres, and how often left and right were exchanged.
+//
+// Sources put neck, head and toes at different points of the body, so the headline figures count
+// the seven joints that all define alike: pelvis, hips, knees and ankles. A truth frame is filled
+// when the estimate knows all seven; scoring starts at the first filled frame (initialisation).
+// The estimate is resampled at the truth's times. Metres, seconds.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "body/motion.h"
+#include "metrics/statistics.h"
+
+namespace walktrack {
+
+inline constexpr std::array<Joint, 7> kScoredJoints{
+    Joint::kPelvis,   Joint::kLeftHip,   Joint::kLeftKnee,  Joint::kLeftAnkle,
+    Joint::kRightHip, Joint::kRightKnee, Joint::kRightAnkle};
+
+struct JointErrors {
+  double start = std::numeric_limits<double>::quiet_NaN();  // s, first filled truth frame
+  size_t frames = 0;                                        // truth frames from then on
+  double filled_share = 0;                                  // of those
+  // Share of the filled frames in which a knee and its ankle are both nearer the other side's truth
+  // while the ankles are more than 0.25 m apart.
+  double swapped_share = 0;
+  // Over frames, of the mean over the seven joints: as they are; after moving the estimated pelvis
+  // onto the true one; after the similarity (rotation, translation, scale) that fits the seven best
+  // in each frame (Procrustes; Umeyama 1991).
+  ErrorStatistics absolute, pelvis_relative, procrustes;
+  std::array<ErrorStatistics, kJointCount> by_joint;  // absolute; count 0 where never both known
+};
+
+// Throws InputError if no truth frame knows the seven joints.
+JointErrors joint_errors(const Motion& truth, const Motion& estimate);
+
+bool scored_joints_known(const JointPositions& joints);
+
+// An estimate at the truth's times: interpolated between neighbouring rows; across a missing row it
+// stays unknown.
+Motion at_times_of(const Motion& truth, const Motion& estimate);
+
+}  // namespace walktrack

@@ -1,0 +1,95 @@
+#include "metrics/plausibility.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "metrics/joint_error.h"
+
+namespace walktrack {
+
+namespace {
+
+constexpr double kPenetrates = 0.005;  // m; less is the noise of any measurement
+constexpr double kRegular = 0.01;      // relative; rows further from equal steps are a gap
+
+// Largest distance on the ground between two places of the foot in the flat part; < 0 if the foot
+// is seen less than twice.
+double slide(const Motion& motion, const Stance& stance) {
+  const double length = stance.off - stance.on;
+  std::vector<Eigen::Vector2d> places;
+  for (size_t i = 0; i < motion.time.size(); ++i) {
+    const double t = motion.time[i];
+    if (t < stance.on + kFlatFrom * length || t > stance.on + kFlatTo * length) continue;
+    const Eigen::Vector3d foot = foot_point(motion.joints[i], stance.side);
+    if (known(foot)) places.push_back(foot.head<2>());
+  }
+  double widest = places.size() < 2 ? -1 : 0;
+  for (size_t i = 0; i < places.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) widest = std::max(widest, (places[i] - places[k]).norm());
+  }
+  return widest;
+}
+
+void add_slides(const Motion& motion, const Gait& gait, Plausibility& out) {
+  for (const Stance& stance : gait.stances) {
+    if (!stance.starts_in_motion || !stance.ends_in_motion) continue;
+    const double travel = slide(motion, stance);
+    if (travel < 0) continue;
+    ++out.stances;
+    out.mean_foot_slide += travel;
+    out.worst_foot_slide = std::max(out.worst_foot_slide, travel);
+  }
+  if (out.stances > 0) out.mean_foot_slide /= static_cast<double>(out.stances);
+}
+
+void add_penetration(const Motion& motion, Plausibility& out) {
+  size_t rows = 0, deep = 0;
+  for (const JointPositions& joints : motion.joints) {
+    double lowest = 0;
+    bool seen = false;
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      for (const Joint joint : {ankle(side), toe(side)}) {
+        if (!known(joints[joint])) continue;
+        seen = true;
+        lowest = std::min(lowest, joints[joint].z());
+      }
+    }
+    if (!seen) continue;
+    ++rows;
+    if (lowest < -kPenetrates) ++deep;
+    out.penetration = std::max(out.penetration, -lowest);
+  }
+  if (rows > 0) out.penetrating_share = static_cast<double>(deep) / static_cast<double>(rows);
+}
+
+double mean_jerk(const Motion& motion) {
+  double sum = 0;
+  size_t count = 0;
+  for (size_t i = 3; i < motion.time.size(); ++i) {
+    const double step = (motion.time[i] - motion.time[i - 3]) / 3;
+    const auto irregular = [&](size_t k) {
+      return std::abs(motion.time[k] - motion.time[k - 1] - step) > kRegular * step + 1e-4;
+    };
+    if (irregular(i) || irregular(i - 1)) continue;
+    for (const Joint joint : kScoredJoints) {
+      const Eigen::Vector3d third = motion.joints[i][joint] - 3 * motion.joints[i - 1][joint] +
+                                    3 * motion.joints[i - 2][joint] - motion.joints[i - 3][joint];
+      if (!known(third)) continue;
+      sum += third.norm() / (step * step * step);
+      ++count;
+    }
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+}  // namespace
+
+Plausibility plausibility(const Motion& motion, const Gait& gait) {
+  Plausibility out;
+  add_slides(motion, gait, out);
+  add_penetration(motion, out);
+  out.jitter = mean_jerk(motion);
+  return out;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,24 @@
+// What can be said of a motion without a truth: feet that slide, feet in the ground, trembling.
+#pragma once
+
+#include "body/motion.h"
+#include "metrics/gait.h"
+
+namespace walktrack {
+
+struct Plausibility {
+  // Largest horizontal travel of (ankle + toe) / 2 in the flat part of a stance that lies wholly in
+  // the motion: mean and worst over stances, m. 0 without such a stance. Measured people: up to 12
+  // mm.
+  double mean_foot_slide = 0, worst_foot_slide = 0;
+  size_t stances = 0;  // that were counted
+  // Deepest ankle or toe below the ground, and the share of rows with one deeper than 5 mm.
+  double penetration = 0;
+  double penetrating_share = 0;
+  // Mean magnitude of the third derivative of the seven scored joints, m/s^3.
+  double jitter = 0;
+};
+
+Plausibility plausibility(const Motion& motion, const Gait& gait);
+
+}  // namespace walktrack

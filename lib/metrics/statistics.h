@@ -1,0 +1,21 @@
+// Summary of a set of errors.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace walktrack {
+
+// All zero for an empty set. The quantiles are those of the sorted values at rank q (n - 1),
+// interpolated linearly.
+struct ErrorStatistics {
+  size_t count = 0;
+  double mean = 0, median = 0, p95 = 0, rms = 0, worst = 0;
+};
+
+ErrorStatistics error_statistics(std::vector<double> values);
+
+// Quantile q in [0, 1] of values (not empty) by the rule above.
+double quantile(std::vector<double> values, double q);
+
+}  // namespace walktrack

@@ -1,0 +1,93 @@
+#include "metrics/gait.h"
+
+#include <gtest/gtest.h>
+
+#include "core/conventions.h"
+#include "tests/metrics/test_walk.h"
+
+namespace walktrack {
+namespace {
+
+// The ankle is furthest ahead of the pelvis when the swinging foot slows down to the pelvis's
+// speed, 6 u (1 - u) (1 - stance) ^ -1 = 1, that is 7 % of the swing or 32 ms before the strike.
+constexpr double kEarly = 0.04;
+
+TEST(Gait, ReadsTheNumbersThatTheWalkWasMadeOf) {
+  for (const double heading : {0.0, 1.0, -2.5, kPi}) {
+    TestWalk walk;
+    walk.heading = heading;
+    const Gait gait = gait_from_motion(walk_motion(walk));
+    EXPECT_NEAR(gait.speed, walk.speed, 1e-3);
+    EXPECT_NEAR(gait.mean_step_length, walk.speed * walk.step_time, 1e-3);
+    EXPECT_NEAR(gait.mean_step_time, walk.step_time, 1e-2);
+    EXPECT_NEAR(gait.mean_step_width, walk.step_width, 1e-3);
+    // Both events of a stance come up to kEarly off, at opposite ends.
+    EXPECT_NEAR(gait.stance_share, walk.stance_share, 2 * kEarly / (2 * walk.step_time));
+    EXPECT_GE(gait.steps, 7u);
+  }
+}
+
+TEST(Gait, PutsTheStrikesOfEachFootInTime) {
+  const TestWalk walk;
+  const Gait gait = gait_from_motion(walk_motion(walk));
+  size_t strikes = 0;
+  for (const GaitEvent& event : gait.events) {
+    if (event.kind != GaitEventKind::kFootStrike) continue;
+    const double offset = event.side == Side::kLeft ? 0 : walk.step_time;
+    const double error = std::remainder(event.time - offset, 2 * walk.step_time);
+    EXPECT_LE(error, 0.005);
+    EXPECT_GE(error, -kEarly);
+    ++strikes;
+  }
+  EXPECT_GE(strikes, 7u);
+  for (size_t i = 1; i < gait.stances.size(); ++i)
+    EXPECT_NE(gait.stances[i].side, gait.stances[i - 1].side);
+}
+
+TEST(Gait, ExchangedSidesExchangeTheEvents) {
+  const Motion motion = walk_motion({});
+  const Gait gait = gait_from_motion(motion);
+  const Gait mirrored = gait_from_motion(
+      changed(motion, [](JointPositions& joints, size_t) { exchange_sides(joints); }));
+  ASSERT_EQ(gait.events.size(), mirrored.events.size());
+  for (size_t i = 0; i < gait.events.size(); ++i) {
+    EXPECT_EQ(gait.events[i].time, mirrored.events[i].time);
+    EXPECT_EQ(gait.events[i].side, other(mirrored.events[i].side));
+  }
+}
+
+TEST(Gait, StandingAndSwayingIsNoGait) {
+  const Motion standing = changed(walk_motion({}), [](JointPositions& joints, size_t i) {
+    joints = walk_joints({}, 0.2);
+    joints[Joint::kPelvis].x() += 0.05 * std::sin(0.2 * double(i));
+  });
+  const Gait gait = gait_from_motion(standing);
+  EXPECT_TRUE(gait.events.empty());
+  EXPECT_TRUE(gait.stances.empty());
+  EXPECT_LT(gait.speed, 0.2);
+  EXPECT_EQ(gait.steps, 0u);
+}
+
+TEST(Gait, AnEmptyOrUnknownMotionHasNone) {
+  EXPECT_EQ(gait_from_motion({}).speed, 0);
+  const Motion lost =
+      changed(walk_motion({}), [](JointPositions& joints, size_t) { joints = unknown_joints(); });
+  EXPECT_TRUE(gait_from_motion(lost).events.empty());
+}
+
+TEST(EventErrors, FindDelayMissedAndExtraEvents) {
+  const std::vector<GaitEvent> truth = gait_from_motion(walk_motion({})).events;
+  std::vector<GaitEvent> late = truth;
+  for (GaitEvent& event : late) event.time += 0.033;
+  const EventErrors delay = event_errors(truth, late);
+  EXPECT_EQ(delay.matched, truth.size());
+  EXPECT_NEAR(delay.mean_late, 0.033, 1e-12);
+  late.front().time += 0.4;  // beyond any match: one missed and one extra
+  late.pop_back();           // and one missed
+  const EventErrors some = event_errors(truth, late);
+  EXPECT_EQ(some.missed, 2u);
+  EXPECT_EQ(some.extra, 1u);
+}
+
+}  // namespace
+}  // namespace walktrack

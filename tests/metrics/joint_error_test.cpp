@@ -1,0 +1,101 @@
+#include "metrics/joint_error.h"
+
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "tests/metrics/test_walk.h"
+
+namespace walktrack {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(JointErrors, VanishForThePerfectEstimate) {
+  const Motion truth = walk_motion({});
+  const JointErrors e = joint_errors(truth, truth);
+  EXPECT_EQ(e.absolute.worst, 0);
+  EXPECT_LT(e.procrustes.worst, 1e-12);
+  EXPECT_EQ(e.filled_share, 1);
+  EXPECT_EQ(e.swapped_share, 0);
+  EXPECT_EQ(e.frames, truth.time.size());
+  EXPECT_EQ(e.by_joint[static_cast<size_t>(Joint::kLeftWrist)].count, 0u);
+}
+
+TEST(JointErrors, EachKindForgivesItsTransform) {
+  const Motion truth = walk_motion({});
+  const Motion moved = changed(truth, [](JointPositions& joints, size_t) {
+    for (Vector3d& p : joints.at) p += Vector3d(0.03, 0, 0.04);
+  });
+  const JointErrors shift = joint_errors(truth, moved);
+  EXPECT_NEAR(shift.absolute.mean, 0.05, 1e-12);
+  EXPECT_NEAR(shift.pelvis_relative.mean, 0, 1e-12);
+  EXPECT_NEAR(shift.procrustes.mean, 0, 1e-12);
+  const Motion turned = changed(truth, [](JointPositions& joints, size_t) {
+    for (Vector3d& p : joints.at) p = 1.1 * (Eigen::AngleAxisd(0.3, Vector3d::UnitY()) * p);
+  });
+  const JointErrors turn = joint_errors(truth, turned);
+  EXPECT_GT(turn.pelvis_relative.mean, 0.02);
+  EXPECT_NEAR(turn.procrustes.mean, 0, 1e-12);
+}
+
+TEST(JointErrors, OneWrongJointCountsASeventh) {
+  const Motion truth = walk_motion({});
+  const Motion bad = changed(truth, [](JointPositions& joints, size_t) {
+    joints[Joint::kRightKnee].z() += 0.07;
+    joints[Joint::kNeck].z() += 1;  // not one of the seven
+  });
+  const JointErrors e = joint_errors(truth, bad);
+  EXPECT_NEAR(e.absolute.mean, 0.01, 1e-12);
+  EXPECT_NEAR(e.by_joint[static_cast<size_t>(Joint::kRightKnee)].mean, 0.07, 1e-12);
+  EXPECT_NEAR(e.by_joint[static_cast<size_t>(Joint::kNeck)].mean, 1, 1e-12);
+}
+
+TEST(JointErrors, ExchangedLegsAreSwappedWhereTheFeetAreApart) {
+  const Motion truth = walk_motion({});
+  const Motion bad = changed(truth, [](JointPositions& joints, size_t) { exchange_sides(joints); });
+  size_t apart = 0;
+  for (const JointPositions& joints : truth.joints)
+    apart += (joints[Joint::kLeftAnkle] - joints[Joint::kRightAnkle]).norm() > 0.25;
+  const JointErrors e = joint_errors(truth, bad);
+  EXPECT_GT(apart, truth.time.size() / 2);
+  EXPECT_NEAR(e.swapped_share, double(apart) / double(truth.time.size()), 1e-12);
+}
+
+TEST(JointErrors, ScoringStartsAtTheFirstFilledFrameAndCountsGaps) {
+  const Motion truth = walk_motion({});
+  const Motion sparse = changed(truth, [](JointPositions& joints, size_t i) {
+    if (i < 10 || i == 50) joints[Joint::kLeftKnee].x() = std::nan("");
+    if (i == 60) joints = unknown_joints();
+  });
+  const JointErrors e = joint_errors(truth, sparse);
+  EXPECT_DOUBLE_EQ(e.start, truth.time[10]);
+  EXPECT_EQ(e.frames, truth.time.size() - 10);
+  EXPECT_NEAR(e.filled_share, 1 - 2.0 / double(e.frames), 1e-12);
+  Motion dropped = sparse;  // a missing row is a gap like an empty one
+  dropped.time.erase(dropped.time.begin() + 60);
+  dropped.joints.erase(dropped.joints.begin() + 60);
+  EXPECT_EQ(joint_errors(truth, dropped).filled_share, e.filled_share);
+}
+
+TEST(JointErrors, AnEstimateAtAnotherRateIsInterpolated) {
+  TestWalk walk;
+  walk.rate = 60;
+  const Motion truth = walk_motion(walk);
+  walk.rate = 30;
+  const JointErrors e = joint_errors(truth, walk_motion(walk));
+  EXPECT_GT(e.filled_share, 0.99);
+  // Swing accelerates at up to 30 m/s^2; h^2 a / 8 of a linear rule would give 4 mm at the ankles.
+  EXPECT_LT(e.absolute.worst, 0.002);
+}
+
+TEST(JointErrors, NothingTrackedIsNotAnErrorButNoTruthIs) {
+  const Motion truth = walk_motion({});
+  const Motion lost =
+      changed(truth, [](JointPositions& joints, size_t) { joints = unknown_joints(); });
+  EXPECT_EQ(joint_errors(truth, lost).filled_share, 0);
+  EXPECT_EQ(joint_errors(truth, lost).frames, 0u);
+  EXPECT_THROW(joint_errors(lost, truth), InputError);
+}
+
+}  // namespace
+}  // namespace walktrack

@@ -1,0 +1,48 @@
+#include "metrics/plausibility.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/metrics/test_walk.h"
+
+namespace walktrack {
+namespace {
+
+Plausibility of(const Motion& motion) { return plausibility(motion, gait_from_motion(motion)); }
+
+TEST(Plausibility, StandingFeetDoNotSlide) {
+  const Plausibility p = of(walk_motion({}));
+  EXPECT_GE(p.stances, 5u);
+  EXPECT_LT(p.worst_foot_slide, 1e-9);
+  EXPECT_EQ(p.penetration, 0);
+}
+
+TEST(Plausibility, FindsFeetThatDriftWithThePelvis) {
+  // A world that slides by 10 mm a second: the flat part lasts 45 % of 0.6 strides of 1.1 s.
+  const TestWalk walk;
+  const Motion drifting = changed(walk_motion(walk), [&](JointPositions& joints, size_t i) {
+    for (Eigen::Vector3d& p : joints.at) p.y() += 0.1 * double(i) / walk.rate;
+  });
+  const double expected = 0.1 * 0.45 * walk.stance_share * 2 * walk.step_time;
+  // Rows are 33 ms apart, so up to one row of travel at either end is not seen.
+  EXPECT_NEAR(of(drifting).mean_foot_slide, expected, 2 * 0.1 / walk.rate);
+}
+
+TEST(Plausibility, FindsFeetInTheGround) {
+  const Motion low = changed(walk_motion({}), [](JointPositions& joints, size_t i) {
+    if (i % 2 == 0) joints[Joint::kLeftToe].z() = -0.03;
+  });
+  EXPECT_NEAR(of(low).penetration, 0.03, 1e-12);
+  EXPECT_NEAR(of(low).penetrating_share, 0.5, 1e-12);
+}
+
+TEST(Plausibility, JitterIsTheThirdDerivative) {
+  Motion cubic = walk_motion({});
+  cubic = changed(cubic, [&](JointPositions& joints, size_t i) {
+    const double t = cubic.time[i];
+    joints.at.fill(Eigen::Vector3d(2 * t * t * t, 3 * t * t, 1));
+  });
+  EXPECT_NEAR(of(cubic).jitter, 12, 1e-6);  // 1e-15 of 1 m over (1/30 s)^3, sixteen times
+}
+
+}  // namespace
+}  // namespace walktrack
