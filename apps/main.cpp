@@ -1,38 +1,93 @@
-// walktrack: the table of commands. Options are parsed here, work is done in lib/jobs.
+// walktrack: the table of commands, and the one place where errors become exit codes.
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <exception>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "commands.h"
 #include "core/errors.h"
+#include "core/version.h"
+#include "terminal.h"
 
+namespace walktrack {
 namespace {
 
-constexpr int kDone = 0, kFailed = 1, kUsage = 2, kInput = 3;
+constexpr std::array kCommands{
+    Command{"config", "print the commented defaults or the effective configuration", run_config},
+};
 
-int run(int argc, char** argv) {
-  const std::string_view word = argc > 1 ? argv[1] : "--help";
-  if (word == "--version") {
-    fmt::print("walktrack {}\n", WALKTRACK_VERSION);
+void print_overview(std::FILE* to) {
+  fmt::print(
+      to,
+      "walktrack - tracks a walking person in calibrated video with a physical gait model\n\n"
+      "usage: walktrack COMMAND [OPTIONS]\n\nCommands:\n");
+  for (const Command& command : kCommands) {
+    fmt::print(to, "  {:<10} {}\n", command.name, command.summary);
+  }
+  fmt::print(to,
+             "\n  --version  version and build\n"
+             "  --help     this text; 'walktrack COMMAND --help' explains a command\n\n"
+             "Exit codes: 0 done, 1 failed, 2 usage or configuration, 3 input unreadable,\n"
+             "            4 done but lost or below a quality gate, 130 interrupted\n\n"
+             "Example:\n  walktrack config\n");
+}
+
+void print_version() {
+  const BuildFacts& facts = build_facts();
+  fmt::print("walktrack {}\ncommit {}\nbuilt {} by {}\n", facts.version, facts.commit,
+             facts.build_type, facts.compiler);
+}
+
+int run_command(std::string_view name, const Arguments& arguments) {
+  std::vector<std::string> names;
+  for (const Command& command : kCommands) {
+    if (command.name == name) {
+      watch_signals();
+      const int code = command.run(arguments);
+      return stop_request() ? kInterrupted : code;
+    }
+    names.emplace_back(command.name);
+  }
+  const std::string nearest = nearest_word(name, names);
+  throw UsageError(
+      fmt::format("unknown command '{}'{}; see 'walktrack --help'", name,
+                  nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest)));
+}
+
+int run(const Arguments& words) {
+  if (words.empty() || words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
+    print_overview(words.empty() ? stderr : stdout);
+    return words.empty() ? kUsage : kDone;
+  }
+  if (words[0] == "--version") {
+    print_version();
     return kDone;
   }
-  throw walktrack::UsageError(fmt::format("unknown command '{}'", word));
+  return run_command(words[0], {words.begin() + 1, words.end()});
+}
+
+int complain(const std::exception& error, ExitCode code) {
+  fmt::print(stderr, "walktrack: {}\n", error.what());
+  return code;
 }
 
 }  // namespace
+}  // namespace walktrack
 
 int main(int argc, char** argv) {
+  using namespace walktrack;
   try {
-    return run(argc, argv);
-  } catch (const walktrack::UsageError& error) {
-    fmt::print(stderr, "walktrack: {}\n", error.what());
-    return kUsage;
-  } catch (const walktrack::InputError& error) {
-    fmt::print(stderr, "walktrack: {}\n", error.what());
-    return kInput;
+    return run({argv + std::min(argc, 1), argv + argc});
+  } catch (const UsageError& error) {
+    return complain(error, kUsage);
+  } catch (const InputError& error) {
+    return complain(error, kUnreadable);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "walktrack: {}\n", error.what());
-    return kFailed;
+    return complain(error, kFailed);
   }
 }

@@ -1,0 +1,31 @@
+// walktrack config: the commented defaults, or what a file and --set make of them.
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "io/files.h"
+
+namespace walktrack {
+
+int run_config(const Arguments& arguments) {
+  bool changed = false;
+  CommandLine line({.name = "config",
+                    .operands = "",
+                    .about = "Prints every parameter with its value, meaning, allowed values and, "
+                             "where it is no default,\nthe place that set it. The output is itself "
+                             "a configuration file.",
+                    .example = "walktrack config --set seed=7"});
+  line.options().add_options()("changed", boost::program_options::bool_switch(&changed),
+                               "only what differs from the defaults");
+  if (!line.parse(arguments)) return kDone;
+  const std::string text = config_as_yaml(
+      line.config(), changed ? ConfigScope::kChanged : ConfigScope::kEverything, true);
+  if (line.common().output.empty()) {
+    fmt::print("{}", text);
+  } else {
+    refuse_existing(line.common().output, line.common().overwrite);
+    write_file_atomically(line.common().output, text);
+  }
+  return kDone;
+}
+
+}  // namespace walktrack

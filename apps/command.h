@@ -1,0 +1,91 @@
+// What every command shares: the table's entry, the common options, the exit codes.
+//
+// A command is one file, apps/cmd_<name>.cpp: it declares its options with a CommandLine, parses,
+// fills a job struct, calls the library and returns an exit code. It is listed in main.cpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <boost/program_options.hpp>
+
+#include "io/config.h"
+
+namespace walktrack {
+
+// Exit codes (the table is part of the manual).
+enum ExitCode {
+  kDone = 0,
+  kFailed = 1,
+  kUsage = 2,          // usage or configuration
+  kUnreadable = 3,     // an input cannot be read or does not fit
+  kDegraded = 4,       // done, but lost or below a quality gate
+  kInterrupted = 130,  // stopped by a signal; what was done is kept
+};
+
+using Arguments = std::vector<std::string>;  // what follows the command's name
+
+struct Command {
+  std::string_view name;
+  std::string_view summary;  // one line for `walktrack --help`
+  int (*run)(const Arguments& arguments);
+};
+
+// Options that every command understands, as given.
+struct CommonOptions {
+  std::string config_file;
+  std::vector<std::string> settings;  // key=value
+  std::string output;
+  std::string seed, threads;
+  bool overwrite = false;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+// What --help prints about a command.
+struct CommandHelp {
+  std::string name;
+  std::string operands;  // e.g. "SCENE.yaml"
+  std::string about;     // a sentence or two
+  std::string example;   // a command that runs on shipped data
+};
+
+class CommandLine {
+ public:
+  explicit CommandLine(CommandHelp help);
+
+  // Declare the command's own options here: options().add_options()("model", po::value(&x), "…").
+  boost::program_options::options_description& options() { return own_; }
+  // Declares an operand, in order. An operand that stays empty is an error unless optional.
+  void operand(const std::string& name, std::string* value, bool optional = false);
+  // An operand list that takes all remaining words, at least one.
+  void operands(const std::string& name, std::vector<std::string>* values);
+
+  // False when --help was asked for and printed. Throws UsageError naming the nearest option.
+  bool parse(const Arguments& arguments);
+
+  const CommonOptions& common() const { return common_; }
+  // The defaults, changed by --config, then --set, then --seed and --threads.
+  ConfigWithOrigin config() const;
+  // --output, or UsageError when it is missing.
+  std::string required_output() const;
+
+ private:
+  struct Operand {
+    std::string name;
+    std::string* value;
+    bool optional;
+  };
+  void print_help() const;
+  void take_operands(const std::vector<std::string>& words);
+
+  CommandHelp help_;
+  CommonOptions common_;
+  boost::program_options::options_description own_;
+  std::vector<Operand> operands_;
+  std::vector<std::string>* rest_ = nullptr;
+  std::string rest_name_;
+};
+
+}  // namespace walktrack

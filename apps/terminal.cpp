@@ -1,0 +1,92 @@
+#include "terminal.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace walktrack {
+
+namespace {
+
+// A signal handler reaches nothing but static storage.
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void request_stop(int) { stop_requested.store(true); }
+
+constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
+constexpr size_t kBarWidth = 30;
+
+}  // namespace
+
+void watch_signals() {
+  struct sigaction action = {};
+  action.sa_handler = request_stop;
+  sigemptyset(&action.sa_mask);
+  // The handler is for one signal only: the second ends the program. Reads resume after the first.
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+const std::atomic<bool>& stop_request() { return stop_requested; }
+
+Terminal::Terminal(const CommonOptions& options)
+    : quiet_(options.quiet),
+      interactive_(!options.quiet && isatty(STDERR_FILENO) != 0),
+      colour_(std::getenv("NO_COLOR") == nullptr) {}
+
+Terminal::~Terminal() { finish_line(); }
+
+JobControl Terminal::control() {
+  JobControl control;
+  control.stop_request = &stop_requested;
+  if (!quiet_) control.message = [this](std::string_view text) { say(text); };
+  if (interactive_) control.report = [this](const Progress& progress) { draw(progress); };
+  return control;
+}
+
+void Terminal::say(std::string_view text) {
+  finish_line();
+  fmt::print(stderr, "walktrack: {}\n", text);
+}
+
+void Terminal::draw(const Progress& progress) {
+  const auto now = Clock::now();
+  const bool complete = progress.total > 0 && progress.done >= progress.total;
+  if (progress.what != what_) {
+    finish_line();
+    what_ = progress.what;
+    start_ = now;
+  } else if (now - drawn_ < kRedrawInterval && !complete) {
+    return;
+  }
+  drawn_ = now;
+  fmt::print(stderr, "\r\033[K{}", line(progress));
+  line_open_ = true;
+  if (complete) finish_line();
+}
+
+std::string Terminal::line(const Progress& progress) const {
+  const double seconds = std::chrono::duration<double>(drawn_ - start_).count();
+  const double rate = seconds > 0 ? static_cast<double>(progress.done) / seconds : 0;
+  if (progress.total == 0) return fmt::format("{} {}  {:.1f}/s", what_, progress.done, rate);
+  const size_t done = std::min(progress.done, progress.total);
+  const size_t full = kBarWidth * done / progress.total;
+  const double left = rate > 0 ? static_cast<double>(progress.total - done) / rate : 0;
+  return fmt::format("{} [{}{}{}{}] {}/{}  {:.1f}/s  {:.0f} s left", what_,
+                     colour_ ? "\033[32m" : "", std::string(full, '='), colour_ ? "\033[0m" : "",
+                     std::string(kBarWidth - full, ' '), done, progress.total, rate, left);
+}
+
+void Terminal::finish_line() {
+  if (line_open_) fmt::print(stderr, "\n");
+  line_open_ = false;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,32 @@
+// How a long job talks to whoever started it: it reports how far it is and asks whether it should
+// stop. Both are optional; a job that is told to stop keeps what it has done and says so.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <string_view>
+
+namespace walktrack {
+
+struct Progress {
+  std::string_view what;  // e.g. "tracking"
+  size_t done = 0;
+  size_t total = 0;  // 0 = not known
+};
+
+struct JobControl {
+  std::function<void(const Progress&)> report;    // may be empty
+  std::function<void(std::string_view)> message;  // one line worth knowing; may be empty
+  const std::atomic<bool>* stop_request = nullptr;
+
+  void progress(std::string_view what, size_t done, size_t total) const {
+    if (report) report({what, done, total});
+  }
+  void say(std::string_view text) const {
+    if (message) message(text);
+  }
+  bool stopping() const { return stop_request && stop_request->load(std::memory_order_relaxed); }
+};
+
+}  // namespace walktrack

@@ -1,0 +1,11 @@
+#include "core/version.h"
+
+namespace walktrack {
+
+const BuildFacts& build_facts() {
+  static constexpr BuildFacts kFacts{WALKTRACK_VERSION, WALKTRACK_COMMIT, WALKTRACK_BUILD_TYPE,
+                                     WALKTRACK_COMPILER};
+  return kFacts;
+}
+
+}  // namespace walktrack

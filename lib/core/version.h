@@ -1,0 +1,17 @@
+// Which program this is: printed by --version, kept in every run.json.
+#pragma once
+
+#include <string_view>
+
+namespace walktrack {
+
+struct BuildFacts {
+  std::string_view version;
+  std::string_view commit;  // "unknown" when built outside a repository
+  std::string_view build_type;
+  std::string_view compiler;
+};
+
+const BuildFacts& build_facts();
+
+}  // namespace walktrack

@@ -1,0 +1,153 @@
+#include "io/config.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/errors.h"
+#include "io/parameters.h"
+#include "io/yaml.h"
+
+namespace walktrack {
+
+namespace {
+
+constexpr int kMostThreads = 4096;
+
+// The parameters of the program, one line each.
+ParameterTable make_table() {
+  ParameterTable table;
+  ParameterGroup<Config> top(table, "", "the run");
+  top.integer("seed", &Config::seed, 0, std::numeric_limits<int64_t>::max(),
+              "seed of all random numbers");
+  top.integer("threads", &Config::threads, 0, kMostThreads, "threads, 0 = all of the machine");
+  return table;
+}
+
+const ParameterTable& table() {
+  static const ParameterTable kTable = make_table();
+  return kTable;
+}
+
+const Parameter* find_parameter(const std::string& key) {
+  for (const Parameter& parameter : table().parameters) {
+    if (parameter.key == key) return &parameter;
+  }
+  return nullptr;
+}
+
+bool is_group(const std::string& prefix) {
+  return std::any_of(table().groups.begin(), table().groups.end(), [&](const auto& group) {
+    return group.first == prefix || group.first.starts_with(prefix + ".");
+  });
+}
+
+std::string unknown_key(const std::string& key) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : table().parameters) names.push_back(parameter.key);
+  const std::string nearest = nearest_word(key, names);
+  return nearest.empty() ? "an unknown key"
+                         : fmt::format("an unknown key, did you mean '{}'?", nearest);
+}
+
+void assign(ConfigWithOrigin& config, const InputPlace& place, const std::string& text,
+            const std::string& origin) {
+  const Parameter* parameter = find_parameter(place.key);
+  if (!parameter) {
+    throw UsageError(describe(place, unknown_key(place.key), "the keys of 'walktrack config'"));
+  }
+  if (!parameter->set(config.values, text)) {
+    throw UsageError(describe(place, fmt::format("'{}'", text), parameter->allowed));
+  }
+  config.origin[place.key] = origin;
+}
+
+void apply_map(ConfigWithOrigin& config, const YamlValue& map) {
+  const std::vector<std::string> keys = map.keys();
+  map.only_keys(keys);  // refuses a key that is written twice
+  for (const std::string& name : keys) {
+    const std::string key = map.key().empty() ? name : map.key() + "." + name;
+    if (!map.has(name)) continue;  // "filter:" with nothing under it
+    const YamlValue value = map.at(name);
+    if (value.is_map() && is_group(key)) {
+      apply_map(config, value);
+    } else {
+      assign(config, {map.file(), value.line(), key},
+             value.is_scalar() ? value.text() : value.describe_found(),
+             fmt::format("{}:{}", std::filesystem::path(map.file()).filename().string(),
+                         value.line()));
+    }
+  }
+}
+
+size_t depth(const std::string& key) {
+  return static_cast<size_t>(std::count(key.begin(), key.end(), '.'));
+}
+
+// "filter.flow.sd" opens "filter:" and "  flow:" where they are not open yet.
+void open_groups(std::string& text, std::string& open, const std::string& key) {
+  const size_t last_dot = key.rfind('.');
+  const std::string group = last_dot == std::string::npos ? "" : key.substr(0, last_dot);
+  if (group == open) return;
+  for (size_t end = group.find('.');; end = group.find('.', end + 1)) {
+    const std::string prefix = group.substr(0, end);
+    if (!prefix.empty() && !(open + ".").starts_with(prefix + ".")) {
+      text += std::string(2 * depth(prefix), ' ') + prefix.substr(prefix.rfind('.') + 1) + ":";
+      for (const auto& [name, about] : table().groups) {
+        if (name == prefix) text += "  # " + about;
+      }
+      text += "\n";
+    }
+    if (end == std::string::npos) break;
+  }
+  open = group;
+}
+
+}  // namespace
+
+void apply_config_file(ConfigWithOrigin& config, const std::string& path) {
+  try {
+    apply_map(config, YamlValue::from_file(path));
+  } catch (const InputError& error) {
+    throw UsageError(error.what());  // a broken configuration is a usage error
+  }
+}
+
+void apply_setting(ConfigWithOrigin& config, const std::string& setting,
+                   const std::string& origin) {
+  const size_t equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw UsageError(describe({"", 0, origin}, fmt::format("'{}'", setting), "KEY=VALUE"));
+  }
+  assign(config, {origin, 0, setting.substr(0, equals)}, setting.substr(equals + 1), origin);
+}
+
+std::string config_as_yaml(const ConfigWithOrigin& config, ConfigScope scope, bool comments) {
+  std::string text, open;
+  for (const Parameter& parameter : table().parameters) {
+    const auto origin = config.origin.find(parameter.key);
+    if (scope == ConfigScope::kChanged && origin == config.origin.end()) continue;
+    open_groups(text, open, parameter.key);
+    const std::string indent(2 * depth(parameter.key), ' ');
+    const std::string name = parameter.key.substr(parameter.key.rfind('.') + 1);
+    if (comments) {
+      text += fmt::format("{}# {}; {}{}\n", indent, parameter.comment, parameter.allowed,
+                          origin == config.origin.end() ? "" : "; from " + origin->second);
+    }
+    text += fmt::format("{}{}: {}\n", indent, name, parameter.get(config.values));
+  }
+  return text;
+}
+
+std::vector<std::pair<std::string, std::string>> config_values(const Config& config) {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const Parameter& parameter : table().parameters) {
+    values.emplace_back(parameter.key, parameter.get(config));
+  }
+  return values;
+}
+
+}  // namespace walktrack

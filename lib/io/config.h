@@ -1,0 +1,42 @@
+// The configuration: how to track. It gathers the config structs of the modules; each struct owns
+// its defaults, and config.cpp holds the one table that gives its members names and ranges.
+//
+// Files are YAML and list only what differs:
+//   seed: 7
+//   filter: {particles: 5000}
+// Errors are UsageErrors "file:line: key: found X, allowed Y"; unknown keys name the nearest one.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace walktrack {
+
+struct Config {
+  uint64_t seed = 1;  // of all random numbers
+  int threads = 0;    // 0 = all of the machine
+};
+
+// A configuration and where each value that is no default came from.
+struct ConfigWithOrigin {
+  Config values;
+  std::map<std::string, std::string> origin;  // key -> "fast.yaml:3" or "--set"
+};
+
+// The values of a file on top of `config`.
+void apply_config_file(ConfigWithOrigin& config, const std::string& path);
+
+// "key=value" on top of `config`; `origin` is what messages and printouts call it, e.g. "--set".
+void apply_setting(ConfigWithOrigin& config, const std::string& setting, const std::string& origin);
+
+// As YAML that apply_config_file reads back to the same values: every parameter, or only those that
+// are no defaults; with a comment of meaning, allowed values and origin, or bare.
+enum class ConfigScope { kEverything, kChanged };
+std::string config_as_yaml(const ConfigWithOrigin& config, ConfigScope scope, bool comments);
+
+// Every key and its effective value as text, in table order: what run.json keeps.
+std::vector<std::pair<std::string, std::string>> config_values(const Config& config);
+
+}  // namespace walktrack

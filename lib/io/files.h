@@ -1,0 +1,38 @@
+// Small things that all readers and writers share: whole text files, numbers as text, and files
+// that appear complete or not at all.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace walktrack {
+
+// The whole file. InputError naming the file and the reason, also when it is a folder or larger
+// than `max_bytes`.
+std::string read_text_file(const std::filesystem::path& path, size_t max_bytes);
+
+// The whole text as one finite number in C notation, blanks around it ignored; nullopt if it is
+// anything else. The locale has no say.
+std::optional<double> number_from_text(std::string_view text);
+
+// The shortest text that reads back as the same double.
+std::string shortest_number(double value);
+
+// Writes next to `path`, flushes to the disk and renames: a reader sees the old file or the new
+// one, never half of it. std::runtime_error naming the file and the reason.
+void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+
+// UsageError when the file exists and may not be overwritten.
+void refuse_existing(const std::filesystem::path& path, bool overwrite);
+
+// Flushes a finished file, then renames it over `path`; the folder is flushed too.
+void publish_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
+
+// `base / path`, unless path is absolute; lexically normal.
+std::filesystem::path resolved(const std::filesystem::path& base,
+                               const std::filesystem::path& path);
+
+}  // namespace walktrack

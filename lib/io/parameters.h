@@ -1,0 +1,140 @@
+// Parameters by name: one table says, for every parameter of the program, its key, where it lives,
+// what is allowed and what it means. The configuration file, --set, error messages and
+// `walktrack config` are all served by this table; defaults are those of the structs themselves.
+//
+//   ParameterGroup<FilterConfig> filter(table, "filter", "the particle filter", &Config::filter);
+//   filter.number("ess_threshold", &FilterConfig::ess_threshold, 0, 1, "resample below this
+//   share"); filter.integer("particles", &FilterConfig::particles, 1, 10'000'000, "particles");
+//   filter.flag("smooth", &FilterConfig::smooth, "smooth the track afterwards");
+//   filter.choice("scheme", &FilterConfig::scheme, {{"systematic", Scheme::kSystematic}}, "…");
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace walktrack {
+
+struct Config;
+
+struct Parameter {
+  std::string key;      // dotted, e.g. "filter.particles"
+  std::string allowed;  // for messages, e.g. "a whole number from 1 to 10000000"
+  std::string comment;  // one line, with the unit
+  // Writes the value that the text means; false if it means none that is allowed.
+  std::function<bool(Config&, const std::string& text)> set;
+  std::function<std::string(const Config&)> get;
+};
+
+struct ParameterTable {
+  std::vector<Parameter> parameters;
+  std::vector<std::pair<std::string, std::string>> groups;  // prefix, what it is about
+};
+
+// Text to value and back, with a range; the allowed text goes into messages.
+bool number_in_range(const std::string& text, double lowest, double highest, double& value);
+bool integer_in_range(const std::string& text, int64_t lowest, int64_t highest, int64_t& value);
+bool flag_from_text(const std::string& text, bool& value);
+std::string number_allowed(double lowest, double highest);
+std::string integer_allowed(int64_t lowest, int64_t highest);
+std::string number_text(double value);
+
+// Adds the parameters of one struct, which sits in Config under a chain of members.
+template <typename Group>
+class ParameterGroup {
+ public:
+  // `members` leads from Config to the Group: none (Group = Config), &Config::filter, or
+  // &Config::observation, &ObservationConfig::flow, and so on.
+  template <typename... Members>
+  ParameterGroup(ParameterTable& table, std::string prefix, std::string about, Members... members)
+      : table_(table),
+        prefix_(std::move(prefix)),
+        reach_([members...](Config& config) -> Group& { return follow(config, members...); }) {
+    table_.groups.emplace_back(prefix_, std::move(about));
+  }
+
+  void number(const std::string& name, double Group::*member, double lowest, double highest,
+              std::string comment) {
+    add(
+        name, number_allowed(lowest, highest), std::move(comment),
+        [=](Group& group, const std::string& text) {
+          return number_in_range(text, lowest, highest, group.*member);
+        },
+        [=](const Group& group) { return number_text(group.*member); });
+  }
+
+  template <typename Integer>
+  void integer(const std::string& name, Integer Group::*member, int64_t lowest, int64_t highest,
+               std::string comment) {
+    add(
+        name, integer_allowed(lowest, highest), std::move(comment),
+        [=](Group& group, const std::string& text) {
+          int64_t value = 0;
+          if (!integer_in_range(text, lowest, highest, value)) return false;
+          group.*member = static_cast<Integer>(value);
+          return true;
+        },
+        [=](const Group& group) { return std::to_string(group.*member); });
+  }
+
+  void flag(const std::string& name, bool Group::*member, std::string comment) {
+    add(
+        name, "true or false", std::move(comment),
+        [=](Group& group, const std::string& text) { return flag_from_text(text, group.*member); },
+        [=](const Group& group) { return std::string(group.*member ? "true" : "false"); });
+  }
+
+  template <typename Enum>
+  void choice(const std::string& name, Enum Group::*member,
+              std::vector<std::pair<std::string, Enum>> values, std::string comment) {
+    std::string allowed;
+    for (const auto& [word, value] : values) allowed += (allowed.empty() ? "" : ", ") + word;
+    add(
+        name, allowed, std::move(comment),
+        [=](Group& group, const std::string& text) {
+          for (const auto& [word, value] : values) {
+            if (word != text) continue;
+            group.*member = value;
+            return true;
+          }
+          return false;
+        },
+        [=](const Group& group) {
+          for (const auto& [word, value] : values) {
+            if (value == group.*member) return word;
+          }
+          return std::string();
+        });
+  }
+
+ private:
+  template <typename Outer>
+  static Outer& follow(Outer& outer) {
+    return outer;
+  }
+  template <typename Outer, typename Member, typename... Rest>
+  static Group& follow(Outer& outer, Member member, Rest... rest) {
+    return follow(outer.*member, rest...);
+  }
+
+  template <typename Set, typename Get>
+  void add(const std::string& name, std::string allowed, std::string comment, Set set, Get get) {
+    table_.parameters.push_back({prefix_.empty() ? name : prefix_ + "." + name, std::move(allowed),
+                                 std::move(comment),
+                                 [reach = reach_, set](Config& config, const std::string& text) {
+                                   return set(reach(config), text);
+                                 },
+                                 // `reach` only selects members; it does not write.
+                                 [reach = reach_, get](const Config& config) {
+                                   return get(reach(const_cast<Config&>(config)));
+                                 }});
+  }
+
+  ParameterTable& table_;
+  std::string prefix_;
+  std::function<Group&(Config&)> reach_;
+};
+
+}  // namespace walktrack

@@ -1,0 +1,127 @@
+// The command line from outside: exit codes, where output goes, and what messages say.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/run_program.h"
+
+namespace walktrack {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+// The names in the overview, so that a new command is tested as soon as it is listed.
+std::vector<std::string> commands() {
+  std::vector<std::string> names;
+  std::istringstream lines(run_walktrack({"--help"}).out);
+  bool listed = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line == "Commands:") {
+      listed = true;
+    } else if (listed && line.empty()) {
+      break;
+    } else if (listed) {
+      names.push_back(line.substr(2, line.find(' ', 2) - 2));
+    }
+  }
+  return names;
+}
+
+TEST(CommandLine, ListsItsCommands) {
+  const ProgramResult result = run_walktrack({"--help"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, IsEmpty());
+  EXPECT_THAT(commands(), testing::Contains("config"));
+}
+
+TEST(CommandLine, EveryCommandExplainsItselfWithAnExample) {
+  for (const std::string& name : commands()) {
+    const ProgramResult result = run_walktrack({name, "--help"});
+    EXPECT_EQ(result.exit_code, 0) << name;
+    EXPECT_THAT(result.err, IsEmpty()) << name;
+    EXPECT_THAT(result.out, StartsWith("usage: walktrack " + name)) << name;
+    EXPECT_THAT(result.out, HasSubstr("--set KEY=VALUE")) << name;
+    const size_t example = result.out.find("\nExample:\n  walktrack " + name);
+    EXPECT_NE(example, std::string::npos) << name;
+  }
+}
+
+TEST(CommandLine, EveryCommandRefusesAnUnknownOption) {
+  for (const std::string& name : commands()) {
+    const ProgramResult result = run_walktrack({name, "--thread", "3"});
+    EXPECT_EQ(result.exit_code, 2) << name;
+    EXPECT_THAT(result.out, IsEmpty()) << name;
+    EXPECT_THAT(result.err, HasSubstr("'--thread', did you mean '--threads'?")) << name;
+  }
+}
+
+TEST(CommandLine, SaysItsVersionAndBuild) {
+  const ProgramResult result = run_walktrack({"--version"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, MatchesRegex("walktrack [0-9.]+\ncommit [0-9a-z]+\nbuilt .+ by .+\n"));
+}
+
+TEST(CommandLine, WithoutACommandShowsTheOverviewAsAnError) {
+  const ProgramResult result = run_walktrack({});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, HasSubstr("Commands:"));
+}
+
+struct Mistake {
+  std::vector<std::string> words;
+  int exit_code;
+  std::string message;
+};
+
+TEST(CommandLine, NamesMistakes) {
+  const std::vector<Mistake> mistakes{
+      {{"confg"}, 2, "unknown command 'confg', did you mean 'config'?"},
+      {{"fly"}, 2, "unknown command 'fly'; see 'walktrack --help'"},
+      {{"--verison"}, 2, "unknown command '--verison'"},
+      {{"config", "extra"}, 2, "unexpected word 'extra'"},
+      {{"config", "--set"}, 2, "required argument for option '--set' is missing"},
+      {{"config", "--set", "seed"}, 2, "--set: found 'seed', allowed: KEY=VALUE"},
+      {{"config", "--set", "sed=3"}, 2, "sed: found an unknown key, did you mean 'seed'?"},
+      {{"config", "--seed", "-1"}, 2, "--seed: seed: found '-1', allowed: a whole number from 0"},
+      {{"config", "--threads", "many"}, 2, "--threads: threads: found 'many', allowed: a whole"},
+      {{"config", "--quiet", "--verbose"}, 2, "--quiet and --verbose exclude each other"},
+      {{"config", "-c", "/nowhere.yaml"}, 2, "/nowhere.yaml: no such file"},
+      {{"config", "-o", "/nowhere/config.yaml"}, 1, "/nowhere/config.yaml"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    const ProgramResult result = run_walktrack(mistake.words);
+    EXPECT_EQ(result.exit_code, mistake.exit_code) << mistake.message;
+    EXPECT_THAT(result.out, IsEmpty()) << mistake.message;
+    EXPECT_THAT(result.err, StartsWith("walktrack: ")) << mistake.message;
+    EXPECT_THAT(result.err, HasSubstr(mistake.message));
+  }
+}
+
+TEST(ConfigCommand, LaterSourcesWinAndAreNamed) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("fast.yaml", "# comment\nseed: 5\nthreads: 2\n");
+  const ProgramResult result =
+      run_walktrack({"config", "-c", file, "--set", "seed=6", "--seed", "7"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("from --seed\nseed: 7\n"));
+  EXPECT_THAT(result.out, HasSubstr("from fast.yaml:3\nthreads: 2\n"));
+}
+
+TEST(ConfigCommand, ItsOutputIsAConfiguration) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "all.yaml";
+  ASSERT_EQ(run_walktrack({"config", "--set", "seed=9", "-o", file}).exit_code, 0);
+  const ProgramResult changed = run_walktrack({"config", "-c", file});
+  EXPECT_THAT(changed.out, HasSubstr("seed: 9\n"));
+  const ProgramResult again = run_walktrack({"config", "-o", file});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("-y overwrites"));
+  EXPECT_EQ(run_walktrack({"config", "-o", file, "-y"}).exit_code, 0);
+  EXPECT_THAT(read_file(file), HasSubstr("seed: 1\n"));
+}
+
+}  // namespace
+}  // namespace walktrack

@@ -1,0 +1,88 @@
+#include "io/config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "io/parameters.h"
+#include "tests/run_program.h"
+
+namespace walktrack {
+namespace {
+
+using testing::HasSubstr;
+
+std::string message_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "no UsageError";
+}
+
+std::string message_for_file(const std::string& content) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.yaml", content);
+  ConfigWithOrigin config;
+  return message_of([&] { apply_config_file(config, file); });
+}
+
+TEST(ConfigFile, NamesLineKeyFoundAndAllowed) {
+  EXPECT_THAT(message_for_file("seed: 3\nthreads: -1\n"),
+              HasSubstr("c.yaml:2: threads: found '-1', allowed: a whole number from 0 to 4096"));
+  EXPECT_THAT(message_for_file("\nthread: 1\n"),
+              HasSubstr("c.yaml:2: thread: found an unknown key, did you mean 'threads'?"));
+  EXPECT_THAT(message_for_file("seed: [1]\n"), HasSubstr("c.yaml:1: seed: found 'a list'"));
+  EXPECT_THAT(message_for_file("seed: 1\nseed: 2\n"),
+              HasSubstr("c.yaml:2: seed: found the key twice"));
+  EXPECT_THAT(message_for_file("- 1\n"), HasSubstr("found a list, allowed: a map of keys"));
+  EXPECT_THAT(message_for_file("seed: {a\n"), HasSubstr("broken YAML"));
+}
+
+TEST(ConfigFile, MissingKeysAndEmptyFilesMeanDefaults) {
+  const TemporaryFolder folder;
+  ConfigWithOrigin config;
+  apply_config_file(config, folder.write("empty.yaml", "# nothing\n"));
+  EXPECT_EQ(config_values(config.values), config_values(Config{}));
+  EXPECT_TRUE(config.origin.empty());
+}
+
+TEST(Config, YamlRoundTripsEveryParameter) {
+  const TemporaryFolder folder;
+  ConfigWithOrigin config;
+  apply_setting(config, "seed=9223372036854775807", "--set");
+  const std::string text = config_as_yaml(config, ConfigScope::kEverything, true);
+  ConfigWithOrigin back;
+  apply_config_file(back, folder.write("c.yaml", text));
+  EXPECT_EQ(config_values(back.values), config_values(config.values));
+  EXPECT_EQ(config_as_yaml(config, ConfigScope::kChanged, false), "seed: 9223372036854775807\n");
+}
+
+TEST(Config, DefaultsLieInTheirRanges) {
+  ConfigWithOrigin config;
+  for (const auto& [key, value] : config_values(Config{})) {
+    EXPECT_NO_THROW(apply_setting(config, key + "=" + value, "default")) << key;
+  }
+}
+
+TEST(Parameters, TextBecomesAValueOnlyWithinItsRange) {
+  double number = -1;
+  EXPECT_TRUE(number_in_range("2.5e-1", 0, 1, number));
+  EXPECT_EQ(number, 0.25);
+  for (const char* bad : {"1.5", "-0.1", "nan", "inf", "", "0.1x", "0,1"}) {
+    EXPECT_FALSE(number_in_range(bad, 0, 1, number)) << bad;
+  }
+  int64_t whole = -1;
+  EXPECT_TRUE(integer_in_range("10", 1, 10, whole));
+  for (const char* bad : {"0", "11", "1.0", "1e1", "", " 5", "99999999999999999999"}) {
+    EXPECT_FALSE(integer_in_range(bad, 1, 10, whole)) << bad;
+  }
+  bool flag = true;
+  EXPECT_TRUE(flag_from_text("false", flag));
+  EXPECT_FALSE(flag);
+  EXPECT_FALSE(flag_from_text("no", flag));
+}
+
+}  // namespace
+}  // namespace walktrack

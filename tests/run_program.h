@@ -1,0 +1,39 @@
+// Runs a program as a user would, without a shell, and collects what it says.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace walktrack {
+
+struct ProgramResult {
+  int exit_code;  // 128 + signal when killed by one
+  std::string out, err;
+};
+
+ProgramResult run_program(const std::string& path, const std::vector<std::string>& arguments);
+
+// The walktrack of this build.
+ProgramResult run_walktrack(const std::vector<std::string>& arguments);
+
+// A fresh empty folder, removed at the end of the scope.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  // Writes a file (folders included) and returns its path.
+  std::string write(const std::string& name, const std::string& content) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_file(const std::filesystem::path& path);
+
+}  // namespace walktrack
