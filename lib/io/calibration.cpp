@@ -1,0 +1,33 @@
+#include "io/calibration.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/errors.h"
+#include "io/files.h"
+
+namespace walktrack {
+
+namespace {
+
+constexpr size_t kMostBytes = 16u << 20;
+
+std::string lower_case_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+}  // namespace
+
+Camera read_calibration(const std::filesystem::path& path, const std::string&) {
+  const std::string extension = lower_case_extension(path);
+  if (extension == ".yaml" || extension == ".yml" || extension == ".json") {
+    return camera_from_opencv(read_text_file(path, kMostBytes), path.string());
+  }
+  throw InputError(describe({path.string(), 0, ""}, "'" + extension + "' as calibration",
+                            ".yaml, .yml or .json (OpenCV)"));
+}
+
+}  // namespace walktrack

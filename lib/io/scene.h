@@ -1,0 +1,61 @@
+// What was recorded: scene.yaml, the cameras' calibrations, the subject - as plain structs in the
+// library's world (z up, ground z = 0), whatever axes the calibration has.
+//
+// Paths are relative to the file and absolute here. Every key, type and range is checked, files
+// that must exist too; errors are InputErrors "file:line: key: found X, allowed Y".
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "body/subject.h"
+#include "camera/camera.h"
+#include "camera/world_frame.h"
+
+namespace walktrack {
+
+using Polygon = std::vector<Eigen::Vector2d>;  // corners, px
+
+struct SceneCamera {
+  std::string name;                   // unique; fit for a file name
+  std::filesystem::path video;        // file, folder of frames or printf pattern
+  std::filesystem::path calibration;  // the file that `camera` was read from
+  std::filesystem::path background;   // frames of the empty scene; empty = none
+  Camera camera;                      // in the world
+  int start_frame = 0;                // frame numbers count from here
+  std::optional<double> frame_rate;   // Hz, where it differs from the scene's
+  std::vector<Polygon> occluders;     // static things in front of the walker
+};
+
+// Where the walker is to begin with, as far as is known.
+struct InitialState {
+  double time = 0;              // s after first_frame
+  Eigen::Vector2d position;     // on the ground, world axes, m
+  double heading = 0;           // from world x towards world y, rad
+  std::optional<double> speed;  // m/s
+  std::optional<double> phase;  // share of the stride since left foot strike, 0..1
+};
+
+struct Scene {
+  std::filesystem::path file;
+  std::vector<SceneCamera> cameras;         // at least one
+  std::optional<double> frame_rate;         // Hz; otherwise the video's
+  WorldFrame world;                         // world_from_calibration
+  Eigen::Vector3d gravity{0, 0, -9.80665};  // world axes, m/s^2; a slope tilts it
+  Subject subject;
+  std::optional<InitialState> initial;
+  std::filesystem::path truth;    // empty = none
+  int first_frame = 0;            // time 0
+  std::optional<int> last_frame;  // inclusive; otherwise the end of the shortest video
+};
+
+Scene read_scene(const std::filesystem::path& path);
+
+// Whether a path stands for many files, e.g. frames/%05d.png.
+bool is_frame_pattern(const std::filesystem::path& path);
+
+}  // namespace walktrack

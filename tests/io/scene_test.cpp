@@ -1,0 +1,160 @@
+#include "io/scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/conventions.h"
+#include "core/errors.h"
+#include "tests/io/sample_files.h"
+
+namespace walktrack {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::HasSubstr;
+
+const std::string kCamera = "cameras:\n  - {name: a, video: a.mp4, calibration: a.yaml}\n";
+
+// A folder with what scenes of these tests point at.
+class SceneFile : public testing::Test {
+ protected:
+  SceneFile() {
+    folder_.write("a.yaml", kCalibrationText);
+    folder_.write("a.mp4", "");
+    folder_.write("truth.csv", "");
+  }
+  Scene read(const std::string& text) { return read_scene(folder_.write("scene.yaml", text)); }
+  std::string message_for(const std::string& text) {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no InputError";
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(SceneFile, NeedsOnlyACamera) {
+  const Scene scene = read(kCamera);
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  EXPECT_EQ(scene.cameras[0].video, folder_.path() / "a.mp4");
+  EXPECT_TRUE(scene.cameras[0].background.empty());
+  EXPECT_EQ(scene.cameras[0].camera.width_px, 64);
+  EXPECT_EQ(scene.subject.height, 1.75);
+  EXPECT_EQ(scene.subject.mass, 70);
+  EXPECT_EQ(scene.gravity, Vector3d(0, 0, -kStandardGravity));
+  EXPECT_FALSE(scene.initial || scene.frame_rate || scene.last_frame);
+  EXPECT_TRUE(scene.truth.empty());
+}
+
+TEST_F(SceneFile, ReadsEveryKey) {
+  const Scene scene = read(
+      "cameras:\n"
+      "  - name: a\n    video: frames_%03d.png\n    calibration: a.yaml\n    background: a.mp4\n"
+      "    start_frame: 3\n    frame_rate: 25\n"
+      "frame_rate: 50\n"
+      "ground: {normal: [0, 0, 2], offset: 0.2}\n"
+      "gravity: [0.5, 0, -9.8]\n"
+      "subject: {height: 1.6, mass: 55, lengths: {thigh: 0.41, hip_width: 0.16}}\n"
+      "initial: {time: 0.5, position: [1, 2], heading: -0.3, speed: 1.2, phase: 0.25}\n"
+      "occluders: {a: [[[0, 0], [10, 0], [10, 10]]]}\n"
+      "truth: truth.csv\nfirst_frame: 5\nlast_frame: 9\n");
+  const SceneCamera& camera = scene.cameras[0];
+  EXPECT_EQ(camera.video, folder_.path() / "frames_%03d.png");
+  EXPECT_EQ(camera.start_frame, 3);
+  EXPECT_EQ(camera.frame_rate, 25);
+  EXPECT_EQ(camera.occluders.at(0).at(1), Vector2d(10, 0));
+  EXPECT_NEAR(camera_centre(camera.camera).z(), 1 - 0.1, 1e-12);  // n.x = d has n of length 2
+  EXPECT_EQ(scene.frame_rate, 50);
+  EXPECT_EQ(scene.gravity, Vector3d(0.5, 0, -9.8));
+  EXPECT_EQ(scene.subject.height, 1.6);
+  EXPECT_EQ(scene.subject.lengths.thigh, 0.41);
+  EXPECT_EQ(scene.subject.lengths.hip_width, 0.16);
+  EXPECT_FALSE(scene.subject.lengths.shank);
+  EXPECT_EQ(scene.initial->position, Vector2d(1, 2));
+  EXPECT_EQ(scene.initial->time, 0.5);
+  EXPECT_NEAR(scene.initial->heading, -0.3, 1e-15);
+  EXPECT_EQ(scene.initial->speed, 1.2);
+  EXPECT_EQ(scene.initial->phase, 0.25);
+  EXPECT_EQ(scene.truth, folder_.path() / "truth.csv");
+  EXPECT_EQ(scene.first_frame, 5);
+  EXPECT_EQ(scene.last_frame, 9);
+}
+
+TEST_F(SceneFile, TurnsCalibrationAxesIntoTheWorld) {
+  // y up: world = (x, -z, y). The camera's centre (0, -5, 1) of the file lies 4.8 m underground.
+  const Scene scene = read(kCamera +
+                           "ground: {normal: [0, 1, 0], offset: -0.2}\n"
+                           "gravity: [0, -9.81, 0]\n"
+                           "initial: {position: [3, -0.2, 7], heading: [0, 0, 2]}\n");
+  EXPECT_LT((camera_centre(scene.cameras[0].camera) - Vector3d(0, -1, -4.8)).norm(), 1e-12);
+  EXPECT_LT((scene.gravity - Vector3d(0, 0, -9.81)).norm(), 1e-12);
+  EXPECT_LT((scene.initial->position - Vector2d(3, -7)).norm(), 1e-12);
+  EXPECT_NEAR(scene.initial->heading, -kPi / 2, 1e-12);
+}
+
+TEST_F(SceneFile, LiftsPositionsOntoATiltedGround) {
+  const Scene scene = read(kCamera +
+                           "ground: {normal: [0.1, 0, 1], offset: 0}\n"
+                           "initial: {position: [2, 0], heading: 0}\n");
+  // (2, 0, -0.2) lies on the plane, |(2, 0, -0.2)| from the origin along the ground.
+  EXPECT_LT((scene.initial->position - Vector2d(std::hypot(2, 0.2), 0)).norm(), 1e-12);
+}
+
+TEST_F(SceneFile, NamesPlaceFoundAndAllowed) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"", "cameras: found nothing"},
+      {"cameras: []\n", ":1: cameras: found an empty list, allowed: at least one camera"},
+      {"cameras: a\n", ":1: cameras: found 'a', allowed: a list"},
+      {kCamera + "subjekt: {}\n", ":3: subjekt: found an unknown key, did you mean 'subject'?"},
+      {kCamera + "subject: {hight: 1.7}\n", "found an unknown key, did you mean 'height'?"},
+      {kCamera + "subject: {height: 175}\n",
+       ":3: subject.height: found '175', allowed: a number from 0.2 to 4"},
+      {kCamera + "subject: {lengths: {thigh: 0.4 m}}\n", "subject.lengths.thigh: found '0.4 m'"},
+      {kCamera + "frame_rate: 0\n", "frame_rate: found '0', allowed: a number from 0.1 to 10000"},
+      {kCamera + "first_frame: 5\nlast_frame: 4\n", "last_frame: found '4', allowed: a whole"},
+      {kCamera + "ground: {normal: [0, 0, 0]}\n", "ground.normal: found no direction"},
+      {kCamera + "gravity: [0, 0, 9.81]\n", "gravity 180 degrees off the ground's downward"},
+      {kCamera + "gravity: [0, 0, -9806]\n", "gravity: found 9806 m/s^2"},
+      {kCamera + "initial: {position: [1, 2]}\n", "initial.heading: found nothing"},
+      {kCamera + "initial: {position: [1], heading: 0}\n", "initial.position: found 1 numbers"},
+      {kCamera + "initial: {position: [1, 2], heading: [0, 0, 1]}\n", "along the ground"},
+      {kCamera + "initial: {position: [1, 2], heading: 0, phase: 2}\n", "initial.phase: found '2'"},
+      {kCamera + "ground: {normal: [0, 1, 0]}\ninitial: {position: [1, 2], heading: 0}\n",
+       "initial.position: found 2 numbers, allowed: [x, y, z], for z is not up"},
+      {kCamera + "occluders: {b: []}\n", "occluders.b: found an unknown key"},
+      {kCamera + "occluders: {a: [[[0, 0], [1, 1]]]}\n", "occluders.a[0]: found 2 corners"},
+      {kCamera + "truth: none.csv\n", "truth: found 'none.csv', allowed: a file that exists"},
+      {replaced(kCamera, "a.mp4", "b.mp4"), ":2: cameras[0].video: found 'b.mp4'"},
+      {replaced(kCamera, "name: a", "name: a/b"), "cameras[0].name: found 'a/b'"},
+      {replaced(kCamera, "name: a, ", ""), ":2: cameras[0].name: found nothing"},
+      {kCamera + replaced(kCamera, "cameras:\n", ""), ":3: cameras[1].name: found 'a' twice"},
+  };
+  for (const auto& [text, expected] : cases) {
+    EXPECT_THAT(message_for(text), HasSubstr(expected)) << text;
+  }
+}
+
+TEST_F(SceneFile, PassesOnWhatIsWrongWithACalibration) {
+  folder_.write("a.yaml", replaced(kCalibrationText, "image_height: 48", "image_height: -1"));
+  EXPECT_THAT(message_for(kCamera), HasSubstr("a.yaml:4: image_height: found '-1'"));
+}
+
+TEST(SharedScenes, AllRead) {
+  const std::string root = shared_data("");
+  if (!std::filesystem::exists(root)) GTEST_SKIP() << "no " << root;
+  int count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("scene") && !name.starts_with("walker")) continue;
+    if (entry.path().extension() != ".yaml") continue;
+    EXPECT_NO_THROW(read_scene(entry.path())) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 1);
+}
+
+}  // namespace
+}  // namespace walktrack
