@@ -1,0 +1,259 @@
+#include "observation/background.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "core/conventions.h"
+#include "core/errors.h"
+#include "observation/shrink.h"
+
+namespace walktrack {
+
+namespace {
+
+const float kLogTwoPi = static_cast<float>(std::log(2 * kPi));
+const float kLogCube = static_cast<float>(3 * std::log(256.0));  // volume of all colours
+
+struct Statistics {
+  float luma, orange, green, luma_variance, chroma_variance;
+};
+
+struct Sample {
+  float luma, orange, green;
+};
+
+// Where most samples crowd in luma: the middle of the shortest run of sorted values that holds
+// `share` of them (the shorth). Breaks down only when another colour fills a larger share.
+size_t densest_run(const std::vector<Sample>& sorted, size_t length) {
+  size_t best = 0;
+  for (size_t i = 1; i + length <= sorted.size(); ++i) {
+    const float spread = sorted[i + length - 1].luma - sorted[i].luma;
+    if (spread < sorted[best + length - 1].luma - sorted[best].luma) best = i;
+  }
+  return best;
+}
+
+float median_of(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Mean and variances of the samples within `reach` grey levels of the densest colour.
+Statistics robust_statistics(std::vector<Sample>& samples, std::vector<float>& scratch) {
+  constexpr float kReach = 18;
+  std::sort(samples.begin(), samples.end(),
+            [](const Sample& a, const Sample& b) { return a.luma < b.luma; });
+  const size_t length = (2 * samples.size() + 4) / 5;
+  const size_t begin = densest_run(samples, length);
+  const auto middle = [&](float Sample::*channel) {
+    scratch.clear();
+    for (size_t i = begin; i < begin + length; ++i) scratch.push_back(samples[i].*channel);
+    return median_of(scratch);
+  };
+  const Sample mode{middle(&Sample::luma), middle(&Sample::orange), middle(&Sample::green)};
+  float n = 0, s[3] = {}, q[3] = {};
+  for (const Sample& x : samples) {
+    const float d[3] = {x.luma - mode.luma, x.orange - mode.orange, x.green - mode.green};
+    if (std::abs(d[0]) > kReach || std::abs(d[1]) > kReach || std::abs(d[2]) > kReach) continue;
+    n += 1;
+    for (int c = 0; c < 3; ++c) {
+      s[c] += d[c];
+      q[c] += d[c] * d[c];
+    }
+  }
+  const auto variance = [&](int c) { return (q[c] - s[c] * s[c] / n) / std::max(1.F, n - 1); };
+  return {mode.luma + s[0] / n, mode.orange + s[1] / n, mode.green + s[2] / n, variance(0),
+          0.5F * (variance(1) + variance(2))};
+}
+
+Sample sample_at(const std::vector<uint8_t>& bgr, size_t pixel, float gain) {
+  const float b = bgr[3 * pixel], g = bgr[3 * pixel + 1], r = bgr[3 * pixel + 2];
+  return {0.25F * (r + 2 * g + b) / gain, (r - b) / gain, (g - 0.5F * (r + b)) / gain};
+}
+
+BackgroundModel sized(int width, int height) {
+  BackgroundModel model;
+  model.width = width;
+  model.height = height;
+  const size_t size = static_cast<size_t>(width) * static_cast<size_t>(height);
+  for (auto* plane :
+       {&model.luma, &model.orange, &model.green, &model.luma_precision, &model.chroma_precision})
+    plane->assign(size, 0);
+  return model;
+}
+
+// Holds variances in the place of precisions until floor_variances.
+BackgroundModel statistics_of(const std::vector<std::vector<uint8_t>>& frames,
+                              const std::vector<float>& gains, int width, int height) {
+  BackgroundModel model = sized(width, height);
+  std::vector<Sample> samples(frames.size());
+  std::vector<float> scratch;
+  for (size_t i = 0; i < model.luma.size(); ++i) {
+    for (size_t f = 0; f < frames.size(); ++f) samples[f] = sample_at(frames[f], i, gains[f]);
+    const Statistics s = robust_statistics(samples, scratch);
+    model.luma[i] = s.luma;
+    model.orange[i] = s.orange;
+    model.green[i] = s.green;
+    model.luma_precision[i] = s.luma_variance;
+    model.chroma_precision[i] = s.chroma_variance;
+  }
+  return model;
+}
+
+// Square of the largest step of a channel to the four neighbours: what a shake by a pixel changes.
+float squared_step(const std::vector<float>& channel, int x, int y, int width, int height) {
+  const auto at = [&](int column, int row) {
+    return channel[static_cast<size_t>(row) * static_cast<size_t>(width) +
+                   static_cast<size_t>(column)];
+  };
+  const float here = at(x, y);
+  const float dx = std::max(std::abs(here - at(std::max(x - 1, 0), y)),
+                            std::abs(here - at(std::min(x + 1, width - 1), y)));
+  const float dy = std::max(std::abs(here - at(x, std::max(y - 1, 0))),
+                            std::abs(here - at(x, std::min(y + 1, height - 1))));
+  return dx * dx + dy * dy;
+}
+
+void floor_variances(const BackgroundConfig& config, BackgroundModel& model) {
+  const auto noise = static_cast<float>(config.noise * config.noise);
+  const auto jitter = static_cast<float>(config.jitter_px * config.jitter_px);
+  size_t i = 0;
+  for (int y = 0; y < model.height; ++y) {
+    for (int x = 0; x < model.width; ++x, ++i) {
+      const auto step = [&](const std::vector<float>& channel) {
+        return jitter * squared_step(channel, x, y, model.width, model.height);
+      };
+      const float luma = std::max(model.luma_precision[i], noise + step(model.luma));
+      const float chroma = std::max(model.chroma_precision[i],
+                                    noise + 0.5F * (step(model.orange) + step(model.green)));
+      model.luma_precision[i] = 1 / luma;
+      model.chroma_precision[i] = 1 / chroma;
+    }
+  }
+}
+
+float luma_at(const cv::Mat& bgr, int x, int y) {
+  const uint8_t* p = bgr.ptr<uint8_t>(y) + 3 * x;
+  return 0.25F * static_cast<float>(p[0] + 2 * p[1] + p[2]);
+}
+
+}  // namespace
+
+BackgroundSampler::BackgroundSampler(const BackgroundConfig& config, int shrink)
+    : config_(config), shrink_(shrink) {}
+
+void BackgroundSampler::add(const cv::Mat& frame_bgr) {
+  if (seen_++ % stride_ != 0) return;
+  if (static_cast<int>(kept_.size()) >= std::max(2, config_.samples)) {
+    size_t half = 0;
+    for (size_t i = 0; i < kept_.size(); i += 2) kept_[half++].swap(kept_[i]);
+    kept_.resize(half);
+    stride_ *= 2;
+    if ((seen_ - 1) % stride_ != 0) return;
+  }
+  const cv::Mat small = shrunk(frame_bgr, shrink_);
+  width_ = small.cols;
+  height_ = small.rows;
+  kept_.emplace_back();
+  for (int y = 0; y < small.rows; ++y)
+    kept_.back().insert(kept_.back().end(), small.ptr<uint8_t>(y),
+                        small.ptr<uint8_t>(y) + 3 * small.cols);
+}
+
+BackgroundModel BackgroundSampler::model() const {
+  if (kept_.empty()) throw InputError("background: no frame to learn it from");
+  std::vector<float> gains(kept_.size(), 1);
+  BackgroundModel model = statistics_of(kept_, gains, width_, height_);
+  if (kept_.size() > 1) {
+    // Once more without the flicker of the light.
+    for (size_t f = 0; f < kept_.size(); ++f) {
+      const cv::Mat frame(height_, width_, CV_8UC3, const_cast<uint8_t*>(kept_[f].data()));
+      gains[f] = static_cast<float>(light_gain(model, frame));
+    }
+    model = statistics_of(kept_, gains, width_, height_);
+  }
+  floor_variances(config_, model);
+  return model;
+}
+
+double light_gain(const BackgroundModel& model, const cv::Mat& bgr) {
+  constexpr int kGrid = 48;  // points along either side
+  // Dark pixels have no reliable ratio, bright ones saturate.
+  constexpr float kDark = 30, kBright = 225;
+  std::vector<float> ratios;
+  ratios.reserve(kGrid * kGrid);
+  for (int j = 0; j < kGrid; ++j) {
+    for (int i = 0; i < kGrid; ++i) {
+      const int x = (2 * i + 1) * model.width / (2 * kGrid);
+      const int y = (2 * j + 1) * model.height / (2 * kGrid);
+      const float mean = model.luma[static_cast<size_t>(y) * static_cast<size_t>(model.width) +
+                                    static_cast<size_t>(x)];
+      const float seen = luma_at(bgr, x, y);
+      if (mean > kDark && mean < kBright && seen < kBright) ratios.push_back(seen / mean);
+    }
+  }
+  return ratios.empty() ? 1.0 : static_cast<double>(median_of(ratios));
+}
+
+void background_log_density(const BackgroundModel& model, const BackgroundConfig& config,
+                            const ColourPatch& patch, const PixelRect& area, int y, double gain,
+                            std::span<float> out) {
+  const auto g = static_cast<float>(gain);
+  const auto darkest = static_cast<float>(config.shadow_darkest);
+  const auto log_plain =
+      static_cast<float>(std::log(1 - config.shadow_share - config.unknown_share)) -
+      1.5F * kLogTwoPi;
+  const auto tint = static_cast<float>(config.shadow_tint * config.shadow_tint);
+  const auto log_shadow =
+      static_cast<float>(std::log(config.shadow_share / (1 - config.shadow_darkest) / (2 * kPi)));
+  const auto log_unknown = static_cast<float>(std::log(config.unknown_share)) - kLogCube;
+  const size_t at = patch.index(area.x0, y);
+  const size_t m =
+      static_cast<size_t>(y) * static_cast<size_t>(model.width) + static_cast<size_t>(area.x0);
+  for (size_t i = 0; i < out.size(); ++i) {
+    const float luma = patch.luma[at + i], orange = patch.orange[at + i],
+                green = patch.green[at + i];
+    const float mean_luma = g * model.luma[m + i], mean_orange = g * model.orange[m + i],
+                mean_green = g * model.green[m + i];
+    const float pl = model.luma_precision[m + i], pc = model.chroma_precision[m + i];
+    const float dl = luma - mean_luma, d_o = orange - mean_orange, dg = green - mean_green;
+    const float plain = log_plain + 0.5F * std::log(pl * pc * pc) -
+                        0.5F * (dl * dl * pl + (d_o * d_o + dg * dg) * pc);
+    const float floor_luma = std::max(mean_luma, 8.F);
+    const float a = std::min(1.F, std::max(darkest, luma / floor_luma));
+    const float rl = luma - a * mean_luma, ro = orange - a * mean_orange,
+                rg = green - a * mean_green;
+    const float ps = pc / (1 + tint * pc);
+    const float shadow =
+        log_shadow + std::log(ps / floor_luma) - 0.5F * (rl * rl * pl + (ro * ro + rg * rg) * ps);
+    out[i] = std::max(log_unknown, std::max(plain, shadow));
+  }
+}
+
+void follow_drift(BackgroundModel& model, const BackgroundConfig& config, const cv::Mat& bgr,
+                  double gain, int phase, int skip) {
+  constexpr float kExplained = 9;  // squared deviation, three standard deviations
+  const auto g = static_cast<float>(gain);
+  const float rate = static_cast<float>(std::min(1.0, config.drift_rate * skip));
+  for (int y = phase; y < model.height; y += skip) {
+    const uint8_t* p = bgr.ptr<uint8_t>(y);
+    size_t i = static_cast<size_t>(y) * static_cast<size_t>(model.width);
+    for (int x = 0; x < model.width; ++x, ++i, p += 3) {
+      const float b = p[0] / g, gr = p[1] / g, r = p[2] / g;
+      const float dl = 0.25F * (r + 2 * gr + b) - model.luma[i];
+      const float d_o = r - b - model.orange[i];
+      const float dg = gr - 0.5F * (r + b) - model.green[i];
+      const float luma_miss = dl * dl * model.luma_precision[i];
+      const float chroma_miss = (d_o * d_o + dg * dg) * model.chroma_precision[i];
+      if (luma_miss > kExplained || chroma_miss > kExplained) continue;
+      model.luma[i] += rate * dl;
+      model.orange[i] += rate * d_o;
+      model.green[i] += rate * dg;
+    }
+  }
+}
+
+}  // namespace walktrack

@@ -1,0 +1,56 @@
+// How images become likelihoods. The defaults are the only defaults; the YAML mirrors them.
+#pragma once
+
+#include <array>
+
+#include "body/body.h"
+
+namespace walktrack {
+
+struct BackgroundConfig {
+  bool enabled = true;
+  int samples = 32;         // frames that the model is made of, spread over what it is given
+  double noise = 3;         // smallest standard deviation of a channel, grey levels of 256
+  double jitter_px = 0.35;  // edges move about so much (compression, wind), px of the shrunk image
+  double shadow_darkest = .45;  // a cast shadow keeps at least this share of a pixel's value
+  double shadow_share = .15;    // prior probability that a background pixel lies in a shadow
+  double shadow_tint = 5;       // standard deviation of a shadow's chroma, grey levels
+  double unknown_share = .02;   // of a background pixel looking like nothing learned
+  double drift_rate = .02;      // share of a frame that an explained pixel takes on; 0 = frozen
+};
+
+struct ForegroundConfig {
+  bool enabled = true;
+  // Which appearances share a model, by Appearance {trunk, legs, feet, head, arms}: equal numbers
+  // share one. Left and right always do.
+  std::array<int, kAppearanceCount> classes{0, 1, 2, 3, 4};
+  double broad_share = .1;     // of a class's model that expects any colour
+  double prior_pixels = 60;    // weight of "any colour" against the pixels learned from
+  double learning_rate = .05;  // share of a new frame in the recent half of a model
+  double anchor_share = .5;    // share of the first frames learned that is never forgotten
+};
+
+struct FlowConfig {
+  bool enabled = true;
+  int step_px = 4;           // between measured points, px of the shrunk image
+  double error_px = .7;      // scale of the error of a well textured point, px
+  double error_share = .15;  // and of the motion itself
+  double noise = 4;          // of the grey values that texture has to exceed
+  double dof = 3;            // of the Student-t: the smaller, the more outliers are expected
+  double weight = 1;         // against the silhouettes, both per independent area
+};
+
+struct ObservationConfig {
+  BackgroundConfig background;
+  ForegroundConfig foreground;
+  FlowConfig flow;
+  // Images are shrunk by a whole factor while a standing subject stays at least this high.
+  double person_px = 120;
+  double clip = 4;  // of a pixel's log-ratio, nats, both ways: what one pixel may say at most
+  // Neighbouring pixels err together (a body is not quite our body's shape, clothes fold), so a
+  // patch of this side counts as one independent pixel. On the body, hence in metres: a figure
+  // twice as large in the image has not four times the evidence.
+  double independent_m = .04;
+};
+
+}  // namespace walktrack

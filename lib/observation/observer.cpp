@@ -1,0 +1,257 @@
+#include "observation/observer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <opencv2/imgproc.hpp>
+
+#include "core/errors.h"
+#include "observation/shrink.h"
+#include "observation/silhouette.h"
+
+namespace walktrack {
+
+namespace {
+
+// Rows of the background that follow the light in one frame: every eighth, in turn.
+constexpr int kDriftRows = 8;
+// Colours are learned from the inner part of each silhouette, where the body is surely.
+constexpr double kInner = 0.75;
+
+PixelRect image_area(const Camera& camera) { return {0, 0, camera.width_px, camera.height_px}; }
+
+cv::Mat occluder_mask(const Camera& camera, const std::vector<Polygon>& occluders, int shrink) {
+  cv::Mat mask = cv::Mat::zeros(camera.height_px, camera.width_px, CV_8U);
+  for (const Polygon& polygon : occluders) {
+    std::vector<cv::Point> corners;
+    for (const Eigen::Vector2d& p : polygon) {
+      const Eigen::Vector2d small = (p.array() + 0.5) / shrink - 0.5;
+      corners.emplace_back(static_cast<int>(std::lround(small.x())),
+                           static_cast<int>(std::lround(small.y())));
+    }
+    if (!corners.empty())
+      cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{corners}, cv::Scalar(255));
+  }
+  return mask;
+}
+
+// The colours of a whole image, as a class of its own: what stands against the walker's colours
+// where no background is modelled.
+ColourTable scene_table(const ColourBins& bins, const cv::Mat& bgr) {
+  ForegroundConfig config;
+  config.classes.fill(0);
+  AppearanceModel scene(config, {true});
+  AppearanceModel::Counts counts = scene.empty_counts();
+  ColourPatch patch;
+  read_colours(bgr, {0, 0, bgr.cols, bgr.rows}, patch);
+  for (size_t i = 0; i < patch.luma.size(); ++i)
+    counts.weights[0][bins.bin(patch.luma[i], patch.orange[i], patch.green[i])] += 1;
+  counts.seen[0] = static_cast<double>(patch.luma.size());
+  scene.learn(bins, counts);
+  return scene.table(0);
+}
+
+}  // namespace
+
+struct Observer::State {
+  State(const ObservationConfig& settings, ObserverInput input)
+      : config(settings),
+        camera(scaled_down(input.camera, input.shrink)),
+        full_camera(input.camera),
+        shrink(input.shrink),
+        background(std::move(input.background)),
+        occluded(!input.occluders.empty()),
+        mask(occluder_mask(camera, input.occluders, input.shrink)),
+        appearance(settings.foreground, input.appearances),
+        broad(broad_table(bins)) {}
+
+  void fill_planes(const cv::Mat& bgr, const PixelRect& area, LogRatioPlanes& planes);
+  int planes_wanted() const;
+  void fill_row(int y, double gain, LogRatioPlanes& planes);
+  void block_flow(FlowField& flow) const;
+
+  ObservationConfig config;
+  Camera camera, full_camera;
+  int shrink;
+  std::optional<BackgroundModel> background;
+  bool occluded;
+  cv::Mat mask;  // 255 where an occluder stands
+  AppearanceModel appearance;
+  ColourBins bins;
+  ColourTable scene;  // only without a background model
+  ColourTable broad;
+  cv::Mat grey_before;
+  int64_t frames = 0;
+  // Of the frame observed last:
+  ColourPatch patch;
+  std::vector<uint16_t> row_bins;
+  std::vector<float> row_background, row_ratio;
+};
+
+Region whole_image(const Camera& camera, double metres_per_px) {
+  return {image_area(camera), metres_per_px};
+}
+
+Region person_region(const Camera& camera, const Eigen::Vector2d& position, double height,
+                     double margin) {
+  Eigen::AlignedBox2d box;
+  for (const double x : {-margin, margin}) {
+    for (const double y : {-margin, margin}) {
+      for (const double z : {-margin / 4, height + margin / 4}) {
+        const auto pixel = project(camera, {position.x() + x, position.y() + y, z});
+        if (pixel) box.extend(*pixel);
+      }
+    }
+  }
+  const double depth = camera_point(camera, {position.x(), position.y(), height / 2}).z();
+  if (box.isEmpty() || depth < kMinDepth) return {{}, 1};
+  const auto bound = [](double value, int limit) {
+    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(limit)));
+  };
+  const PixelRect area{bound(std::floor(box.min().x()), camera.width_px),
+                       bound(std::floor(box.min().y()), camera.height_px),
+                       bound(std::ceil(box.max().x()) + 1, camera.width_px),
+                       bound(std::ceil(box.max().y()) + 1, camera.height_px)};
+  return {area, depth / camera.focal_px.mean()};
+}
+
+std::array<bool, kAppearanceCount> appearances_of(const Body& body) {
+  std::array<bool, kAppearanceCount> used{};
+  for (const Part& part : body.parts) used[static_cast<size_t>(part.appearance)] = true;
+  return used;
+}
+
+Observer::Observer(const ObservationConfig& config, ObserverInput input)
+    : state_(std::make_unique<State>(config, std::move(input))) {
+  const State& s = *state_;
+  if (!config.background.enabled) return;
+  if (!s.background) throw InputError("background: enabled, but there is no model of it");
+  if (s.background->width != s.camera.width_px || s.background->height != s.camera.height_px) {
+    const auto size = [](int w, int h) { return std::to_string(w) + " x " + std::to_string(h); };
+    throw InputError(describe({"", 0, "background"},
+                              size(s.background->width, s.background->height) + " px",
+                              size(s.camera.width_px, s.camera.height_px) +
+                                  " px, the calibrated size divided by the shrink factor"));
+  }
+}
+
+Observer::Observer(Observer&&) noexcept = default;
+Observer& Observer::operator=(Observer&&) noexcept = default;
+Observer::~Observer() = default;
+
+const Camera& Observer::camera() const { return state_->camera; }
+
+void Observer::forget_previous_frame() { state_->grey_before.release(); }
+
+bool Observer::knows_walker() const { return state_->appearance.any_learned(); }
+
+void Observer::observe(const cv::Mat& frame_bgr, const Region& region, CameraEvidence& out) {
+  State& s = *state_;
+  if (frame_bgr.type() != CV_8UC3 || frame_bgr.cols != s.full_camera.width_px ||
+      frame_bgr.rows != s.full_camera.height_px) {
+    throw InputError(describe(
+        {}, "a frame of " + std::to_string(frame_bgr.cols) + " x " + std::to_string(frame_bgr.rows),
+        "8-bit BGR of " + std::to_string(s.full_camera.width_px) + " x " +
+            std::to_string(s.full_camera.height_px) + " px, as calibrated"));
+  }
+  const cv::Mat bgr = shrunk(frame_bgr, s.shrink);
+  const PixelRect area = intersection(region.area, image_area(s.camera));
+  s.fill_planes(bgr, area, out.planes);
+  if (s.config.flow.enabled) {
+    cv::Mat grey;
+    cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+    if (s.grey_before.empty()) {
+      out.flow = {};
+    } else {
+      measure_flow(s.config.flow, s.grey_before, grey, area, out.flow);
+      if (s.occluded) s.block_flow(out.flow);
+    }
+    s.grey_before = grey;
+  }
+  out.pixel_weight = std::min(1.0, std::pow(region.metres_per_px / s.config.independent_m, 2));
+  ++s.frames;
+}
+
+// One generic plane until the walker's colours are known; without a background, nothing until then.
+int Observer::State::planes_wanted() const {
+  if (config.foreground.enabled && appearance.any_learned()) return appearance.classes();
+  return config.background.enabled ? 1 : 0;
+}
+
+void Observer::State::fill_planes(const cv::Mat& bgr, const PixelRect& area,
+                                  LogRatioPlanes& planes) {
+  if (!config.background.enabled && !config.foreground.enabled) return;
+  read_colours(bgr, area, patch);
+  if (!config.background.enabled && scene.empty()) scene = scene_table(bins, bgr);
+  const bool learned = config.foreground.enabled && appearance.any_learned();
+  planes.plane_of = learned ? appearance.class_of() : std::array<int, kAppearanceCount>{};
+  resize(planes, area, planes_wanted());
+  if (planes.count == 0) return;
+  const double gain = config.background.enabled ? light_gain(*background, bgr) : 1;
+  const auto width = static_cast<size_t>(area.width());
+  row_bins.resize(width);
+  row_background.resize(width);
+  row_ratio.resize(width);
+  for (int y = area.y0; y < area.y1; ++y) fill_row(y, gain, planes);
+  if (config.background.enabled && config.background.drift_rate > 0)
+    follow_drift(*background, config.background, bgr, gain, static_cast<int>(frames % kDriftRows),
+                 kDriftRows);
+}
+
+void Observer::State::fill_row(int y, double gain, LogRatioPlanes& planes) {
+  const PixelRect& area = planes.area;
+  const size_t at = patch.index(area.x0, y), width = row_bins.size();
+  for (size_t i = 0; i < width; ++i)
+    row_bins[i] = bins.bin(patch.luma[at + i], patch.orange[at + i], patch.green[at + i]);
+  if (config.background.enabled) {
+    background_log_density(*background, config.background, patch, area, y, gain, row_background);
+  } else {
+    for (size_t i = 0; i < width; ++i) row_background[i] = scene[row_bins[i]];
+  }
+  const uint8_t* const blocked = occluded ? mask.ptr<uint8_t>(y) + area.x0 : nullptr;
+  for (int plane = 0; plane < planes.count; ++plane) {
+    const ColourTable& table = config.foreground.enabled ? appearance.table(plane) : broad;
+    for (size_t i = 0; i < width; ++i) row_ratio[i] = table[row_bins[i]] - row_background[i];
+    for (size_t i = 0; blocked && i < width; ++i)
+      if (blocked[i]) row_ratio[i] = 0;
+    set_row(planes, plane, y, row_ratio, config.clip);
+  }
+}
+
+// A sample whose cell touches an occluder says nothing.
+void Observer::State::block_flow(FlowField& flow) const {
+  for (int j = 0; j < flow.rows; ++j) {
+    for (int i = 0; i < flow.columns; ++i) {
+      const cv::Rect cell = cv::Rect(flow.area.x0 + i * flow.step, flow.area.y0 + j * flow.step,
+                                     flow.step, flow.step) &
+                            cv::Rect(0, 0, mask.cols, mask.rows);
+      if (cv::countNonZero(mask(cell)) > 0)
+        flow.samples[static_cast<size_t>(j * flow.columns + i)] = {};
+    }
+  }
+}
+
+void Observer::learn(const CameraEvidence& evidence, const CapsuleList& capsules) {
+  State& s = *state_;
+  if (!s.config.foreground.enabled) return;
+  AppearanceModel::Counts counts = s.appearance.empty_counts();
+  const CapsuleList inner = scaled_radii(capsules, kInner);
+  for (const VisibleRun& run : visible_runs(s.patch.area, inner)) {
+    const Appearance appearance = inner[static_cast<size_t>(run.capsule)].appearance;
+    const auto cls = static_cast<size_t>(s.appearance.class_of()[static_cast<size_t>(appearance)]);
+    for (int x = run.x0; x < run.x1; ++x) {
+      const size_t i = s.patch.index(x, run.y);
+      if (s.occluded && s.mask.at<uint8_t>(run.y, x)) continue;
+      const double ratio = log_ratio_at(evidence.planes, appearance, x, run.y);
+      const double foreground = 1 / (1 + std::exp(-ratio));
+      counts.weights[cls][s.bins.bin(s.patch.luma[i], s.patch.orange[i], s.patch.green[i])] +=
+          static_cast<float>(foreground);
+      counts.seen[cls] += 1;
+    }
+  }
+  s.appearance.learn(s.bins, counts);
+}
+
+}  // namespace walktrack

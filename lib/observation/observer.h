@@ -1,0 +1,84 @@
+// One camera through time: frames in, evidence out.
+//
+// An Observer owns what is learned about one camera's images - the background, the colours of the
+// walker, the frame before - and turns each frame into CameraEvidence, which any number of threads
+// may then ask about any number of poses. All pixels of evidence, regions and capsules are those of
+// camera(), the camera of the shrunk image.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "camera/camera.h"
+#include "observation/appearance.h"
+#include "observation/background.h"
+#include "observation/config.h"
+#include "observation/flow.h"
+#include "observation/planes.h"
+
+namespace walktrack {
+
+// Where to look in a frame. Outside `area` nothing is computed and nothing is known.
+struct Region {
+  PixelRect area;
+  double metres_per_px = .01;  // at the walker
+};
+
+// The whole image, the walker at the size given.
+Region whole_image(const Camera& camera, double metres_per_px);
+
+// The image of a box on the ground: a person of that height whose root is above `position` (world
+// x, y), with `margin` metres to all sides. Empty when none of it is in front of the camera.
+Region person_region(const Camera& camera, const Eigen::Vector2d& position, double height,
+                     double margin);
+
+struct CameraEvidence {
+  LogRatioPlanes planes;    // no planes when foreground and background are both off
+  FlowField flow;           // no samples when flow is off or there is no frame before
+  double pixel_weight = 1;  // independent pixels in a pixel: the temper of all sums over pixels
+};
+
+// A static thing in front of the walker: pixels of the calibrated (unshrunk) image.
+using Polygon = std::vector<Eigen::Vector2d>;
+
+struct ObserverInput {
+  Camera camera;                                     // of the frames as they are given
+  int shrink = 1;                                    // see shrink.h
+  std::array<bool, kAppearanceCount> appearances{};  // in use; see appearances_of
+  std::optional<BackgroundModel> background;  // of shrunk frames; needed if that term is enabled
+  std::vector<Polygon> occluders;
+};
+
+// Which appearances a body's parts have.
+std::array<bool, kAppearanceCount> appearances_of(const Body& body);
+
+class Observer {
+ public:
+  // Throws InputError when the background is enabled and missing or of another size.
+  Observer(const ObservationConfig& config, ObserverInput input);
+  Observer(Observer&&) noexcept;
+  Observer& operator=(Observer&&) noexcept;
+  ~Observer();
+
+  const Camera& camera() const;
+
+  // The evidence of the next frame (8-bit BGR, of the size of the calibrated camera). Flow is
+  // measured against the frame of the last call. `out` keeps its memory from frame to frame.
+  void observe(const cv::Mat& frame_bgr, const Region& region, CameraEvidence& out);
+
+  // Frames were dropped: the next one has no flow.
+  void forget_previous_frame();
+
+  // Learns the walker's colours in the frame observed last from a pose that fits it well.
+  void learn(const CameraEvidence& evidence, const CapsuleList& capsules);
+
+  // Whether any class has been learned.
+  bool knows_walker() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace walktrack

@@ -1,0 +1,275 @@
+#include "observation/observer.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "core/errors.h"
+#include "core/parallel_for.h"
+#include "observation/likelihood.h"
+#include "tests/observation/rendered.h"
+#include "tests/observation/scenes.h"
+
+namespace walktrack {
+namespace {
+
+// A textured wall, the same for one key whatever is drawn in front.
+cv::Mat wall(int width, int height) {
+  Rng rng(11, Purpose::kTest);
+  cv::Mat image(height, width, CV_8UC3);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double base = 110 + 30 * std::sin(0.11 * x) * std::cos(0.07 * y);
+      for (int c = 0; c < 3; ++c)
+        image.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uint8_t>(base + 10 * c + 4 * rng.normal());
+    }
+  }
+  return image;
+}
+
+cv::Vec3b clothes(Appearance appearance) {
+  switch (appearance) {
+    case Appearance::kTrunk:
+      return {150, 60, 60};
+    case Appearance::kLegs:
+      return {40, 50, 130};
+    case Appearance::kFeet:
+      return {30, 30, 30};
+    case Appearance::kHead:
+      return {140, 170, 220};
+    case Appearance::kArms:
+      return {140, 170, 220};
+  }
+  return {};
+}
+
+void draw_body(cv::Mat& image, const CapsuleList& capsules) {
+  for (const VisibleRun& run : visible_runs({0, 0, image.cols, image.rows}, capsules)) {
+    const cv::Vec3b colour = clothes(capsules[static_cast<size_t>(run.capsule)].appearance);
+    for (int x = run.x0; x < run.x1; ++x) {
+      // Stripes give the flow something to hold on to.
+      const int stripe = (x + 2 * run.y) / 3 % 2 * 30;
+      for (int c = 0; c < 3; ++c)
+        image.at<cv::Vec3b>(run.y, x)[c] = cv::saturate_cast<uint8_t>(colour[c] + stripe);
+    }
+  }
+}
+
+struct World {
+  Body body = make_body(Subject{}, {});
+  Camera camera = camera_at({0, -5, 1.2}, {0, 0, 0.9}, 320, 320, 240);
+  cv::Mat empty = wall(320, 240);
+
+  Pose pose(double x) const {
+    Pose out;
+    out.root = {x, 0, 0.92};
+    out.legs[0] = {0.4, 0, 0, 0.1, 0};
+    out.legs[1] = {-0.2, 0, 0, 0.3, 0};
+    return out;
+  }
+  CapsuleList capsules(const Pose& p) const { return project_parts(camera, posed(body, p)); }
+  cv::Mat frame(const Pose& p) const {
+    cv::Mat image = empty.clone();
+    draw_body(image, capsules(p));
+    return image;
+  }
+  Observer observer(const ObservationConfig& config) const {
+    BackgroundSampler sampler(config.background, 1);
+    sampler.add(empty);
+    return Observer(config, {camera, 1, appearances_of(body), sampler.model(), {}});
+  }
+};
+
+TEST(Observer, TermsThatAreOffHoldNoMemory) {
+  const World world;
+  ObservationConfig config;
+  config.foreground.enabled = config.background.enabled = config.flow.enabled = false;
+  Observer observer(config, {world.camera, 1, appearances_of(world.body), std::nullopt, {}});
+  CameraEvidence evidence;
+  for (int i = 0; i < 2; ++i)
+    observer.observe(world.frame(world.pose(0)), whole_image(observer.camera(), 0.01), evidence);
+  EXPECT_EQ(evidence.planes.prefix.capacity(), 0U);
+  EXPECT_EQ(evidence.flow.samples.capacity(), 0U);
+  const CapsuleList capsules = world.capsules(world.pose(0));
+  EXPECT_EQ(log_likelihood(config, evidence, capsules, &capsules), 0);
+}
+
+TEST(Observer, OnePlaneUntilTheWalkerIsLearned) {
+  const World world;
+  const ObservationConfig config;
+  Observer observer = world.observer(config);
+  CameraEvidence evidence;
+  observer.observe(world.frame(world.pose(0)), whole_image(observer.camera(), 0.01), evidence);
+  EXPECT_EQ(evidence.planes.count, 1);
+  const CapsuleList capsules = world.capsules(world.pose(0));
+  const double generic = silhouette_log_ratio(evidence.planes, capsules);
+  observer.learn(evidence, capsules);
+  EXPECT_TRUE(observer.knows_walker());
+  observer.observe(world.frame(world.pose(0)), whole_image(observer.camera(), 0.01), evidence);
+  EXPECT_EQ(evidence.planes.count, 4);  // trunk, legs, feet, head
+  EXPECT_GT(silhouette_log_ratio(evidence.planes, capsules), generic);
+}
+
+TEST(Observer, MergedClassesShareAPlane) {
+  const World world;
+  ObservationConfig config;
+  config.foreground.classes = {0, 1, 1, 0, 0};
+  Observer observer = world.observer(config);
+  CameraEvidence evidence;
+  observer.observe(world.frame(world.pose(0)), whole_image(observer.camera(), 0.01), evidence);
+  observer.learn(evidence, world.capsules(world.pose(0)));
+  observer.observe(world.frame(world.pose(0)), whole_image(observer.camera(), 0.01), evidence);
+  EXPECT_EQ(evidence.planes.count, 2);
+  const auto& plane_of = evidence.planes.plane_of;
+  EXPECT_EQ(plane_of[static_cast<size_t>(Appearance::kLegs)],
+            plane_of[static_cast<size_t>(Appearance::kFeet)]);
+}
+
+TEST(Observer, RegionLimitsWhatIsComputed) {
+  const World world;
+  const ObservationConfig config;
+  Observer whole = world.observer(config), part = world.observer(config);
+  const Region region = person_region(part.camera(), {0, 0}, 1.75, 0.7);
+  EXPECT_LT(region.area.width() * region.area.height(), 320 * 240 / 2);
+  CameraEvidence a, b;
+  for (const double x : {0.0, 0.02}) {
+    whole.observe(world.frame(world.pose(x)), whole_image(whole.camera(), region.metres_per_px), a);
+    part.observe(world.frame(world.pose(x)), region, b);
+  }
+  EXPECT_LT(b.planes.prefix.size(), a.planes.prefix.size() / 2);
+  const CapsuleList now = world.capsules(world.pose(0.02));
+  EXPECT_EQ(silhouette_log_ratio(a.planes, now), silhouette_log_ratio(b.planes, now));
+  EXPECT_EQ(a.pixel_weight, b.pixel_weight);
+  const Region nowhere = person_region(part.camera(), {0, -9}, 1.75, 0.4);
+  EXPECT_TRUE(nowhere.area.empty());
+  part.observe(world.frame(world.pose(0)), nowhere, b);
+  EXPECT_EQ(log_likelihood(config, b, now, &now), 0);
+}
+
+TEST(Observer, PersonRegionHoldsTheBody) {
+  const World world;
+  Rng rng(1, Purpose::kTest);
+  for (int i = 0; i < 100; ++i) {
+    const Pose pose = random_walking_pose(rng);
+    const Region region = person_region(world.camera, pose.root.head<2>(), 1.75, 0.8);
+    for (const Capsule& capsule : world.capsules(pose)) {
+      for (const Disc& disc : {capsule.lower, capsule.upper}) {
+        if (!inside_image(world.camera, disc.centre)) continue;
+        EXPECT_GE(disc.centre.x(), region.area.x0);
+        EXPECT_LE(disc.centre.x(), region.area.x1);
+        EXPECT_GE(disc.centre.y(), region.area.y0);
+        EXPECT_LE(disc.centre.y(), region.area.y1);
+      }
+    }
+  }
+}
+
+TEST(Observer, OccludersSayNothing) {
+  const World world;
+  const ObservationConfig config;
+  BackgroundSampler sampler(config.background, 1);
+  sampler.add(world.empty);
+  const Polygon left_half{{-1, -1}, {160, -1}, {160, 240}, {-1, 240}};
+  Observer observer(config,
+                    {world.camera, 1, appearances_of(world.body), sampler.model(), {left_half}});
+  CameraEvidence evidence;
+  for (const double x : {-0.05, 0.0})
+    observer.observe(world.frame(world.pose(x)), whole_image(observer.camera(), 0.01), evidence);
+  for (int y = 0; y < 240; ++y)
+    EXPECT_EQ(log_ratio_at(evidence.planes, Appearance::kTrunk, 150, y), 0);
+  EXPECT_NE(log_ratio_at(evidence.planes, Appearance::kTrunk, 165, 120), 0);
+  EXPECT_EQ(evidence.flow.at(150, 120)->lxx, 0);
+}
+
+TEST(Observer, RefusesFramesAndModelsOfAnotherSize) {
+  const World world;
+  const ObservationConfig config;
+  Observer observer = world.observer(config);
+  CameraEvidence evidence;
+  EXPECT_THROW(observer.observe(cv::Mat::zeros(10, 10, CV_8UC3), {}, evidence), InputError);
+  BackgroundSampler sampler(config.background, 1);
+  sampler.add(cv::Mat::zeros(48, 64, CV_8UC3));
+  const auto make = [&](std::optional<BackgroundModel> model) {
+    return Observer(config, {world.camera, 1, appearances_of(world.body), std::move(model), {}});
+  };
+  EXPECT_THROW(make(sampler.model()), InputError);
+  EXPECT_THROW(make(std::nullopt), InputError);
+}
+
+// Each term alone: the pose that made the frames beats poses moved off it.
+class TermAlone : public testing::TestWithParam<int> {};
+
+TEST_P(TermAlone, TruePoseBeatsPerturbedPoses) {
+  const World world;
+  ObservationConfig config;
+  config.foreground.enabled = GetParam() == 0;
+  config.background.enabled = GetParam() == 1;
+  config.flow.enabled = GetParam() == 2;
+  Observer observer = world.observer(config);
+  CameraEvidence evidence;
+  const double step = 0.04;  // m a frame
+  Pose pose;
+  for (int i = 0; i < 4; ++i) {
+    pose = world.pose(i * step);
+    observer.observe(world.frame(pose), whole_image(observer.camera(), 0.016), evidence);
+    observer.learn(evidence, world.capsules(pose));
+  }
+  const CapsuleList before = world.capsules(world.pose(2 * step));
+  const auto score = [&](const Pose& p) {
+    const CapsuleList capsules = world.capsules(p);
+    return log_likelihood(config, evidence, capsules, &before);
+  };
+  const double best = score(pose);
+  EXPECT_GT(best, 0);
+  const std::vector<std::pair<const char*, std::function<void(Pose&)>>> changes{
+      {"10 cm ahead", [](Pose& p) { p.root.x() += 0.1; }},
+      {"10 cm behind", [](Pose& p) { p.root.x() -= 0.1; }},
+      {"10 cm up", [](Pose& p) { p.root.z() += 0.1; }},
+      {"leaning", [](Pose& p) { p.tilt += 0.3; }},
+      {"thigh ahead", [](Pose& p) { p.legs[0].hip_flexion += 0.3; }},
+      {"knee bent", [](Pose& p) { p.legs[1].knee_flexion += 0.5; }},
+  };
+  for (const auto& [name, change] : changes) {
+    Pose other = pose;
+    change(other);
+    EXPECT_LT(score(other), best) << name;
+  }
+}
+
+std::string term_name(const testing::TestParamInfo<int>& info) {
+  const std::array<std::string, 3> names{"foreground", "background", "flow"};
+  return names[static_cast<size_t>(info.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Terms, TermAlone, testing::Values(0, 1, 2), term_name);
+
+TEST(Observer, SameBitsForAnyNumberOfThreads) {
+  const World world;
+  const ObservationConfig config;
+  const auto run = [&](int threads) {
+    cv::setNumThreads(threads);
+    Observer observer = world.observer(config);
+    CameraEvidence evidence;
+    for (const double x : {0.0, 0.03, 0.06}) {
+      observer.observe(world.frame(world.pose(x)), whole_image(observer.camera(), 0.016), evidence);
+      observer.learn(evidence, world.capsules(world.pose(x)));
+    }
+    std::vector<double> scores(64);
+    parallel_for(scores.size(), threads, [&](size_t i) {
+      const double x = 0.06 + 0.002 * static_cast<double>(i);
+      const CapsuleList now = world.capsules(world.pose(x)),
+                        before = world.capsules(world.pose(0.03));
+      scores[i] = log_likelihood(config, evidence, now, &before);
+    });
+    return scores;
+  };
+  const int usual = cv::getNumThreads();
+  const std::vector<double> one = run(1);
+  EXPECT_EQ(one, run(2));
+  EXPECT_EQ(one, run(8));
+  cv::setNumThreads(usual);
+}
+
+}  // namespace
+}  // namespace walktrack
