@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 #include <string_view>
@@ -81,6 +82,9 @@ int complain(const std::exception& error, ExitCode code) {
 
 int main(int argc, char** argv) {
   using namespace walktrack;
+  // Decoders write their own complaints to stderr; ours name file and frame.
+  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
+  setenv("OPENCV_LOG_LEVEL", "SILENT", 0);
   try {
     return run({argv + std::min(argc, 1), argv + argc});
   } catch (const UsageError& error) {

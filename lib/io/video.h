@@ -1,0 +1,76 @@
+// Frames one after another, one in memory at a time: from a video file (FFmpeg), a folder of images
+// in natural order (frame2 before frame10), a printf pattern (frames/%05d.png, numbered without
+// gaps) or a single image.
+//
+// A frame number counts from 0 at the first frame of the source. Nothing is ever seeked: seeking in
+// compressed video is inexact, so frames before the wanted one are decoded and dropped.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+namespace cv {
+class VideoCapture;
+}
+
+namespace walktrack {
+
+struct VideoFacts {
+  int width_px = 0, height_px = 0;  // of the frames as delivered
+  double frame_rate = 0;            // Hz; 0 = not known (images)
+  int frame_count = 0;              // as the container says; exact for images; 0 = not known
+  int rotation_deg = 0;             // turn that the file asks for, clockwise (phones)
+  bool rotated = false;             // whether frames are delivered turned by it
+};
+
+class FrameSource {
+ public:
+  // Opens the source; InputError naming file and reason if it cannot be read or has no frame.
+  // With `expected_px` (the calibration's image size) a video that asks to be turned is turned
+  // unless only the raw size fits; if neither fits, that is an InputError.
+  explicit FrameSource(const std::filesystem::path& path,
+                       std::optional<cv::Size> expected_px = std::nullopt);
+  ~FrameSource();
+  FrameSource(FrameSource&&) noexcept;
+  FrameSource& operator=(FrameSource&&) noexcept;
+
+  const VideoFacts& facts() const { return facts_; }
+  int next_frame() const { return next_frame_; }
+
+  // The next frame, 8-bit BGR; overwritten by the next call, so clone it to keep it. False at the
+  // end and when a frame cannot be read: then trouble() says which and why.
+  bool read(cv::Mat& frame);
+  // Passes over frames; false if the source ends before.
+  bool skip(int frames);
+  // Why the source ended before its announced end; empty if it did not.
+  const std::string& trouble() const { return trouble_; }
+
+ private:
+  void open_video(std::optional<cv::Size> expected_px);
+  void open_images();
+  void check_size(std::optional<cv::Size> expected_px) const;
+  bool read_image(cv::Mat& frame);
+  void note_end();
+
+  std::filesystem::path path_;
+  std::unique_ptr<cv::VideoCapture> capture_;  // a video file, or
+  std::vector<std::filesystem::path> images_;  // image files in order
+  cv::Mat unturned_;                           // the decoded frame where frames are turned
+  VideoFacts facts_;
+  int next_frame_ = 0;
+  std::string trouble_;
+};
+
+// The image files of a folder in natural order, of a pattern in the order of its numbers, or the
+// one image. InputError if there is none, or if a number of a pattern is missing.
+std::vector<std::filesystem::path> image_files(const std::filesystem::path& path);
+
+// "frame2" before "frame10": runs of digits compare as numbers.
+bool natural_less(const std::string& a, const std::string& b);
+
+}  // namespace walktrack

@@ -1,0 +1,21 @@
+// Videos and image folders whose frames show their own number, robustly against compression.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+namespace walktrack {
+
+// 64 x 48, a grey level that tells 0..24 apart.
+cv::Mat sample_frame(int number);
+// What a sample frame shows after whatever happened to it.
+int shown_number(const cv::Mat& frame);
+
+// 25 Hz, numbers from 0.
+void write_sample_video(const std::string& path, int frames);
+// frame<number>.png
+void write_sample_images(const std::string& folder, const std::vector<int>& numbers);
+
+}  // namespace walktrack

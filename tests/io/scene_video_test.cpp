@@ -1,0 +1,135 @@
+#include "io/scene_video.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "tests/io/sample_files.h"
+#include "tests/io/sample_video.h"
+
+namespace walktrack {
+namespace {
+
+using testing::HasSubstr;
+
+// Two cameras of 25 Hz and 20 frames each; `more` adds or replaces keys.
+class SceneVideoTest : public testing::Test {
+ protected:
+  SceneVideoTest() {
+    folder_.write("c.yaml", kCalibrationText);
+    write_sample_video(folder_ / "a.mp4", 20);
+    write_sample_video(folder_ / "b.mp4", 20);
+  }
+  SceneVideo open(const std::string& camera_a, const std::string& camera_b,
+                  const std::string& more) {
+    return SceneVideo(read_scene(folder_.write(
+        "scene.yaml", "cameras:\n  - {name: a, video: a.mp4, calibration: c.yaml" + camera_a +
+                          "}\n  - {name: b, video: b.mp4, calibration: c.yaml" + camera_b + "}\n" +
+                          more)));
+  }
+  TemporaryFolder folder_;
+  SceneFrames frames_;
+};
+
+TEST_F(SceneVideoTest, StepsThroughAllCameras) {
+  SceneVideo video = open("", "", "");
+  EXPECT_EQ(video.frame_rate(), 25);
+  EXPECT_EQ(video.frame_count(), 20);
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(video.read(frames_));
+    EXPECT_EQ(frames_.number, i);
+    EXPECT_NEAR(frames_.time, i / 25.0, 1e-12);
+    EXPECT_EQ(shown_number(frames_.images[0]), i);
+    EXPECT_EQ(shown_number(frames_.images[1]), i);
+    EXPECT_TRUE(frames_.fresh[0] && frames_.fresh[1]);
+  }
+  EXPECT_FALSE(video.read(frames_));
+  EXPECT_EQ(video.trouble(), "");
+}
+
+TEST_F(SceneVideoTest, HonoursStartFramesAndTheRange) {
+  SceneVideo video = open(", start_frame: 3", "", "first_frame: 4\nlast_frame: 6\n");
+  EXPECT_EQ(video.frame_count(), 3);
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(video.read(frames_));
+    EXPECT_EQ(frames_.number, 4 + i);
+    EXPECT_NEAR(frames_.time, i / 25.0, 1e-12);
+    EXPECT_EQ(shown_number(frames_.images[0]), 7 + i);
+    EXPECT_EQ(shown_number(frames_.images[1]), 4 + i);
+  }
+  EXPECT_FALSE(video.read(frames_));
+}
+
+TEST_F(SceneVideoTest, EndsWithTheShortestCamera) {
+  write_sample_video(folder_ / "b.mp4", 9);
+  SceneVideo video = open(", start_frame: 3", "", "");
+  EXPECT_EQ(video.frame_count(), 9);
+  int count = 0;
+  while (video.read(frames_)) ++count;
+  EXPECT_EQ(count, 9);
+  EXPECT_EQ(video.trouble(), "");
+}
+
+TEST_F(SceneVideoTest, MeetsASlowerCameraAtItsNearestFrame) {
+  SceneVideo video = open("", ", frame_rate: 10", "frame_rate: 25\nfirst_frame: 1\n");
+  // Scene frame n shows b's frame round(0.4 n): 0 1 1 2 2 2 3 ...
+  const std::vector<int> shown{0, 1, 1, 2, 2, 2, 3, 3};
+  for (size_t i = 0; i < shown.size(); ++i) {
+    ASSERT_TRUE(video.read(frames_));
+    EXPECT_EQ(shown_number(frames_.images[1]), shown[i]);
+    EXPECT_EQ(frames_.fresh[1], i == 0 || shown[i] != shown[i - 1]);
+    EXPECT_TRUE(frames_.fresh[0]);
+  }
+}
+
+TEST_F(SceneVideoTest, AFasterCameraSkipsFrames) {
+  SceneVideo video = open(", frame_rate: 25", ", frame_rate: 50", "frame_rate: 25\n");
+  EXPECT_EQ(video.frame_count(), 10);
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_TRUE(video.read(frames_));
+    EXPECT_EQ(shown_number(frames_.images[1]), 2 * i);
+  }
+  EXPECT_FALSE(video.read(frames_));
+}
+
+TEST_F(SceneVideoTest, NeedsARateForImages) {
+  write_sample_images(folder_ / "frames", {0, 1, 2});
+  const std::string scene =
+      folder_.write("i.yaml", "cameras:\n  - {name: a, video: frames, calibration: c.yaml}\n");
+  try {
+    SceneVideo video(read_scene(scene));
+    FAIL() << "opened without a rate";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("frame_rate: found nothing, allowed: a rate in Hz"));
+  }
+}
+
+TEST_F(SceneVideoTest, RefusesARangeBeyondTheEnd) {
+  try {
+    open("", "", "first_frame: 20\n");
+    FAIL() << "opened beyond the end";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("first_frame: found 20, allowed: a frame before"));
+  }
+}
+
+TEST_F(SceneVideoTest, PassesOnTroubleOfACamera) {
+  write_sample_images(folder_ / "b", {0, 1, 2, 3});
+  folder_.write("b/frame2.png", "broken");
+  std::filesystem::remove(folder_ / "b.mp4");
+  std::filesystem::rename(folder_ / "b", folder_ / "b.mp4");
+  SceneVideo video = open("", "", "");
+  int count = 0;
+  while (video.read(frames_)) ++count;
+  EXPECT_EQ(count, 2);
+  EXPECT_THAT(video.trouble(), HasSubstr("frame 2 cannot be decoded"));
+  EXPECT_FALSE(video.read(frames_));
+}
+
+TEST_F(SceneVideoTest, ChecksTheSizeAgainstTheCalibration) {
+  folder_.write("c.yaml", replaced(kCalibrationText, "image_width: 64", "image_width: 128"));
+  EXPECT_THROW(open("", "", ""), InputError);
+}
+
+}  // namespace
+}  // namespace walktrack

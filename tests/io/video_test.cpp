@@ -1,0 +1,228 @@
+#include "io/video.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "core/errors.h"
+#include "io/video_writer.h"
+#include "tests/io/sample_files.h"
+#include "tests/io/sample_video.h"
+
+namespace walktrack {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(NaturalLess, ComparesNumbersByValue) {
+  EXPECT_TRUE(natural_less("frame2", "frame10"));
+  EXPECT_FALSE(natural_less("frame10", "frame2"));
+  EXPECT_TRUE(natural_less("a1b2", "a1b10"));
+  EXPECT_TRUE(natural_less("a", "b"));
+  EXPECT_TRUE(natural_less("a", "a1"));
+  EXPECT_TRUE(natural_less("007", "8"));
+  EXPECT_FALSE(natural_less("x", "x"));
+  EXPECT_NE(natural_less("a01", "a1"), natural_less("a1", "a01"));  // an order, not a tie
+}
+
+TEST(FrameSource, ReadsAVideoFrameByFrame) {
+  const TemporaryFolder folder;
+  write_sample_video(folder / "v.mp4", 12);
+  FrameSource source(folder / "v.mp4");
+  EXPECT_EQ(source.facts().width_px, 64);
+  EXPECT_EQ(source.facts().height_px, 48);
+  EXPECT_EQ(source.facts().frame_count, 12);
+  EXPECT_EQ(source.facts().frame_rate, 25);
+  cv::Mat frame;
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_TRUE(source.read(frame));
+    EXPECT_EQ(shown_number(frame), i);
+  }
+  EXPECT_FALSE(source.read(frame));
+  EXPECT_EQ(source.trouble(), "");
+}
+
+TEST(FrameSource, SkipsToTheExactFrame) {
+  const TemporaryFolder folder;
+  write_sample_video(folder / "v.mp4", 12);
+  write_sample_images(folder / "frames", {0, 1, 2, 3, 4, 5, 6, 7, 8});
+  for (const char* name : {"v.mp4", "frames"}) {
+    FrameSource source(folder / name);
+    cv::Mat frame;
+    ASSERT_TRUE(source.skip(7));
+    EXPECT_EQ(source.next_frame(), 7);
+    ASSERT_TRUE(source.read(frame));
+    EXPECT_EQ(shown_number(frame), 7);
+    EXPECT_FALSE(source.skip(100));
+  }
+}
+
+TEST(FrameSource, ReadsFoldersInNaturalOrderAndPatternsByNumber) {
+  const TemporaryFolder folder;
+  write_sample_images(folder / "f", {9, 10, 11});
+  folder.write("f/notes.txt", "no image");
+  for (const std::string& name : {folder / "f", folder / "f/frame%d.png"}) {
+    FrameSource source(name);
+    EXPECT_EQ(source.facts().frame_count, 3);
+    EXPECT_EQ(source.facts().frame_rate, 0);
+    cv::Mat frame;
+    for (const int number : {9, 10, 11}) {
+      ASSERT_TRUE(source.read(frame)) << name;
+      EXPECT_EQ(shown_number(frame), number);
+    }
+    EXPECT_FALSE(source.read(frame));
+    EXPECT_EQ(source.trouble(), "");
+  }
+}
+
+TEST(FrameSource, ReadsASingleImage) {
+  const TemporaryFolder folder;
+  write_sample_images(folder / "f", {5});
+  FrameSource source(folder / "f/frame5.png");
+  cv::Mat frame;
+  EXPECT_TRUE(source.read(frame));
+  EXPECT_FALSE(source.read(frame));
+}
+
+std::string message_for(const fs::path& path, std::optional<cv::Size> size = std::nullopt) {
+  try {
+    FrameSource source(path, size);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no InputError";
+}
+
+TEST(FrameSource, SaysWhatItCannotRead) {
+  const TemporaryFolder folder;
+  write_sample_images(folder / "gap", {1, 2, 4});
+  write_sample_video(folder / "v.mp4", 2);
+  folder.write("text.mp4", "this is no video");
+  folder.write("text.png", "this is no image");
+  folder.write("empty.mp4", "");
+  fs::create_directory(folder / "none");
+  EXPECT_THAT(message_for(folder / "missing.mp4"), HasSubstr("missing.mp4: found no file"));
+  EXPECT_THAT(message_for(folder / "text.mp4"), HasSubstr("no video that FFmpeg can decode"));
+  EXPECT_THAT(message_for(folder / "empty.mp4"), HasSubstr("no video that FFmpeg can decode"));
+  EXPECT_THAT(message_for(folder / "text.png"), HasSubstr("no image that can be decoded"));
+  EXPECT_THAT(message_for(folder / "none"), HasSubstr("none: found no image"));
+  EXPECT_THAT(message_for(folder / "gap/frame%d.png"), HasSubstr("frame 3 missing before 4"));
+  EXPECT_THAT(message_for(folder / "gap/frame%s.png"), HasSubstr("a pattern of another kind"));
+  EXPECT_THAT(message_for(folder / "gap/other%d.png"), HasSubstr("no file of this pattern"));
+  EXPECT_THAT(message_for(folder / "v.mp4", cv::Size(65, 48)),
+              HasSubstr("v.mp4: found 64x48 px, allowed: 65x48 px"));
+  EXPECT_THAT(message_for(folder / "v.mp4", cv::Size(48, 64)), HasSubstr("are swapped"));
+}
+
+TEST(FrameSource, NamesTheFrameThatBreaks) {
+  const TemporaryFolder folder;
+  write_sample_images(folder / "f", {0, 1, 2});
+  folder.write("f/frame1.png", "broken");
+  FrameSource source(folder / "f");
+  cv::Mat frame;
+  EXPECT_TRUE(source.read(frame));
+  EXPECT_FALSE(source.read(frame));
+  EXPECT_THAT(source.trouble(), HasSubstr("frame1.png: frame 1 cannot be decoded"));
+  EXPECT_FALSE(source.read(frame));
+}
+
+TEST(FrameSource, RefusesAFrameOfAnotherSize) {
+  const TemporaryFolder folder;
+  write_sample_images(folder / "f", {0, 1});
+  cv::imwrite(folder / "f/frame1.png", cv::Mat(10, 10, CV_8UC3, cv::Scalar::all(0)));
+  FrameSource source(folder / "f");
+  cv::Mat frame;
+  EXPECT_TRUE(source.read(frame));
+  EXPECT_FALSE(source.read(frame));
+  EXPECT_THAT(source.trouble(), HasSubstr("frame 1 is 10x10 px, the first 64x48"));
+}
+
+TEST(FrameSource, NoticesATruncatedVideo) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "v.avi";
+  {
+    cv::VideoWriter writer(file, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 25,
+                           {64, 48});
+    for (int i = 0; i < 40; ++i) writer.write(sample_frame(i));
+  }
+  fs::resize_file(file, fs::file_size(file) / 2);
+  FrameSource source(file);
+  cv::Mat frame;
+  int count = 0;
+  while (source.read(frame)) ++count;
+  EXPECT_GT(count, 5);
+  EXPECT_LT(count, 35);
+  EXPECT_THAT(source.trouble(), HasSubstr("of 40 cannot be decoded"));
+}
+
+// Phones write the sensor's pixels and a turn in the track header (ISO 14496-12, tkhd matrix).
+void turn_by_90_degrees(const std::string& file) {
+  std::string bytes = read_file(file);
+  const size_t matrix = bytes.find("tkhd") + 44;
+  const std::string turn{"\0\0\0\0\0\1\0\0\0\0\0\0\xff\xff\0\0\0\0\0\0\0\0\0\0\0\x30\0\0", 28};
+  bytes.replace(matrix, turn.size(), turn);
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+TEST(FrameSource, TurnsPhoneVideoUprightUnlessTheCalibrationIsRaw) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "v.mp4";
+  {
+    VideoWriter writer(file, {64, 48}, 25);
+    cv::Mat left_half_white(48, 64, CV_8UC3, cv::Scalar::all(0));
+    left_half_white.colRange(0, 32).setTo(cv::Scalar::all(255));
+    for (int i = 0; i < 3; ++i) writer.write(left_half_white);
+    writer.close();
+  }
+  turn_by_90_degrees(file);
+  cv::Mat frame;
+  FrameSource upright(file, cv::Size(48, 64));
+  EXPECT_EQ(upright.facts().rotation_deg, 90);
+  EXPECT_TRUE(upright.facts().rotated);
+  ASSERT_TRUE(upright.read(frame));
+  ASSERT_EQ(frame.size(), cv::Size(48, 64));
+  EXPECT_GT(frame.at<cv::Vec3b>(10, 24)[1], 200);  // clockwise: left is now above
+  EXPECT_LT(frame.at<cv::Vec3b>(54, 24)[1], 50);
+
+  FrameSource raw(file, cv::Size(64, 48));
+  EXPECT_FALSE(raw.facts().rotated);
+  ASSERT_TRUE(raw.read(frame));
+  ASSERT_EQ(frame.size(), cv::Size(64, 48));
+  EXPECT_GT(frame.at<cv::Vec3b>(24, 10)[1], 200);
+  EXPECT_THAT(message_for(file, cv::Size(30, 30)), HasSubstr("found 48x64 px"));
+}
+
+TEST(VideoWriter, LeavesNothingWithoutClose) {
+  const TemporaryFolder folder;
+  {
+    VideoWriter writer(folder / "v.mp4", {64, 48}, 25);
+    writer.write(sample_frame(0));
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(VideoWriter, LeavesOnlyTheVideo) {
+  const TemporaryFolder folder;
+  write_sample_video(folder / "v.mp4", 3);
+  write_sample_video(folder / "v.mp4", 5);
+  EXPECT_EQ(FrameSource(folder / "v.mp4").facts().frame_count, 5);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(VideoWriter, WritesTheSameBytesAgain) {
+  const TemporaryFolder folder;
+  write_sample_video(folder / "a.mp4", 30);
+  write_sample_video(folder / "b.mp4", 30);
+  EXPECT_EQ(read_file(folder / "a.mp4"), read_file(folder / "b.mp4"));
+}
+
+TEST(VideoWriter, SaysWhereItCannotWrite) {
+  EXPECT_THROW(VideoWriter("/nowhere/v.mp4", {64, 48}, 25), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace walktrack
