@@ -1,0 +1,85 @@
+// One camera's view of the world: the rays of its pixels and the picture of the empty scene, both
+// computed once, and frames with walkers in it.
+//
+// A pixel's label, depth and flow are exact for the ray through its centre. Its colour is averaged
+// over sub-pixel rays where neighbouring pixels see different surfaces. Walkers shade each other,
+// themselves and the ground, not the things that stand around.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "camera/camera.h"
+#include "synth/figure.h"
+#include "synth/solid.h"
+#include "synth/world.h"
+
+namespace walktrack {
+
+// A row-major picture of the camera's size.
+template <typename T>
+struct Plane {
+  int width = 0, height = 0;
+  std::vector<T> values;
+
+  Plane() = default;
+  Plane(int w, int h, const T& value)
+      : width(w), height(h), values(static_cast<size_t>(w) * static_cast<size_t>(h), value) {}
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
+  }
+  T& at(int x, int y) { return values[index(x, y)]; }
+  const T& at(int x, int y) const { return values[index(x, y)]; }
+};
+
+struct View {
+  Camera camera;
+  Eigen::Vector3d centre;             // of projection, world
+  Plane<Eigen::Vector3f> directions;  // unit, world; zero where the lens has no ray
+  Plane<Colour> empty;                // the scene without walkers
+  Plane<float> sun_share;             // of that brightness which a walker's shadow takes away
+  Plane<float> static_distance;       // m along the ray to thing or ground; infinite for the sky
+  Plane<int> static_thing;            // kGround, kSky or an index of World::things
+};
+
+View make_view(const World& world, const Camera& camera, int threads);
+
+// A walker at one instant.
+struct DressedParts {
+  std::vector<ConeSolid> solids;
+  std::vector<Appearance> appearance;  // of each
+  const Clothes* clothes;
+};
+
+DressedParts dress(std::span<const PosedPart> parts, const Clothes& clothes);
+
+// What the ray through a pixel's centre meets.
+struct Sight {
+  int16_t walker = -1;  // index, or -1: the empty scene
+  int16_t part = -1;
+  float distance = 0;  // m along the ray
+};
+
+struct Picture {
+  Plane<Colour> colour;
+  Plane<Sight> sights;
+};
+
+Picture render(const View& view, const World& world, std::span<const DressedParts> walkers);
+
+// Depth (z of camera axes, m; infinite for the sky) of every pixel.
+Plane<float> depth_of(const View& view, const Plane<Sight>& sights);
+
+// Optical flow (px) of every pixel from these walkers to where the same points of them are in
+// `next`; zero for the empty scene, NaN where the point leaves the camera's field.
+Plane<Eigen::Vector2f> flow_of(const View& view, const Plane<Sight>& sights,
+                               std::span<const DressedParts> now,
+                               std::span<const DressedParts> next);
+
+// 0 for the empty scene, else 1 + index of the part + 100 * walker, at most 255.
+Plane<uint8_t> labels_of(const Plane<Sight>& sights);
+
+}  // namespace walktrack

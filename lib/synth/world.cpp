@@ -1,0 +1,83 @@
+#include "synth/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace walktrack {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kShadowGap = 1e-4;  // m; a surface does not shade itself by rounding
+
+std::optional<double> entry(const Thing& thing, const Ray& ray, double farthest) {
+  return std::visit([&](const auto& solid) { return entry_distance(solid, ray, farthest); },
+                    thing.solid);
+}
+
+Vector3d normal_at(const Thing& thing, const Vector3d& point) {
+  if (const auto* box = std::get_if<BoxSolid>(&thing.solid)) return surface_normal(*box, point);
+  const ConeSolid& cone = std::get<ConeSolid>(thing.solid);
+  return surface_normal(cone, local_point(cone, point));
+}
+
+bool in_static_shadow(const World& world, const Vector3d& point, const Vector3d& sun) {
+  const Ray ray{point + kShadowGap * sun, sun};
+  return std::any_of(world.things.begin(), world.things.end(), [&](const Thing& thing) {
+    return thing.casts_shadow && entry(thing, ray, std::numeric_limits<double>::infinity());
+  });
+}
+
+}  // namespace
+
+Vector3d towards_sun(const Light& light) {
+  const double across = std::cos(light.elevation);
+  return {across * std::cos(light.azimuth), across * std::sin(light.azimuth),
+          std::sin(light.elevation)};
+}
+
+ConeSolid upright_cone(const Vector3d& foot, double height, double radius_low, double radius_high) {
+  return cone_solid({foot,
+                     foot + Vector3d(0, 0, height),
+                     Vector3d::UnitY(),
+                     Vector3d::UnitX(),
+                     {radius_low, radius_low},
+                     {radius_high, radius_high},
+                     Appearance::kTrunk});
+}
+
+StaticHit first_static_hit(const World& world, const Ray& ray) {
+  StaticHit best{kSky, std::numeric_limits<double>::infinity()};
+  if (ray.direction.z() < 0 && ray.origin.z() > 0)
+    best = {kGround, -ray.origin.z() / ray.direction.z()};
+  for (size_t i = 0; i < world.things.size(); ++i) {
+    if (const auto found = entry(world.things[i], ray, best.distance))
+      best = {static_cast<int>(i), *found};
+  }
+  return best;
+}
+
+StaticLook look_of(const World& world, const Ray& ray, const StaticHit& hit) {
+  if (hit.thing == kSky) {
+    const float height = static_cast<float>(std::max(0.0, ray.direction.z()));
+    return {world.horizon + std::min(1.0f, 2 * height) * (world.zenith - world.horizon), 0};
+  }
+  const Vector3d point = ray.origin + hit.distance * ray.direction;
+  const Vector3d sun = towards_sun(world.light);
+  Vector3d normal = Vector3d::UnitZ();
+  const Material* material = &world.ground;
+  if (hit.thing != kGround) {
+    const Thing& thing = world.things[static_cast<size_t>(hit.thing)];
+    normal = normal_at(thing, point);
+    material = &thing.material;
+  }
+  double lit = world.light.sun * std::max(0.0, normal.dot(sun));
+  if (world.light.shadows && lit > 0 && in_static_shadow(world, point, sun)) lit = 0;
+  const double brightness = world.light.ambient + lit;
+  return {colour_at(*material, point, world.noise) * static_cast<float>(brightness),
+          static_cast<float>(lit / brightness)};
+}
+
+}  // namespace walktrack

@@ -1,0 +1,70 @@
+// The unmoving world: ground z = 0, things that stand on it, sky, sun. Metres, radians.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "synth/material.h"
+#include "synth/solid.h"
+
+namespace walktrack {
+
+// One sun (or lamp, far away) and even light from everywhere. A lit white surface has brightness
+// ambient + sun * cos(angle of incidence).
+struct Light {
+  double azimuth = -1.0;   // of the sun, from world x towards y, rad
+  double elevation = 0.9;  // above the horizon, rad
+  double sun = 0.55;
+  double ambient = 0.45;
+  bool shadows = true;
+};
+
+Eigen::Vector3d towards_sun(const Light& light);
+
+// Something that stands in the scene.
+struct Thing {
+  std::variant<BoxSolid, ConeSolid> solid;
+  Material material;
+  bool casts_shadow = true;
+};
+
+// A post: a vertical elliptic cone, for trunks and pillars.
+ConeSolid upright_cone(const Eigen::Vector3d& foot, double height, double radius_low,
+                       double radius_high);
+
+struct World {
+  Material ground;
+  Colour horizon{0.75f, 0.8f, 0.85f}, zenith{0.45f, 0.6f, 0.8f};
+  std::vector<Thing> things;
+  Light light;
+  Noise noise{1};
+};
+
+// What a ray meets first.
+struct StaticHit {
+  int thing;        // index into things; kGround or kSky
+  double distance;  // m; infinite for the sky
+};
+inline constexpr int kGround = -1, kSky = -2;
+
+StaticHit first_static_hit(const World& world, const Ray& ray);
+
+// Albedo, and the share of the sun's light that falls on the surface there (0 in the shadow of a
+// thing), of the point that a ray hits. The sky has a colour of its own and no light on it.
+struct StaticLook {
+  Colour colour;    // lit
+  float sun_share;  // of the brightness that is the sun's: what a further shadow takes away
+};
+StaticLook look_of(const World& world, const Ray& ray, const StaticHit& hit);
+
+// Ready-made surroundings of a walk whose path lies within `reach` metres of `centre`.
+enum class Setting { kRoom, kField, kStudio };
+
+World make_world(Setting setting, const Eigen::Vector2d& centre, double reach, const Light& light,
+                 uint64_t seed);
+
+}  // namespace walktrack
