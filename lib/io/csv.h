@@ -1,0 +1,45 @@
+// Tables as text: a header line, then one row a line, cells separated by commas. Lines that start
+// with '#' and empty lines are comments. No quoting: cells hold numbers and words.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace walktrack {
+
+struct CsvTable {
+  struct Row {
+    int line;  // in the file, from 1
+    std::vector<std::string> cells;
+  };
+  std::string file;  // what messages call it
+  int header_line = 0;
+  std::vector<std::string> columns;
+  std::vector<Row> rows;  // each with as many cells as there are columns
+
+  std::optional<size_t> find_column(const std::string& name) const;
+  // InputError naming the nearest column when it is missing.
+  size_t column(const std::string& name) const;
+  // An empty cell is nullopt; a cell that is no finite number is an InputError.
+  std::optional<double> optional_number(const Row& row, size_t column) const;
+  // An empty cell is an error too.
+  double number(const Row& row, size_t column) const;
+  // Throws the InputError for a cell.
+  [[noreturn]] void fail(const Row& row, size_t column, const std::string& allowed) const;
+};
+
+// InputError for a file without header, doubled columns, or a row of another length.
+CsvTable read_csv(const std::filesystem::path& path);
+CsvTable csv_from_text(const std::string& text, const std::string& file);
+
+// A number with six decimals (µm, µs), which is what tables hold; "" for NaN, never "-0.000000".
+std::string csv_number(double value);
+
+// The separator, then the number.
+void append_number(std::string& text, char separator, double value);
+
+inline constexpr size_t kMaxCsvBytes = size_t{1} << 30;
+
+}  // namespace walktrack

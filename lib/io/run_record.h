@@ -1,0 +1,39 @@
+// run.json: how a result came about and what happened on the way.
+//
+// Everything but the "timing" block follows from the inputs, the configuration and the seed alone,
+// so it is the same for any number of threads; threads, command line and clock times are in that
+// block.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/config.h"
+
+namespace walktrack {
+
+struct RunRecord {
+  std::string command;                                  // e.g. "track"
+  std::string scene;                                    // name of the scene file
+  std::string scene_digest;                             // SHA-256 of it
+  ConfigWithOrigin config;                              // effective
+  std::string status;                                   // e.g. "tracked", "lost", "interrupted"
+  std::vector<std::string> notes;                       // what the user should know
+  std::vector<std::pair<std::string, double>> numbers;  // e.g. "fallen_particles"
+  std::vector<std::pair<std::string, std::vector<double>>> by_frame;  // e.g. "ess"; NaN -> null
+  std::string digest;  // result_digest() of the result's tables
+
+  // The timing block.
+  std::vector<std::string> command_line;
+  int threads = 1;                                            // in fact used
+  std::vector<std::pair<std::string, double>> stage_seconds;  // in order of the stages
+  double seconds = 0;                                         // altogether
+};
+
+std::string run_json(const RunRecord& record);
+
+// SHA-256 of joints.csv and uncertainty.csv, one after the other.
+std::string result_digest(const std::string& joints_csv, const std::string& uncertainty_csv);
+
+}  // namespace walktrack

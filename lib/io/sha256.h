@@ -1,0 +1,12 @@
+// SHA-256 (FIPS 180-4): the digest by which two results are told to be the same.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace walktrack {
+
+// 64 hexadecimal digits.
+std::string sha256(std::string_view bytes);
+
+}  // namespace walktrack

@@ -1,0 +1,57 @@
+#include "io/csv.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+
+namespace walktrack {
+namespace {
+
+using testing::HasSubstr;
+
+std::string message_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no InputError";
+}
+
+TEST(Csv, ReadsCommentsBlanksAndLineEnds) {
+  const CsvTable table = csv_from_text("# note\r\n\nt, x ,side\r\n0,1.5,l\n1,,r", "f.csv");
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"t", "x", "side"}));
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_EQ(table.rows[0].line, 4);
+  EXPECT_EQ(table.number(table.rows[0], table.column("x")), 1.5);
+  EXPECT_EQ(table.optional_number(table.rows[1], 1), std::nullopt);
+  EXPECT_EQ(table.rows[1].cells[2], "r");
+}
+
+TEST(Csv, NamesLineAndColumn) {
+  EXPECT_EQ(message_of([] { csv_from_text("# only\n", "f.csv"); }), "f.csv: found no header line");
+  EXPECT_EQ(message_of([] { csv_from_text("t,t\n", "f.csv"); }),
+            "f.csv:1: found a column twice, allowed: names of their own");
+  EXPECT_EQ(message_of([] { csv_from_text("t,x\n1\n", "f.csv"); }),
+            "f.csv:2: found 1 cells, allowed: 2, as in the header");
+  const CsvTable table = csv_from_text("t,lknee_x\n0,nan\n,1\n", "f.csv");
+  EXPECT_EQ(message_of([&] { table.number(table.rows[0], 1); }),
+            "f.csv:2: lknee_x: found 'nan', allowed: a number");
+  EXPECT_EQ(message_of([&] { table.number(table.rows[1], 0); }),
+            "f.csv:3: t: found '', allowed: a number");
+  EXPECT_THAT(message_of([&] { table.column("lkne_x"); }),
+              HasSubstr("no column 'lkne_x', allowed: it; is 'lknee_x' meant?"));
+}
+
+TEST(CsvNumber, IsFixedAndNeverNegativeZero) {
+  EXPECT_EQ(csv_number(1.23456789), "1.234568");
+  EXPECT_EQ(csv_number(-1e-9), "0.000000");
+  EXPECT_EQ(csv_number(-1e-6), "-0.000001");
+  EXPECT_EQ(csv_number(NAN), "");
+}
+
+}  // namespace
+}  // namespace walktrack
