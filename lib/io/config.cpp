@@ -2,52 +2,34 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "core/errors.h"
-#include "io/parameters.h"
+#include "io/config_table.h"
 #include "io/yaml.h"
 
 namespace walktrack {
 
 namespace {
 
-constexpr int kMostThreads = 4096;
-
-// The parameters of the program, one line each.
-ParameterTable make_table() {
-  ParameterTable table;
-  ParameterGroup<Config> top(table, "", "the run");
-  top.integer("seed", &Config::seed, 0, std::numeric_limits<int64_t>::max(),
-              "seed of all random numbers");
-  top.integer("threads", &Config::threads, 0, kMostThreads, "threads, 0 = all of the machine");
-  return table;
-}
-
-const ParameterTable& table() {
-  static const ParameterTable kTable = make_table();
-  return kTable;
-}
-
 const Parameter* find_parameter(const std::string& key) {
-  for (const Parameter& parameter : table().parameters) {
+  for (const Parameter& parameter : config_table().parameters) {
     if (parameter.key == key) return &parameter;
   }
   return nullptr;
 }
 
 bool is_group(const std::string& prefix) {
-  return std::any_of(table().groups.begin(), table().groups.end(), [&](const auto& group) {
-    return group.first == prefix || group.first.starts_with(prefix + ".");
-  });
+  return std::any_of(config_table().groups.begin(), config_table().groups.end(),
+                     [&](const auto& group) {
+                       return group.first == prefix || group.first.starts_with(prefix + ".");
+                     });
 }
 
 std::string unknown_key(const std::string& key) {
   std::vector<std::string> names;
-  for (const Parameter& parameter : table().parameters) names.push_back(parameter.key);
+  for (const Parameter& parameter : config_table().parameters) names.push_back(parameter.key);
   const std::string nearest = nearest_word(key, names);
   return nearest.empty() ? "an unknown key"
                          : fmt::format("an unknown key, did you mean '{}'?", nearest);
@@ -65,6 +47,17 @@ void assign(ConfigWithOrigin& config, const InputPlace& place, const std::string
   config.origin[place.key] = origin;
 }
 
+// A scalar as it stands, a list as "[a, b]".
+std::string value_text(const YamlValue& value) {
+  if (value.is_scalar()) return value.text();
+  if (!value.is_list()) return value.describe_found();
+  std::string text;
+  for (const YamlValue& item : value.items()) {
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", value_text(item));
+  }
+  return fmt::format("[{}]", text);
+}
+
 void apply_map(ConfigWithOrigin& config, const YamlValue& map) {
   const std::vector<std::string> keys = map.keys();
   map.only_keys(keys);  // refuses a key that is written twice
@@ -75,8 +68,7 @@ void apply_map(ConfigWithOrigin& config, const YamlValue& map) {
     if (value.is_map() && is_group(key)) {
       apply_map(config, value);
     } else {
-      assign(config, {map.file(), value.line(), key},
-             value.is_scalar() ? value.text() : value.describe_found(),
+      assign(config, {map.file(), value.line(), key}, value_text(value),
              fmt::format("{}:{}", std::filesystem::path(map.file()).filename().string(),
                          value.line()));
     }
@@ -96,7 +88,7 @@ void open_groups(std::string& text, std::string& open, const std::string& key) {
     const std::string prefix = group.substr(0, end);
     if (!prefix.empty() && !(open + ".").starts_with(prefix + ".")) {
       text += std::string(2 * depth(prefix), ' ') + prefix.substr(prefix.rfind('.') + 1) + ":";
-      for (const auto& [name, about] : table().groups) {
+      for (const auto& [name, about] : config_table().groups) {
         if (name == prefix) text += "  # " + about;
       }
       text += "\n";
@@ -127,7 +119,7 @@ void apply_setting(ConfigWithOrigin& config, const std::string& setting,
 
 std::string config_as_yaml(const ConfigWithOrigin& config, ConfigScope scope, bool comments) {
   std::string text, open;
-  for (const Parameter& parameter : table().parameters) {
+  for (const Parameter& parameter : config_table().parameters) {
     const auto origin = config.origin.find(parameter.key);
     if (scope == ConfigScope::kChanged && origin == config.origin.end()) continue;
     open_groups(text, open, parameter.key);
@@ -144,7 +136,7 @@ std::string config_as_yaml(const ConfigWithOrigin& config, ConfigScope scope, bo
 
 std::vector<std::pair<std::string, std::string>> config_values(const Config& config) {
   std::vector<std::pair<std::string, std::string>> values;
-  for (const Parameter& parameter : table().parameters) {
+  for (const Parameter& parameter : config_table().parameters) {
     values.emplace_back(parameter.key, parameter.get(config));
   }
   return values;

@@ -1,5 +1,5 @@
 // The configuration: how to track. It gathers the config structs of the modules; each struct owns
-// its defaults, and config.cpp holds the one table that gives its members names and ranges.
+// its defaults, and config_table.cpp holds the one table that gives its members names and ranges.
 //
 // Files are YAML and list only what differs:
 //   seed: 7
@@ -10,13 +10,17 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "observation/config.h"
 
 namespace walktrack {
 
 struct Config {
   uint64_t seed = 1;  // of all random numbers
   int threads = 0;    // 0 = all of the machine
+  ObservationConfig observation;
 };
 
 // A configuration and where each value that is no default came from.

@@ -6,12 +6,15 @@
 //   filter.number("ess_threshold", &FilterConfig::ess_threshold, 0, 1, "resample below this
 //   share"); filter.integer("particles", &FilterConfig::particles, 1, 10'000'000, "particles");
 //   filter.flag("smooth", &FilterConfig::smooth, "smooth the track afterwards");
+//   filter.list("sd", &FilterConfig::sd, 0, 1, "m, m, rad");        // [a, b, c]
 //   filter.choice("scheme", &FilterConfig::scheme, {{"systematic", Scheme::kSystematic}}, "…");
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -40,6 +43,11 @@ bool flag_from_text(const std::string& text, bool& value);
 std::string number_allowed(double lowest, double highest);
 std::string integer_allowed(int64_t lowest, int64_t highest);
 std::string number_text(double value);
+// "[a, b, c]" of `count` numbers, whole ones if asked for.
+bool list_in_range(const std::string& text, size_t count, bool whole, double lowest, double highest,
+                   std::vector<double>& values);
+std::string list_allowed(size_t count, bool whole, double lowest, double highest);
+std::string list_text(const std::vector<double>& values);
 
 // Adds the parameters of one struct, which sits in Config under a chain of members.
 template <typename Group>
@@ -77,6 +85,26 @@ class ParameterGroup {
           return true;
         },
         [=](const Group& group) { return std::to_string(group.*member); });
+  }
+
+  // A list of as many numbers as the array holds.
+  template <typename Number, size_t N>
+  void list(const std::string& name, std::array<Number, N> Group::*member, double lowest,
+            double highest, std::string comment) {
+    add(
+        name, list_allowed(N, std::is_integral_v<Number>, lowest, highest), std::move(comment),
+        [=](Group& group, const std::string& text) {
+          std::vector<double> values;
+          if (!list_in_range(text, N, std::is_integral_v<Number>, lowest, highest, values)) {
+            return false;
+          }
+          for (size_t i = 0; i < N; ++i) (group.*member)[i] = static_cast<Number>(values[i]);
+          return true;
+        },
+        [=](const Group& group) {
+          const auto& values = group.*member;
+          return list_text({values.begin(), values.end()});
+        });
   }
 
   void flag(const std::string& name, bool Group::*member, std::string comment) {

@@ -33,7 +33,8 @@ TEST(ConfigFile, NamesLineKeyFoundAndAllowed) {
               HasSubstr("c.yaml:2: threads: found '-1', allowed: a whole number from 0 to 4096"));
   EXPECT_THAT(message_for_file("\nthread: 1\n"),
               HasSubstr("c.yaml:2: thread: found an unknown key, did you mean 'threads'?"));
-  EXPECT_THAT(message_for_file("seed: [1]\n"), HasSubstr("c.yaml:1: seed: found 'a list'"));
+  EXPECT_THAT(message_for_file("seed: [1]\n"), HasSubstr("c.yaml:1: seed: found '[1]'"));
+  EXPECT_THAT(message_for_file("seed: {a: 1}\n"), HasSubstr("c.yaml:1: seed: found 'a map'"));
   EXPECT_THAT(message_for_file("seed: 1\nseed: 2\n"),
               HasSubstr("c.yaml:2: seed: found the key twice"));
   EXPECT_THAT(message_for_file("- 1\n"), HasSubstr("found a list, allowed: a map of keys"));
@@ -66,6 +67,35 @@ TEST(Config, DefaultsLieInTheirRanges) {
   }
 }
 
+TEST(Config, WritesThroughGroupsToTheMembers) {
+  const TemporaryFolder folder;
+  ConfigWithOrigin config;
+  apply_config_file(config, folder.write("c.yaml",
+                                         "observation:\n"
+                                         "  clip: 2.5\n"
+                                         "  flow: {enabled: false, step_px: 8}\n"
+                                         "  foreground:\n    classes: [0, 1, 1, 2, 0]\n"));
+  const ObservationConfig& observation = config.values.observation;
+  EXPECT_EQ(observation.clip, 2.5);
+  EXPECT_FALSE(observation.flow.enabled);
+  EXPECT_EQ(observation.flow.step_px, 8);
+  EXPECT_EQ(observation.foreground.classes, (std::array{0, 1, 1, 2, 0}));
+  EXPECT_EQ(config.origin.at("observation.flow.step_px"), "c.yaml:3");
+  EXPECT_EQ(config_as_yaml(config, ConfigScope::kChanged, false),
+            "observation:  # how images become likelihoods\n  clip: 2.5\n"
+            "  foreground:  # how the walker looks\n    classes: [0, 1, 1, 2, 0]\n"
+            "  flow:  # optical flow\n    enabled: false\n    step_px: 8\n");
+}
+
+TEST(ConfigFile, NamesKeysInsideGroups) {
+  EXPECT_THAT(message_for_file("observation:\n  flow:\n    step_pix: 3\n"),
+              HasSubstr("c.yaml:3: observation.flow.step_pix: found an unknown key, did you mean "
+                        "'observation.flow.step_px'?"));
+  EXPECT_THAT(message_for_file("observation: 3\n"), HasSubstr("observation: found an unknown key"));
+  EXPECT_THAT(message_for_file("observation: {foreground: {classes: [1, 2]}}\n"),
+              HasSubstr("found '[1, 2]', allowed: a list of 5 whole numbers from 0 to 4"));
+}
+
 TEST(Parameters, TextBecomesAValueOnlyWithinItsRange) {
   double number = -1;
   EXPECT_TRUE(number_in_range("2.5e-1", 0, 1, number));
@@ -82,6 +112,13 @@ TEST(Parameters, TextBecomesAValueOnlyWithinItsRange) {
   EXPECT_TRUE(flag_from_text("false", flag));
   EXPECT_FALSE(flag);
   EXPECT_FALSE(flag_from_text("no", flag));
+  std::vector<double> values;
+  EXPECT_TRUE(list_in_range("[1, 2.5]", 2, false, 0, 3, values));
+  EXPECT_EQ(values, (std::vector<double>{1, 2.5}));
+  for (const char* bad : {"[1, 2.5]", "[1]", "1, 2", "[1, 2,]", "[1, 4]", "[]", "[", ""}) {
+    values.clear();
+    EXPECT_FALSE(list_in_range(bad, 2, true, 0, 3, values)) << bad;
+  }
 }
 
 }  // namespace
