@@ -1,0 +1,91 @@
+#include "walker/limit_cycle.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace walktrack {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+SectionRows no_rows(Eigen::Index n) {
+  return [n](const VectorXd&) { return MatrixXd(0, n); };
+}
+
+// Henon's map x' = 1 - a x^2 + y, y' = b x: fixed point and multipliers in closed form.
+ReturnMap henon(double a, double b) {
+  return [=](const VectorXd& x) {
+    return std::optional<VectorXd>(Vector2d(1 - a * x(0) * x(0) + x(1), b * x(0)));
+  };
+}
+
+double henon_fixed_point(double a, double b) {
+  return (-(1 - b) + std::sqrt((1 - b) * (1 - b) + 4 * a)) / (2 * a);
+}
+
+TEST(LimitCycle, FindsUnstableFixedPointsAndTheirMultipliers) {
+  const double a = 1.4, b = 0.3, x = henon_fixed_point(a, b);
+  const auto cycle = find_limit_cycle(henon(a, b), no_rows(2), Vector2d(0.5, 0.3));
+  ASSERT_TRUE(cycle);
+  EXPECT_NEAR(cycle->point(0), x, 1e-12);
+  // lambda^2 + 2 a x lambda - b = 0
+  const double root = std::sqrt(a * a * x * x + b);
+  EXPECT_NEAR(cycle->multipliers(0).real(), -a * x - root, 1e-8);
+  EXPECT_NEAR(cycle->multipliers(1).real(), -a * x + root, 1e-8);
+  EXPECT_FALSE(cycle->is_stable());
+}
+
+// A curved section: the paraboloid z = x^2 + y^2, with the linear map diag(.5, -3) on it.
+TEST(LimitCycle, StaysOnACurvedSection) {
+  const ReturnMap map = [](const VectorXd& p) {
+    const double x = 0.2 + 0.5 * (p(0) - 0.2), y = 0.1 - 3 * (p(1) - 0.1);
+    return std::optional<VectorXd>(Vector3d(x, y, x * x + y * y));
+  };
+  const SectionRows rows = [](const VectorXd& p) {
+    MatrixXd row(1, 3);
+    row << 2 * p(0), 2 * p(1), -1;
+    return row;
+  };
+  const auto cycle = find_limit_cycle(map, rows, Vector3d(0.4, 0.3, 0.25));
+  ASSERT_TRUE(cycle);
+  EXPECT_LT((cycle->point - Vector3d(0.2, 0.1, 0.05)).norm(), 1e-12);
+  ASSERT_EQ(cycle->multipliers.size(), 2);
+  EXPECT_NEAR(cycle->multipliers(0).real(), -3, 1e-7);
+  EXPECT_NEAR(cycle->multipliers(1).real(), 0.5, 1e-7);
+}
+
+TEST(LimitCycle, ReportsWhenThereIsNone) {
+  const ReturnMap drift = [](const VectorXd& x) {
+    return std::optional<VectorXd>(x + VectorXd::Ones(1));
+  };
+  EXPECT_FALSE(find_limit_cycle(drift, no_rows(1), VectorXd::Zero(1)));
+  const ReturnMap nowhere = [](const VectorXd&) { return std::optional<VectorXd>(); };
+  EXPECT_FALSE(find_limit_cycle(nowhere, no_rows(1), VectorXd::Zero(1)));
+}
+
+TEST(LimitCycle, FollowsAFamilyAndStopsAtItsFold) {
+  const MapFamily family{[](double a) { return henon(a, 0.3); }, [](double) { return no_rows(2); }};
+  const double x = henon_fixed_point(0.2, 0.3);
+  const auto there = follow_limit_cycle(family, Vector2d(x, 0.3 * x), 0.2, 1.4);
+  ASSERT_TRUE(there);
+  EXPECT_NEAR(there->point(0), henon_fixed_point(1.4, 0.3), 1e-11);
+  // The fixed points meet at a = -(1 - b)^2 / 4 = -.1225.
+  EXPECT_FALSE(follow_limit_cycle(family, Vector2d(x, 0.3 * x), 0.2, -0.2));
+}
+
+TEST(LimitCycle, NullSpaceIsOrthonormal) {
+  MatrixXd rows(2, 4);
+  rows << 1, 2, 3, 4, 2, 4, 6, 8;  // rank one
+  const MatrixXd N = null_space(rows, 4);
+  EXPECT_EQ(N.cols(), 3);
+  EXPECT_LT((rows * N).norm(), 1e-13);
+  EXPECT_LT((N.transpose() * N - MatrixXd::Identity(3, 3)).norm(), 1e-14);
+  EXPECT_EQ(null_space(MatrixXd(0, 4), 4), MatrixXd::Identity(4, 4));
+}
+
+}  // namespace
+}  // namespace walktrack
