@@ -21,13 +21,16 @@ std::string lower_case_extension(const std::filesystem::path& path) {
 
 }  // namespace
 
-Camera read_calibration(const std::filesystem::path& path, const std::string&) {
+Camera read_calibration(const std::filesystem::path& path, const std::string& name) {
   const std::string extension = lower_case_extension(path);
+  const std::string file = path.string();
   if (extension == ".yaml" || extension == ".yml" || extension == ".json") {
-    return camera_from_opencv(read_text_file(path, kMostBytes), path.string());
+    return camera_from_opencv(read_text_file(path, kMostBytes), file);
   }
-  throw InputError(describe({path.string(), 0, ""}, "'" + extension + "' as calibration",
-                            ".yaml, .yml or .json (OpenCV)"));
+  if (extension == ".toml") return camera_from_toml(read_text_file(path, kMostBytes), file, name);
+  if (extension == ".xml") return camera_from_tsai(read_text_file(path, kMostBytes), file);
+  throw InputError(describe({file, 0, ""}, "'" + extension + "' as calibration",
+                            ".yaml .yml .json (OpenCV), .toml (Pose2Sim, Anipose), .xml (Tsai)"));
 }
 
 }  // namespace walktrack

@@ -4,13 +4,21 @@
 //   rotation (3x3 or Rodrigues vector) translation, and optionally fisheye; matrices as OpenCV
 //   writes them or as plain lists; other keys are ignored.
 //
+// Pose2Sim or Anipose (.toml): a table for each camera with name, size, matrix, distortions,
+//   rotation (Rodrigues), translation, fisheye; the camera is found by its name or its table's.
+//   Lengths are taken as metres, as Pose2Sim has them.
+// Tsai (.xml): <Camera> with Geometry, Intrinsic and Extrinsic, millimetres, as of the PETS data
+//   (Tsai, IEEE J. Robotics and Automation 3(4), 1987). Its distortion is turned into OpenCV's by a
+//   fit over the image.
+//
 // All readers throw InputError naming file, line where the format has lines, key, what was found
 // and what is allowed. A rotation may be rounded (kRotationTolerance) and is made exact.
 #pragma once
 
 #include <filesystem>
 #include <string>
-#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -24,8 +32,15 @@ Camera read_calibration(const std::filesystem::path& path, const std::string& na
 // One format each; `file` is what messages call it.
 Camera camera_from_opencv(const std::string& text, const std::string& file);
 
+Camera camera_from_toml(const std::string& text, const std::string& file, const std::string& name);
+Camera camera_from_tsai(const std::string& text, const std::string& file);
+
 // The OpenCV file of a camera; reading it back gives the same camera, bit for bit.
 std::string opencv_from_camera(const Camera& camera);
+
+// A Pose2Sim file of cameras. Reading it back gives the same cameras up to the rounding of the
+// rotation vector.
+std::string toml_from_cameras(const std::vector<std::pair<std::string, Camera>>& cameras);
 
 // How far R'R may be from the identity (largest entry) in a file with rounded digits.
 inline constexpr double kRotationTolerance = 1e-3;
