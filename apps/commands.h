@@ -6,5 +6,7 @@
 namespace walktrack {
 
 int run_config(const Arguments& arguments);
+int run_evaluate(const Arguments& arguments);
+int run_render(const Arguments& arguments);
 
 }  // namespace walktrack

@@ -20,6 +20,8 @@ namespace {
 
 constexpr std::array kCommands{
     Command{"config", "print the commented defaults or the effective configuration", run_config},
+    Command{"evaluate", "measure estimates against a truth", run_evaluate},
+    Command{"render", "render a motion as synthetic video with its truth", run_render},
 };
 
 void print_overview(std::FILE* to) {

@@ -1,0 +1,54 @@
+// walktrack evaluate: figures of estimates against a truth.
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "core/errors.h"
+#include "io/files.h"
+#include "jobs/evaluate.h"
+
+namespace walktrack {
+
+namespace po = boost::program_options;
+
+int run_evaluate(const Arguments& arguments) {
+  std::string truth, uncertainty;
+  std::vector<std::string> estimates;
+  double frame_rate = 0;
+  bool json = false, markdown = false;
+  CommandLine line(
+      {.name = "evaluate",
+       .operands = "TRUTH.csv ESTIMATE [ESTIMATE ...]",
+       .about =
+           "Compares estimates (joints.csv, or result folders of 'walktrack track') with a "
+           "truth: joints,\nfoot plants (stance,side,on_frame,off_frame,x_m), ground points "
+           "(t,x,y) or Pose2Sim key\npoints, told apart by the header. Prints a Markdown table.",
+       .example = "walktrack evaluate data/demo/truth.csv out"});
+  auto add = line.options().add_options();
+  add("uncertainty", po::value(&uncertainty)->value_name("FILE"),
+      "uncertainty.csv of the estimate; default: the one beside it");
+  add("frame-rate", po::value(&frame_rate)->value_name("HZ"),
+      "of a truth that counts frames; default: the estimate's");
+  add("json", po::bool_switch(&json), "print JSON");
+  add("markdown", po::bool_switch(&markdown), "print a Markdown table (the default)");
+  line.operand("TRUTH.csv", &truth);
+  line.operands("ESTIMATE", &estimates);
+  if (!line.parse(arguments)) return kDone;
+  if (json && markdown) throw UsageError("--json and --markdown exclude each other");
+  if (frame_rate < 0) throw UsageError("--frame-rate: allowed is a number above 0");
+  EvaluateJob job;
+  job.truth = truth;
+  job.estimates.assign(estimates.begin(), estimates.end());
+  if (!uncertainty.empty()) job.uncertainty = uncertainty;
+  if (frame_rate > 0) job.frame_rate = frame_rate;
+  const auto results = evaluate(job);
+  const std::string text = json ? as_json(truth, results) : as_markdown(truth, results);
+  if (line.common().output.empty()) {
+    fmt::print("{}", text);
+  } else {
+    refuse_existing(line.common().output, line.common().overwrite);
+    write_file_atomically(line.common().output, text);
+  }
+  return kDone;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,33 @@
+// The YAML file of `walktrack render --options`: strict, as scene.yaml is. Keys mirror
+// synth/render_options.h, angles are in degrees there:
+//   frame_rate: 30
+//   duration: 4
+//   setting: room                # room, field, studio
+//   light: {azimuth_deg: -60, elevation_deg: 50, sun: 0.55, ambient: 0.45, shadows: true}
+//   sensor: {exposure: 1, noise: 0.01, flicker: 0, blur_samples: 1, shutter: 0.5, jpeg_quality: 0}
+//   subject: {height: 1.75, mass: 70, clothes: 0, arms: true}
+//   cameras:
+//     - {name: side, azimuth_deg: -90, distance: 5, height: 1.2, size: [640, 480], focal_px: 600,
+//        distortion: [-0.1, 0.02]}
+//     - {name: lab, calibration: lab.yaml, frame_rate: 25, start_frame: 3, delay: 0.01}
+//   occluders: [{post: [x, y, radius, height]}, {box: [x0, y0, z0, x1, y1, z1]}]
+//   others: [{motion: other.csv, shift: [0, 1.5], turn_deg: 180, delay: 0.5, clothes: 2}]
+//   truth: {labels: false, flow: false, depth: false}
+#pragma once
+
+#include <filesystem>
+
+#include "synth/render_options.h"
+
+namespace walktrack {
+
+struct RenderFile {
+  RenderOptions options;
+  Walker subject;  // all but its motion
+};
+
+// Paths in it are relative to the file; motions of others are read. InputErrors name file, line and
+// key.
+RenderFile read_render_file(const std::filesystem::path& path);
+
+}  // namespace walktrack

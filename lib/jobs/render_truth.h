@@ -1,0 +1,29 @@
+// The tables and pictures of truth that accompany a rendered video.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "body/motion.h"
+#include "body/subject.h"
+#include "synth/view.h"
+
+namespace walktrack {
+
+// t, then the angles of kAngleNames (metrics/angle_error.h) in degrees; empty where a leg is
+// unknown.
+std::string angles_csv(const Motion& truth, const BodyLengths& lengths);
+
+// t,side,event with side l or r and event strike or toe_off: those of the whole motion that lie
+// within the truth's time.
+std::string events_csv(const Motion& whole, double duration);
+
+void write_labels(const std::filesystem::path& file, const Plane<uint8_t>& labels);
+
+// Middlebury .flo: "PIEH", width, height, then u, v as 32-bit floats, row by row; 1e10 = unknown.
+void write_flow(const std::filesystem::path& file, const Plane<Eigen::Vector2f>& flow);
+
+// Portable float map, one channel, little-endian, rows bottom-up; infinite = sky.
+void write_depth(const std::filesystem::path& file, const Plane<float>& depth);
+
+}  // namespace walktrack
