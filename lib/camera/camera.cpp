@@ -243,7 +243,7 @@ std::optional<Ray> unproject(const Camera& camera, const Vector2d& pixel) {
 
 std::optional<Vector3d> ground_point(const Camera& camera, const Vector2d& pixel) {
   const auto ray = unproject(camera, pixel);
-  if (!ray || ray->direction.z() == 0) return std::nullopt;
+  if (!ray || ray->direction.z() >= 0) return std::nullopt;
   const double distance = -ray->origin.z() / ray->direction.z();
   if (!(distance > 0)) return std::nullopt;
   return Vector3d(ray->origin + distance * ray->direction);

@@ -106,7 +106,8 @@ struct Ray {
 // The ray through a pixel; nullopt where the lens has none.
 std::optional<Ray> unproject(const Camera& camera, const Eigen::Vector2d& pixel);
 
-// Where a pixel's ray meets the ground z = 0; nullopt at or above the horizon.
+// Where a pixel's ray meets the ground z = 0; nullopt at or above the horizon and for a
+// camera that is not above the ground.
 std::optional<Eigen::Vector3d> ground_point(const Camera& camera, const Eigen::Vector2d& pixel);
 
 inline Eigen::Vector3d camera_centre(const Camera& camera) {
