@@ -14,10 +14,11 @@ constexpr int kMaxHastyTransfers = 8;      // in a row
 constexpr double kTimeTolerance = 1e-13;   // s, of a located event
 constexpr double kGuardTolerance = 1e-13;  // rad, m or N m: rounding of a guard
 
-// A point of the trajectory with the acceleration there.
+// A point of the trajectory with the acceleration and the swing foot there.
 struct Node {
   KneedState state;
   KneedAcceleration acceleration;
+  SwingFoot foot;
 };
 
 struct Motion {
@@ -27,6 +28,10 @@ struct Motion {
 
   KneedAcceleration at(const KneedState& state) const {
     return kneed_accelerations(model, controls, noise, state);
+  }
+
+  Node node(const KneedState& state) const {
+    return {state, at(state), kneed_swing_foot(model, state)};
   }
 
   // One RK4 step with the stops held as they are.
@@ -43,19 +48,17 @@ struct Motion {
     stage.q = s.q + h * v3;
     stage.qd = s.qd + h * a3;
     const Vector5 v4 = stage.qd, a4 = at(stage).qdd;
-    Node to{.state = s, .acceleration = {}};
-    to.state.q = s.q + h / 6 * (s.qd + 2 * (v2 + v3) + v4);
-    to.state.qd = s.qd + h / 6 * (a1 + 2 * (a2 + a3) + a4);
-    to.state.since_transfer += h;
-    to.acceleration = at(to.state);
-    return to;
+    stage.q = s.q + h / 6 * (s.qd + 2 * (v2 + v3) + v4);
+    stage.qd = s.qd + h / 6 * (a1 + 2 * (a2 + a3) + a4);
+    stage.since_transfer += h;
+    return node(stage);
   }
 };
 
 // Positive while all is well (a held stop's torque included); an event is the fall through zero.
 enum class Guard { kStanceKnee, kSwingKnee, kFootHeight, kFootBehind };
 
-double guard_value(const Motion& motion, Guard guard, const Node& node) {
+double guard_value(Guard guard, const Node& node) {
   const KneedState& s = node.state;
   switch (guard) {
     case Guard::kStanceKnee:
@@ -64,9 +67,9 @@ double guard_value(const Motion& motion, Guard guard, const Node& node) {
     case Guard::kSwingKnee:
       return s.swing_stop ? node.acceleration.stop_torque[1] : s.q[kSwingShank] - s.q[kSwingThigh];
     case Guard::kFootHeight:
-      return kneed_swing_foot(motion.model, s).height;
+      return node.foot.height;
     case Guard::kFootBehind:
-      return -kneed_swing_foot(motion.model, s).lead;
+      return -node.foot.lead;
   }
   return 0;
 }
@@ -76,7 +79,7 @@ double guard_value(const Motion& motion, Guard guard, const Node& node) {
 // and bisection while the guard still leaves zero itself.
 double locate(const Motion& motion, Guard guard, const Node& from, double begin, double end) {
   const auto value = [&](double t) {
-    return guard_value(motion, guard, t == 0 ? from : motion.step(from, t));
+    return guard_value(guard, t == 0 ? from : motion.step(from, t));
   };
   double low = begin, high = end, at_low = value(low), at_high = value(high);
   int low_stays = 0, high_stays = 0;
@@ -112,15 +115,14 @@ struct Incident {
 // A strike or stumble of the swing foot within a step of length h, if any.
 bool foot_incident(const Motion& motion, const Node& from, const Node& to, double h,
                    Incident& incident) {
-  const SwingFoot before = kneed_swing_foot(motion.model, from.state);
-  const SwingFoot after = kneed_swing_foot(motion.model, to.state);
+  const SwingFoot &before = from.foot, &after = to.foot;
   if (after.lead <= 0) return false;
   double ahead_since = 0;
   SwingFoot entry = before;
   if (before.lead <= 0) {
     if (std::min(before.height, after.height) > 0) return false;
     ahead_since = locate(motion, Guard::kFootBehind, from, 0, h);
-    entry = kneed_swing_foot(motion.model, motion.step(from, ahead_since).state);
+    entry = motion.step(from, ahead_since).foot;
   }
   if (entry.height < -kGuardTolerance) {
     incident = {ahead_since, entry.height_rate < 0 ? Outcome::kStrike : Outcome::kStumble};
@@ -136,7 +138,7 @@ bool first_incident(const Motion& motion, const Node& from, const Node& to, doub
                     Incident& first) {
   bool found = foot_incident(motion, from, to, h, first);
   for (const Guard knee : {Guard::kStanceKnee, Guard::kSwingKnee}) {
-    if (guard_value(motion, knee, to) >= -kGuardTolerance) continue;
+    if (guard_value(knee, to) >= -kGuardTolerance) continue;
     const double time = locate(motion, knee, from, 0, h);
     if (found && first.time <= time) continue;
     first = {time, Outcome::kStop};
@@ -161,13 +163,12 @@ bool has_fallen(const KneedModel& model, const KneedState& s, const KneedLimits&
 
 // Keeps the least local minimum of the swing foot's height: between falling and rising the height
 // is taken as a parabola.
-void note_clearance(const KneedModel& model, const KneedState& from, KneedState& to) {
-  const SwingFoot before = kneed_swing_foot(model, from), after = kneed_swing_foot(model, to);
-  if (before.height_rate >= 0 || after.height_rate <= 0) return;
-  const double h = to.since_transfer - from.since_transfer;
-  const double curvature = (after.height_rate - before.height_rate) / h;
-  const double least = before.height - 0.5 * before.height_rate * before.height_rate / curvature;
-  to.clearance = std::min(to.clearance, least);
+void note_clearance(const Node& from, Node& to) {
+  const double fall = from.foot.height_rate, rise = to.foot.height_rate;
+  if (fall >= 0 || rise <= 0) return;
+  const double h = to.state.since_transfer - from.state.since_transfer;
+  const double least = from.foot.height - 0.5 * fall * fall * h / (rise - fall);
+  to.state.clearance = std::min(to.state.clearance, least);
 }
 
 void transfer(const Motion& motion, KneedState& state, KneedAdvance& result) {
@@ -195,7 +196,7 @@ KneedAdvance kneed_advance(const KneedModel& model, const KneedControls& control
   KneedAdvance result;
   settle_knee_stops(model, controls, noise, state);
   const double step = kneed_step_size(model, controls, state, limits.max_step);
-  Node node{state, motion.at(state)};
+  Node node = motion.node(state);
   if (!is_finite(node) || !(step >= kMinStep)) {
     result.event = KneedEvent::kDiverged;
     return result;
@@ -215,7 +216,7 @@ KneedAdvance kneed_advance(const KneedModel& model, const KneedControls& control
       h = incident.time;
       next = motion.step(node, h);
     }
-    note_clearance(model, node.state, next.state);
+    note_clearance(node, next);
     node = next;
     result.elapsed = h == remaining ? duration : result.elapsed + h;
     if ((happens && incident.outcome == Outcome::kStumble) ||
@@ -229,7 +230,7 @@ KneedAdvance kneed_advance(const KneedModel& model, const KneedControls& control
       break;
     }
     settle_knee_stops(model, controls, noise, node.state);
-    node.acceleration = motion.at(node.state);
+    node = motion.node(node.state);
     if (++stop_events > kMaxStopEvents) {
       result.event = KneedEvent::kDiverged;
       break;

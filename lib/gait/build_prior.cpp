@@ -1,0 +1,263 @@
+#include "gait/build_prior.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel_for.h"
+
+namespace walktrack {
+namespace {
+
+// An optimal gait at 1.25 m/s and steps of 0.694 m of an adult, where the search sets out. It was
+// continued from a published cycle of the kneed walker (tests/walker/kneed_cycles.yaml).
+constexpr GaitTarget kSeedTarget{1.25 / 3.01593, 0.694 / 0.9275, 0};
+GaitVector seed_gait() {
+  GaitVector gait;
+  gait << 0.76039, 0.45542, 0.01827, 0.29539, 0.00979, 0.25560, 0.32594, 0.40867, 0.47755, -0.00860,
+      0.10199, 0.07870, 0.10622, -0.02314, -0.27179, 0.36442, -0.11100, 0.30459, 0.25379, 0.73905,
+      0.47850;
+  return gait;
+}
+
+struct Index {
+  size_t speed, ratio, slope;
+};
+
+size_t nearest(const std::vector<double>& axis, double value) {
+  size_t best = 0;
+  for (size_t i = 1; i < axis.size(); ++i)
+    if (std::abs(axis[i] - value) < std::abs(axis[best] - value)) best = i;
+  return best;
+}
+
+size_t distance(size_t a, size_t b) { return a > b ? a - b : b - a; }
+
+class Builder {
+ public:
+  explicit Builder(const PriorGrid& grid) : grid_(grid) {
+    prior_.speeds = grid.speeds;
+    prior_.ratios = grid.ratios;
+    prior_.slopes = grid.slopes;
+    const size_t size = grid.speeds.size() * grid.ratios.size() * grid.slopes.size();
+    prior_.nodes.resize(size);
+    solved_.assign(size, 0);
+    centre_ = {nearest(grid.speeds, kSeedTarget.speed), nearest(grid.ratios, 1),
+               nearest(grid.slopes, 0)};
+  }
+
+  const GaitPrior& prior() const { return prior_; }
+  size_t rings() const { return grid_.speeds.size() + grid_.ratios.size() + grid_.slopes.size(); }
+
+  size_t solve_ring(size_t ring, int threads) {
+    std::vector<Index> members;
+    for (size_t i = 0; i < grid_.speeds.size(); ++i)
+      for (size_t j = 0; j < grid_.ratios.size(); ++j)
+        for (size_t k = 0; k < grid_.slopes.size(); ++k)
+          if (from_centre({i, j, k}) == ring) members.push_back({i, j, k});
+    parallel_for(members.size(), threads, [&](size_t i) { solve(members[i]); });
+    return members.size();
+  }
+
+  // Nodes that have no cycle continue the line of the two next to them towards the preferred ratio,
+  // so that the table has no holes.
+  void fill() {
+    for (size_t i = 0; i < grid_.speeds.size(); ++i)
+      for (size_t k = 0; k < grid_.slopes.size(); ++k) {
+        for (size_t j = centre_.ratio; j-- > 0;) fill({i, j, k}, 1);
+        for (size_t j = centre_.ratio + 1; j < grid_.ratios.size(); ++j) fill({i, j, k}, -1);
+      }
+  }
+
+  // Every node once more, in two colours so that no node reads what another thread writes.
+  void sweep(int threads) {
+    for (const size_t colour : {0u, 1u}) {
+      std::vector<Index> members;
+      for (size_t i = 0; i < grid_.speeds.size(); ++i)
+        for (size_t j = 0; j < grid_.ratios.size(); ++j)
+          for (size_t k = 0; k < grid_.slopes.size(); ++k)
+            if ((i + j + k) % 2 == colour) members.push_back({i, j, k});
+      parallel_for(members.size(), threads, [&](size_t i) { resolve(members[i]); });
+    }
+  }
+
+ private:
+  size_t at(const Index& n) const {
+    return (n.speed * grid_.ratios.size() + n.ratio) * grid_.slopes.size() + n.slope;
+  }
+
+  size_t from_centre(const Index& n) const {
+    return distance(n.speed, centre_.speed) + distance(n.ratio, centre_.ratio) +
+           distance(n.slope, centre_.slope);
+  }
+
+  GaitTarget target(const Index& n) const {
+    const double speed = grid_.speeds[n.speed];
+    return {speed, grid_.ratios[n.ratio] * preferred_step_length(speed), grid_.slopes[n.slope]};
+  }
+
+  // Neighbours one step nearer to the centre.
+  std::vector<Index> parents(const Index& n) const {
+    std::vector<Index> result;
+    const auto towards = [](size_t a, size_t b) { return a > b ? a - 1 : a + 1; };
+    if (n.slope != centre_.slope)
+      result.push_back({n.speed, n.ratio, towards(n.slope, centre_.slope)});
+    if (n.ratio != centre_.ratio)
+      result.push_back({n.speed, towards(n.ratio, centre_.ratio), n.slope});
+    if (n.speed != centre_.speed)
+      result.push_back({towards(n.speed, centre_.speed), n.ratio, n.slope});
+    return result;
+  }
+
+  std::optional<GaitVector> first_guess(const Index& n) const {
+    const GaitTarget to = target(n);
+    if (from_centre(n) == 0) return continue_cycle(seed_gait(), kSeedTarget, to);
+    for (const Index& parent : parents(n)) {
+      if (!solved_[at(parent)]) continue;
+      const auto guess = continue_cycle(prior_.nodes[at(parent)].gait, target(parent), to);
+      if (guess) return guess;
+    }
+    return std::nullopt;
+  }
+
+  void fill(const Index& n, int inwards) {
+    if (solved_[at(n)]) return;
+    const auto inner = [&](int by) {
+      return prior_.node(n.speed, n.ratio + static_cast<size_t>(by * inwards), n.slope);
+    };
+    const bool has_two = inwards > 0 ? n.ratio + 2 < grid_.ratios.size() : n.ratio >= 2;
+    GaitNode& node = prior_.nodes[at(n)];
+    node = inner(1);
+    if (has_two) node.gait += node.gait - inner(2).gait;
+    node.cyclic = node.valid = false;
+  }
+
+  void solve(const Index& n) {
+    const auto guess = first_guess(n);
+    if (!guess) return;
+    const GaitTarget to = target(n);
+    GaitSearch search = grid_.search;
+    search.centre = *guess;
+    const GaitVector best = optimal_gait(*guess, to, grid_.objective, search);
+    prior_.nodes[at(n)] = measured_node(best, to, grid_.effort);
+    solved_[at(n)] = 1;
+  }
+
+  std::vector<Index> solved_neighbours(const Index& n) const {
+    std::vector<Index> result;
+    const auto add = [&](Index m, size_t Index::*axis, size_t size, int step) {
+      if ((step < 0 && m.*axis == 0) || (step > 0 && m.*axis + 1 == size)) return;
+      m.*axis = step < 0 ? m.*axis - 1 : m.*axis + 1;
+      if (solved_[at(m)]) result.push_back(m);
+    };
+    for (const int step : {-1, 1}) {
+      add(n, &Index::slope, grid_.slopes.size(), step);
+      add(n, &Index::ratio, grid_.ratios.size(), step);
+      add(n, &Index::speed, grid_.speeds.size(), step);
+    }
+    return result;
+  }
+
+  // The mean of opposite neighbours, which is where a smooth table would put the node; its own gait
+  // where there are none.
+  GaitVector smooth_centre(const Index& n) const {
+    GaitVector sum = GaitVector::Zero();
+    double count = 0;
+    const auto add = [&](size_t Index::*axis, size_t size) {
+      if (n.*axis == 0 || n.*axis + 1 >= size) return;
+      Index below = n, above = n;
+      --(below.*axis);
+      ++(above.*axis);
+      if (!solved_[at(below)] || !solved_[at(above)]) return;
+      sum += 0.5 * (prior_.nodes[at(below)].gait + prior_.nodes[at(above)].gait);
+      count += 1;
+    };
+    add(&Index::speed, grid_.speeds.size());
+    add(&Index::ratio, grid_.ratios.size());
+    add(&Index::slope, grid_.slopes.size());
+    if (count > 0) return sum / count;
+    const auto neighbours = solved_neighbours(n);
+    if (solved_[at(n)] || neighbours.empty()) return prior_.nodes[at(n)].gait;
+    return prior_.nodes[at(neighbours.front())].gait;
+  }
+
+  void resolve(const Index& n) {
+    const GaitTarget to = target(n);
+    const KneedModel model = unit_model(to);
+    GaitSearch search = grid_.search;
+    search.rounds = kSweepRounds;
+    search.attraction = grid_.attraction;
+    search.centre = smooth_centre(n);
+    const auto value = [&](const GaitVector& gait) {
+      return objective_value(model, grid_.objective, gait) +
+             search.attraction * (gait - search.centre).squaredNorm();
+    };
+    std::optional<GaitVector> best;
+    double least = kUnwalkable;
+    const auto consider = [&](const std::optional<GaitVector>& guess) {
+      if (!guess) return;
+      const double cost = value(*guess);
+      if (cost >= least) return;
+      least = cost;
+      best = guess;
+    };
+    if (solved_[at(n)]) consider(prior_.nodes[at(n)].gait);
+    consider(find_cycle(model, search.centre, to));
+    for (const Index& m : solved_neighbours(n))
+      consider(continue_cycle(prior_.nodes[at(m)].gait, target(m), to));
+    if (!best) return;
+    const GaitVector gait = optimal_gait(*best, to, grid_.objective, search);
+    prior_.nodes[at(n)] = measured_node(gait, to, grid_.effort);
+    solved_[at(n)] = 1;
+  }
+
+  static constexpr int kSweepRounds = 2;
+  const PriorGrid& grid_;
+  GaitPrior prior_;
+  std::vector<char> solved_;
+  Index centre_{};
+};
+
+}  // namespace
+
+GaitNode measured_node(const GaitVector& cycle, const GaitTarget& target, double effort) {
+  const KneedModel model = unit_model(target);
+  GaitNode node;
+  node.gait = cycle;
+  const auto step = step_of(model, cycle);
+  const auto jacobian = cycle_jacobian(model, cycle);
+  if (!step || !jacobian) return node;
+  const StepMeasures& m = step->measures;
+  node.gain = feedback_gain(*jacobian, effort);
+  node.cost_of_transport = cost_of_transport(cycle, *step);
+  node.clearance = m.clearance;
+  node.swing_flexion = m.swing_flexion;
+  node.stance_flexion = m.stance_flexion;
+  node.multiplier = multipliers(step_matrix(*jacobian))[0];
+  const ValidGait limits;
+  node.cyclic = cycle_residual(cycle, *step, target).norm() < 1e-6;
+  node.valid = node.cyclic && m.clearance >= limits.least_clearance &&
+               m.swing_flexion >= limits.least_swing_flexion &&
+               m.swing_flexion <= limits.most_swing_flexion &&
+               m.stance_flexion <= limits.most_stance_flexion;
+  return node;
+}
+
+GaitPrior build_gait_prior(const PriorGrid& grid, int threads,
+                           const std::function<void(const GaitPrior&, size_t)>& progress) {
+  Builder builder(grid);
+  size_t done = 0;
+  for (size_t ring = 0; ring < builder.rings(); ++ring) {
+    const size_t members = builder.solve_ring(ring, threads);
+    if (members == 0) break;
+    done += members;
+    progress(builder.prior(), done);
+  }
+  for (int i = 0; i < grid.sweeps; ++i) {
+    builder.sweep(threads);
+    progress(builder.prior(), done);
+  }
+  builder.fill();
+  return builder.prior();
+}
+
+}  // namespace walktrack

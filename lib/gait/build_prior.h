@@ -1,0 +1,40 @@
+// Builds the gait prior: from one gait outwards over the grid, each node continued from its solved
+// neighbours and then optimised. Units L = M = g = 1.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "gait/gait_prior.h"
+#include "gait/optimal_gait.h"
+
+namespace walktrack {
+
+struct PriorGrid {
+  // 0.5 ... 2.2 m/s for a leg of 0.93 m, -8 ... 8 %.
+  std::vector<double> speeds = {0.165, 0.2355, 0.306, 0.3765, 0.447, 0.5175, 0.588, 0.6585, 0.729};
+  std::vector<double> ratios = {0.7, 0.8, 0.9, 1, 1.1, 1.2, 1.3};
+  std::vector<double> slopes = {0};
+  GaitObjective objective;
+  GaitSearch search;
+  int sweeps = 2;           // over all nodes, each tried again from all its neighbours
+  double attraction = 0.3;  // of a node to its neighbours' mean in the sweeps
+  double effort = 1;        // of the feedback, see feedback.h
+};
+
+// What people keep and the issue asks of a valid node.
+struct ValidGait {
+  double least_clearance = 0.01 / 0.9275;  // leg lengths: 1 cm
+  double least_swing_flexion = 0.785;      // rad, 45 deg
+  double most_swing_flexion = 1.309;       // rad, 75 deg
+  double most_stance_flexion = 0.436;      // rad, 25 deg
+};
+
+// Measures, multipliers, feedback and validity of a cycle.
+GaitNode measured_node(const GaitVector& cycle, const GaitTarget& target, double effort);
+
+// `progress` is called after every ring and sweep with the nodes done.
+GaitPrior build_gait_prior(const PriorGrid& grid, int threads,
+                           const std::function<void(const GaitPrior&, size_t done)>& progress);
+
+}  // namespace walktrack

@@ -1,0 +1,55 @@
+// Cyclic gaits: controls and a state after transfer that one step maps onto itself at a wanted
+// speed and step length. Units L = M = g = 1 (walker_units.h).
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "gait/step_map.h"
+
+namespace walktrack {
+
+inline constexpr int kGaitSize = kControlSize + kSectionSize;
+inline constexpr int kResidualSize = kSectionSize + 2;
+// Controls, then section.
+using GaitVector = Eigen::Matrix<double, kGaitSize, 1>;
+// Section after a step minus section before; advance - step length; period - step length / speed.
+using CycleResidual = Eigen::Matrix<double, kResidualSize, 1>;
+using CycleJacobian = Eigen::Matrix<double, kResidualSize, kGaitSize>;
+using SectionMatrix = Eigen::Matrix<double, kSectionSize, kSectionSize>;
+
+struct GaitTarget {
+  double speed = 0;        // body's advance per time
+  double step_length = 0;  // body's advance per step
+  double slope = 0;        // rad, positive downhill
+};
+
+// One step of a gait vector; nullopt where it cannot start, does not end in a transfer, or ends off
+// the section (the swing knee not yet straight at the strike).
+std::optional<WalkedStep> step_of(const KneedModel& model, const GaitVector& gait);
+
+CycleResidual cycle_residual(const GaitVector& gait, const WalkedStep& step,
+                             const GaitTarget& target);
+
+// Central differences of the residual (which does not depend on the target).
+std::optional<CycleJacobian> cycle_jacobian(const KneedModel& model, const GaitVector& gait);
+
+// Minimum-norm Gauss-Newton from `guess` to the exact cycle (residual below 1e-9); nullopt where it
+// does not get there.
+std::optional<GaitVector> find_cycle(const KneedModel& model, const GaitVector& guess,
+                                     const GaitTarget& target);
+
+// The unit walker (walker_units.h) on the target's slope; the model of all functions here.
+KneedModel unit_model(const GaitTarget& target);
+
+// Along the straight line between two targets in as few steps as the Newton iteration bears.
+std::optional<GaitVector> continue_cycle(const GaitVector& gait, const GaitTarget& from,
+                                         const GaitTarget& to);
+
+// Derivative of the section after a step by the section before it, from a cycle's Jacobian.
+SectionMatrix step_matrix(const CycleJacobian& jacobian);
+
+// Absolute values of its eigenvalues (the Floquet multipliers), largest first.
+SectionVector multipliers(const SectionMatrix& step_matrix);
+
+}  // namespace walktrack

@@ -1,0 +1,21 @@
+// A stabilising feedback at support transfer: the next step's controls from the state after the
+// strike. It is the steady linear-quadratic regulator of the step map linearised at a cycle,
+//   end' = A section' + B controls',   (advance, period)' = C section' + D controls',
+// that minimises the sum over steps of |end'|^2 + |(advance, period)'|^2 + effort |controls'|^2,
+// all in units L = M = g = 1 and in the control vector's square roots.
+#pragma once
+
+#include "gait/cycle.h"
+
+namespace walktrack {
+
+using FeedbackGain = Eigen::Matrix<double, kControlSize, kSectionSize>;
+
+// controls' = -gain * section'. Iterates the Riccati difference equation to its fixed point; the
+// step map of a cycle is stabilisable wherever a step can be changed at all.
+FeedbackGain feedback_gain(const CycleJacobian& jacobian, double effort);
+
+// A - B gain: how deviations go on with the feedback.
+SectionMatrix closed_loop(const CycleJacobian& jacobian, const FeedbackGain& gain);
+
+}  // namespace walktrack

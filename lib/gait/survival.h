@@ -1,0 +1,29 @@
+// How long sampled walkers keep walking: the width of a gait's basin under noise.
+#pragma once
+
+#include <vector>
+
+#include "gait/gait_prior.h"
+
+namespace walktrack {
+
+struct SurvivalTrial {
+  double speed = 1.3;      // m/s
+  double step_length = 0;  // m; 0 takes the one that people prefer at the speed
+  GaitNoise noise;
+  double feedback = 1;            // strength, 0 switches it off
+  double torque_step = 1.0 / 30;  // s for which a torque is held
+  size_t walkers = 1000;
+  uint64_t seed = 1;
+};
+
+// Share of walkers alive after each of the times (s, ascending), from uniformly distributed phases.
+std::vector<double> survival(const GaitPrior& prior, const KneedParameters& parameters,
+                             const SurvivalTrial& trial, const std::vector<double>& times,
+                             int threads);
+
+// When one walker fell, s, or `longest`.
+double walking_time(const KneedModel& model, const PriorGait& gait, const SurvivalTrial& trial,
+                    uint32_t walker, double longest);
+
+}  // namespace walktrack

@@ -1,0 +1,38 @@
+// The walker of an average adult and the units that make gaits of all bodies one: lengths by the
+// leg length L (hip to sole), times by sqrt(L/g), masses by the body mass M, hence torques by M g L
+// and impulses by M sqrt(g L).
+//
+// Segments: Winter, "Biomechanics and Motor Control of Human Movement", 4th ed. 2009, table 4.1 and
+// fig. 4.1 (head, arms and trunk as one; shank and foot as one). The rolling foot (arc radius 0.3
+// L, centre 5 cm ahead of the shank at a stature of 1.75 m) is ours; McGeer found 0.3 as well.
+#pragma once
+
+#include "walker/kneed_walker.h"
+
+namespace walktrack {
+
+struct WalkerUnits {
+  double length = 1;   // m
+  double mass = 1;     // kg
+  double gravity = 1;  // m/s^2
+
+  double time() const;     // s
+  double speed() const;    // m/s
+  double torque() const;   // N m
+  double impulse() const;  // N s
+};
+
+// Average adult of a stature (m) and mass (kg) on a slope (rad, positive downhill).
+KneedParameters adult_walker(double height, double mass, double slope = 0);
+
+// The same proportions with L = M = g = 1.
+KneedParameters unit_walker(double slope = 0);
+
+// Units of any walker: L is the standing hip height.
+WalkerUnits walker_units(const KneedParameters& parameters);
+
+// Controls and states between units: from `from`, to `to`.
+KneedControls scaled(const KneedControls& controls, const WalkerUnits& from, const WalkerUnits& to);
+KneedState scaled(const KneedState& state, const WalkerUnits& from, const WalkerUnits& to);
+
+}  // namespace walktrack

@@ -1,0 +1,155 @@
+#include "gait/gait_prior.h"
+
+#include <gtest/gtest.h>
+
+#include "gait/build_prior.h"
+
+namespace walktrack {
+namespace {
+
+class ShippedPrior : public testing::Test {
+ protected:
+  GaitPrior prior = load_gait_prior();
+  KneedParameters adult = adult_walker(1.75, 70);
+  KneedModel model = kneed_model(adult);
+
+  // Steps of an interpolated gait without noise, up to `most`.
+  struct Walk {
+    int steps = 0;
+    double speed = 0, step_length = 0;
+  };
+  Walk walk(const PriorGait& gait, double feedback, int most) const {
+    KneedState state = gait.start;
+    double time = 0;
+    Walk result;
+    while (result.steps < most) {
+      const auto run =
+          kneed_advance(model, next_controls(gait, state, feedback), Vector5::Zero(), state, 3);
+      if (run.event != KneedEvent::kTransfer) break;
+      time += run.elapsed;
+      ++result.steps;
+    }
+    if (result.steps == 0) return result;
+    result.speed = state.contact_x / time;
+    result.step_length = state.contact_x / result.steps;
+    return result;
+  }
+};
+
+TEST_F(ShippedPrior, ValidNodesAreCyclesWithinTheirLimits) {
+  size_t valid = 0, stable = 0;
+  for (size_t i = 0; i < prior.speeds.size(); ++i)
+    for (size_t j = 0; j < prior.ratios.size(); ++j)
+      for (size_t k = 0; k < prior.slopes.size(); ++k) {
+        const GaitNode& node = prior.node(i, j, k);
+        if (!node.valid) continue;
+        ++valid;
+        stable += node.multiplier < 0.95;
+        const GaitTarget target{prior.speeds[i],
+                                prior.ratios[j] * preferred_step_length(prior.speeds[i]),
+                                prior.slopes[k]};
+        const auto step = step_of(unit_model(target), node.gait);
+        ASSERT_TRUE(step);
+        EXPECT_LT(cycle_residual(node.gait, *step, target).norm(), 1e-6);
+        EXPECT_GE(step->measures.clearance, 0.0107);
+        EXPECT_GE(step->measures.swing_flexion, 0.785);
+        EXPECT_LE(step->measures.stance_flexion, 0.437);
+      }
+  EXPECT_GE(valid, prior.nodes.size() * 7 / 10);
+  EXPECT_GE(stable, valid * 8 / 10);
+}
+
+TEST_F(ShippedPrior, InterpolatedGaitsWalkAtWhatWasAsked) {
+  for (const double speed : {0.8, 1.0, 1.17, 1.33, 1.58, 1.83})
+    for (const double share : {0.98, 1.05, 1.13}) {
+      const double length = 0.9275 * share * preferred_step_length(speed / 3.016);
+      const PriorGait gait = gait_at(prior, adult, speed, length);
+      EXPECT_NEAR(gait.speed, speed, 1e-12);
+      EXPECT_NEAR(gait.step_length, length, 1e-12);
+      const Walk w = walk(gait, 1, 30);
+      EXPECT_EQ(w.steps, 30) << speed << " m/s, " << length << " m";
+      // Between the nodes a gait is a little off; the tracker follows its own state anyway.
+      EXPECT_NEAR(w.speed, speed, 0.2 * speed) << length;
+      EXPECT_NEAR(w.step_length, length, 0.2 * length) << speed;
+    }
+}
+
+// A slow walker with short quick steps and a woman with long slow ones.
+TEST_F(ShippedPrior, HoldsUnusualWalkers) {
+  const PriorGait quick = gait_at(prior, adult, 0.66, 0.40);
+  EXPECT_NEAR(quick.period, 0.40 / 0.66, 1e-9);
+  const KneedParameters woman = adult_walker(1.65, 60);
+  const PriorGait slow = gait_at(prior, woman, 1.155, 0.727);
+  EXPECT_NEAR(slow.period, 0.727 / 1.155, 1e-9);
+}
+
+TEST_F(ShippedPrior, RequestsOutsideAreMovedToTheBorder) {
+  const PriorGait fast = gait_at(prior, adult, 9, 0.7), still = gait_at(prior, adult, 0, 0);
+  EXPECT_LT(fast.speed, 2.5);
+  EXPECT_GT(still.speed, 0.4);
+  EXPECT_GT(still.step_length, 0.2);
+  EXPECT_TRUE(fast.start.q.allFinite() && still.start.q.allFinite());
+}
+
+TEST_F(ShippedPrior, PhaseRunsFromTransferToTransfer) {
+  const PriorGait gait = gait_at(prior, adult, 1.25, 0.7);
+  EXPECT_EQ(state_at_phase(model, gait, 0).q, gait.start.q);
+  const KneedState middle = state_at_phase(model, gait, 0.5);
+  EXPECT_NEAR(middle.since_transfer, 0.5 * gait.period, 1e-9);
+  EXPECT_GT(kneed_swing_foot(model, middle).height, 0);
+}
+
+TEST_F(ShippedPrior, FeedbackIsOffAtStrengthZeroAndAtTheGaitItself) {
+  const PriorGait gait = gait_at(prior, adult, 1.25, 0.7);
+  KneedState off = gait.start;
+  off.qd[kStanceThigh] += 0.3;
+  EXPECT_EQ(next_controls(gait, off, 0).hip.stiffness, gait.controls.hip.stiffness);
+  EXPECT_NEAR(next_controls(gait, gait.start).toe_off_impulse, gait.controls.toe_off_impulse, 1e-9);
+  EXPECT_GT(std::abs(next_controls(gait, off).toe_off_impulse - gait.controls.toe_off_impulse),
+            1e-3);
+}
+
+TEST_F(ShippedPrior, DrawsKeepTheirMeanAndSpreadAndNeverTurnNegative) {
+  const PriorGait gait = gait_at(prior, adult, 1.25, 0.7);
+  const GaitNoise noise;
+  double sum = 0, square = 0;
+  constexpr int kDraws = 4000;
+  for (uint32_t i = 0; i < kDraws; ++i) {
+    Rng rng(5, Purpose::kTest, 0, i);
+    const double r =
+        draw_controls(rng, gait.controls, noise).hip.stiffness / gait.controls.hip.stiffness - 1;
+    sum += r;
+    square += r * r;
+    Rng wild(5, Purpose::kTest, 1, i);
+    const KneedControls c = draw_controls(wild, gait.controls, {.relative = 3, .rest = 1});
+    ASSERT_GE(std::min({c.torso.stiffness, c.hip.stiffness, c.stance_knee.stiffness,
+                        c.swing_knee.stiffness, c.torso.damping, c.hip.damping,
+                        c.stance_knee.damping, c.swing_knee.damping, c.toe_off_impulse}),
+              0);
+  }
+  // 5 sigma of the mean; truncation at 3 sd lowers the spread by 1.3 %.
+  EXPECT_NEAR(sum / kDraws, 0, 5 * noise.relative / std::sqrt(kDraws));
+  EXPECT_NEAR(std::sqrt(square / kDraws), noise.relative, 0.08 * noise.relative);
+}
+
+TEST_F(ShippedPrior, TorqueNoiseDiffusesAlikeAtAnyFrameRate) {
+  const auto spread = [&](double duration) {
+    double square = 0;
+    for (uint32_t i = 0; i < 2000; ++i) {
+      Rng rng(6, Purpose::kTest, 0, i);
+      const double torque = draw_torques(rng, walker_units(adult), {}, duration)[kSwingShank];
+      square += torque * torque;
+    }
+    return std::sqrt(square / 2000);
+  };
+  EXPECT_NEAR(spread(1.0 / 120) / spread(1.0 / 30), 2, 1e-9);  // the same draws
+  Rng rng(6, Purpose::kTest);
+  EXPECT_EQ(draw_torques(rng, walker_units(adult), {.torque = 0}, 0.1), Vector5::Zero());
+}
+
+TEST(MeasuredNode, BrokenGaitIsInvalid) {
+  EXPECT_FALSE(measured_node(GaitVector::Zero(), {0.4, 0.7}, 1).valid);
+}
+
+}  // namespace
+}  // namespace walktrack
