@@ -34,7 +34,7 @@ size_t distance(size_t a, size_t b) { return a > b ? a - b : b - a; }
 
 class Builder {
  public:
-  explicit Builder(const PriorGrid& grid) : grid_(grid) {
+  Builder(const PriorGrid& grid, const GaitPrior& earlier) : grid_(grid) {
     prior_.speeds = grid.speeds;
     prior_.ratios = grid.ratios;
     prior_.slopes = grid.slopes;
@@ -43,6 +43,7 @@ class Builder {
     solved_.assign(size, 0);
     centre_ = {nearest(grid.speeds, kSeedTarget.speed), nearest(grid.ratios, 1),
                nearest(grid.slopes, 0)};
+    for_each_node([&](const Index& n) { adopt(n, earlier); });
   }
 
   const GaitPrior& prior() const { return prior_; }
@@ -50,10 +51,9 @@ class Builder {
 
   size_t solve_ring(size_t ring, int threads) {
     std::vector<Index> members;
-    for (size_t i = 0; i < grid_.speeds.size(); ++i)
-      for (size_t j = 0; j < grid_.ratios.size(); ++j)
-        for (size_t k = 0; k < grid_.slopes.size(); ++k)
-          if (from_centre({i, j, k}) == ring) members.push_back({i, j, k});
+    for_each_node([&](const Index& n) {
+      if (from_centre(n) == ring) members.push_back(n);
+    });
     parallel_for(members.size(), threads, [&](size_t i) { solve(members[i]); });
     return members.size();
   }
@@ -72,15 +72,39 @@ class Builder {
   void sweep(int threads) {
     for (const size_t colour : {0u, 1u}) {
       std::vector<Index> members;
-      for (size_t i = 0; i < grid_.speeds.size(); ++i)
-        for (size_t j = 0; j < grid_.ratios.size(); ++j)
-          for (size_t k = 0; k < grid_.slopes.size(); ++k)
-            if ((i + j + k) % 2 == colour) members.push_back({i, j, k});
+      for_each_node([&](const Index& n) {
+        if ((n.speed + n.ratio + n.slope) % 2 == colour) members.push_back(n);
+      });
       parallel_for(members.size(), threads, [&](size_t i) { resolve(members[i]); });
     }
   }
 
  private:
+  template <typename F>
+  void for_each_node(const F& f) const {
+    for (size_t i = 0; i < grid_.speeds.size(); ++i)
+      for (size_t j = 0; j < grid_.ratios.size(); ++j)
+        for (size_t k = 0; k < grid_.slopes.size(); ++k) f(Index{i, j, k});
+  }
+
+  void adopt(const Index& n, const GaitPrior& earlier) {
+    const auto place = [](const std::vector<double>& axis, double value) {
+      size_t i = 0;
+      while (i < axis.size() && std::abs(axis[i] - value) > 1e-9) ++i;
+      return i;
+    };
+    const Index m{place(earlier.speeds, grid_.speeds[n.speed]),
+                  place(earlier.ratios, grid_.ratios[n.ratio]),
+                  place(earlier.slopes, grid_.slopes[n.slope])};
+    if (m.speed == earlier.speeds.size() || m.ratio == earlier.ratios.size() ||
+        m.slope == earlier.slopes.size())
+      return;
+    const GaitNode& node = earlier.node(m.speed, m.ratio, m.slope);
+    if (!node.cyclic) return;
+    prior_.nodes[at(n)] = node;
+    solved_[at(n)] = 1;
+  }
+
   size_t at(const Index& n) const {
     return (n.speed * grid_.ratios.size() + n.ratio) * grid_.slopes.size() + n.slope;
   }
@@ -132,6 +156,7 @@ class Builder {
   }
 
   void solve(const Index& n) {
+    if (solved_[at(n)]) return;
     const auto guess = first_guess(n);
     if (!guess) return;
     const GaitTarget to = target(n);
@@ -242,19 +267,17 @@ GaitNode measured_node(const GaitVector& cycle, const GaitTarget& target, double
   return node;
 }
 
-GaitPrior build_gait_prior(const PriorGrid& grid, int threads,
-                           const std::function<void(const GaitPrior&, size_t)>& progress) {
-  Builder builder(grid);
-  size_t done = 0;
+GaitPrior build_gait_prior(const PriorGrid& grid, const GaitPrior& earlier, int threads,
+                           const PriorProgress& progress) {
+  Builder builder(grid, earlier);
+  size_t tried = 0;
   for (size_t ring = 0; ring < builder.rings(); ++ring) {
-    const size_t members = builder.solve_ring(ring, threads);
-    if (members == 0) break;
-    done += members;
-    progress(builder.prior(), done);
+    tried += builder.solve_ring(ring, threads);
+    progress(builder.prior(), tried);
   }
   for (int i = 0; i < grid.sweeps; ++i) {
     builder.sweep(threads);
-    progress(builder.prior(), done);
+    progress(builder.prior(), tried);
   }
   builder.fill();
   return builder.prior();

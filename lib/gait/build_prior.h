@@ -33,8 +33,12 @@ struct ValidGait {
 // Measures, multipliers, feedback and validity of a cycle.
 GaitNode measured_node(const GaitVector& cycle, const GaitTarget& target, double effort);
 
-// `progress` is called after every ring and sweep with the nodes done.
-GaitPrior build_gait_prior(const PriorGrid& grid, int threads,
-                           const std::function<void(const GaitPrior&, size_t done)>& progress);
+// Cycles of `earlier` (an unfinished or smaller table) that stand on nodes of the grid are kept,
+// and only the others are searched. `progress` is called after every ring and sweep with the table
+// so far, which is a valid `earlier`, and the number of nodes that have been tried. The result does
+// not depend on the number of threads.
+using PriorProgress = std::function<void(const GaitPrior&, size_t tried)>;
+GaitPrior build_gait_prior(const PriorGrid& grid, const GaitPrior& earlier, int threads,
+                           const PriorProgress& progress);
 
 }  // namespace walktrack

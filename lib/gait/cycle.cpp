@@ -40,10 +40,11 @@ std::optional<Trial> improved(const KneedModel& model, const Trial& from, const 
 
 }  // namespace
 
-std::optional<WalkedStep> step_of(const KneedModel& model, const GaitVector& gait) {
+std::optional<WalkedStep> step_of(const KneedModel& model, const GaitVector& gait,
+                                  double max_step) {
   const auto start = state_from(model, gait.tail<kSectionSize>());
   if (!start) return std::nullopt;
-  auto step = walk_step(model, controls_from(gait.head<kControlSize>()), *start);
+  auto step = walk_step(model, controls_from(gait.head<kControlSize>()), *start, max_step);
   if (step && step->knee_gap > kKneeStraight) return std::nullopt;
   return step;
 }

@@ -26,7 +26,8 @@ struct GaitTarget {
 
 // One step of a gait vector; nullopt where it cannot start, does not end in a transfer, or ends off
 // the section (the swing knee not yet straight at the strike).
-std::optional<WalkedStep> step_of(const KneedModel& model, const GaitVector& gait);
+std::optional<WalkedStep> step_of(const KneedModel& model, const GaitVector& gait,
+                                  double max_step = kFineStep);
 
 CycleResidual cycle_residual(const GaitVector& gait, const WalkedStep& step,
                              const GaitTarget& target);

@@ -27,7 +27,7 @@ std::optional<SectionMatrix> cheap_step_matrix(const KneedModel& model, const Ga
   for (int i = 0; i < kSectionSize; ++i) {
     GaitVector shifted = gait;
     shifted[kControlSize + i] += kDifference;
-    const auto other = step_of(model, shifted);
+    const auto other = step_of(model, shifted, kCoarseStep);
     if (!other) return std::nullopt;
     matrix.col(i) = (other->end - step.end) / kDifference;
   }
@@ -66,7 +66,7 @@ class TangentPlane {
   std::optional<GaitVector> on_cycle(GaitVector gait) const {
     double last = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kMaxChordSteps; ++i) {
-      const auto step = step_of(model_, gait);
+      const auto step = step_of(model_, gait, kCoarseStep);
       if (!step) return std::nullopt;
       const CycleResidual residual = cycle_residual(gait, *step, target_);
       const double size = residual.norm();
@@ -133,7 +133,7 @@ double gait_cost(const GaitObjective& o, const GaitVector& gait, const WalkedSte
 
 double objective_value(const KneedModel& model, const GaitObjective& objective,
                        const GaitVector& gait) {
-  const auto step = step_of(model, gait);
+  const auto step = step_of(model, gait, kCoarseStep);
   if (!step) return kUnwalkable;
   const auto matrix = cheap_step_matrix(model, gait, *step);
   if (!matrix) return kUnwalkable;

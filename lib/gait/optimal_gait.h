@@ -54,7 +54,7 @@ struct GaitSearch {
   int rounds = 6;            // tangent planes in a row
   int trials = 120;          // in one plane
   double radius = 0.1;       // of one plane's box
-  double worthwhile = 1e-3;  // a round that gains less is the last
+  double worthwhile = 0.01;  // a round that gains less is the last
   double attraction = 0;     // weight of the squared distance of the controls from `centre`
   GaitVector centre = GaitVector::Zero();
 };

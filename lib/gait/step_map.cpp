@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kLongestStep = 8;     // 2.5 s for an adult
 constexpr double kMeasureStep = 0.03;  // 9 ms: torques change over some 50 ms
-constexpr double kMaxStep = 0.00325;   // 1 ms: differences of the map need an error below 1e-8
 
 std::array<SpringDamper*, 4> joints(KneedControls& c) {
   return {&c.torso, &c.hip, &c.stance_knee, &c.swing_knee};
@@ -89,8 +88,8 @@ std::optional<KneedState> state_from(const KneedModel& model, const SectionVecto
 }
 
 std::optional<WalkedStep> walk_step(const KneedModel& model, const KneedControls& controls,
-                                    const KneedState& start) {
-  const KneedLimits limits{.max_step = kMaxStep};
+                                    const KneedState& start, double max_step) {
+  const KneedLimits limits{.max_step = max_step};
   KneedState state = start;
   WalkedStep step;
   StepMeasures& m = step.measures;

@@ -47,8 +47,12 @@ struct WalkedStep {
   double knee_gap = 0;  // rad, flexion of the new stance knee: 0 on the section
 };
 
+// Integration steps: 1 ms for an adult, at which a cycle is exact to 1e-7, and 2 ms for searching.
+inline constexpr double kFineStep = 0.00325;
+inline constexpr double kCoarseStep = 0.0065;
+
 // nullopt when the walker falls, diverges or takes longer than any step.
 std::optional<WalkedStep> walk_step(const KneedModel& model, const KneedControls& controls,
-                                    const KneedState& start);
+                                    const KneedState& start, double max_step = kFineStep);
 
 }  // namespace walktrack
