@@ -5,6 +5,7 @@
 
 namespace walktrack {
 
+int run_check(const Arguments& arguments);
 int run_config(const Arguments& arguments);
 int run_evaluate(const Arguments& arguments);
 int run_render(const Arguments& arguments);

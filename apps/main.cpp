@@ -19,6 +19,7 @@ namespace walktrack {
 namespace {
 
 constexpr std::array kCommands{
+    Command{"check", "find mistakes in a scene, its calibrations and videos", run_check},
     Command{"config", "print the commented defaults or the effective configuration", run_config},
     Command{"evaluate", "measure estimates against a truth", run_evaluate},
     Command{"render", "render a motion as synthetic video with its truth", run_render},

@@ -60,11 +60,13 @@ void find_standing_place(const Camera& camera, double person_height, CameraInspe
       const auto place = near_ground(camera, pixel);
       if (!place || !sees_person(camera, *place, person_height)) continue;
       const Vector2d head = *project(camera, {place->x(), place->y(), person_height});
-      const double distance = (0.5 * (pixel + head) - 0.5 * end).norm();
+      const double height = (pixel - head).norm();
+      const double distance =
+          (0.5 * (pixel + head) - 0.5 * end).norm() + std::abs(height - 0.5 * camera.height_px);
       if (distance >= nearest) continue;
       nearest = distance;
       found.standing_place = *place;
-      found.person_px = (pixel - head).norm();
+      found.person_px = height;
     }
   }
 }

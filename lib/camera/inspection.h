@@ -18,8 +18,8 @@ struct CameraInspection {
   double horizontal_view = 0;  // angle between the middles of the left and right edge, rad
   double vertical_view = 0;    // of the upper and lower edge, rad
   std::vector<Eigen::Vector2d> footprint;  // ground seen along the image's border, m; may be empty
-  // Where on the ground a person is seen whole and nearest to the middle of the image; nullopt if
-  // nowhere within kFarthestGround.
+  // Where on the ground a person is seen whole, about in the middle of the image and half as high
+  // as it; nullopt if nowhere within kFarthestGround.
   std::optional<Eigen::Vector2d> standing_place;
   double person_px = 0;  // height of the person there in the image
 };

@@ -1,6 +1,7 @@
 #include "io/video.h"
 
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <opencv2/core/utility.hpp>
@@ -120,6 +121,11 @@ bool FrameSource::read(cv::Mat& frame) {
   if (facts_.rotated) turn(unturned_, facts_.rotation_deg, frame);
   ++next_frame_;
   return true;
+}
+
+double FrameSource::time() const {
+  return capture_ ? 1e-3 * capture_->get(cv::CAP_PROP_POS_MSEC)
+                  : std::numeric_limits<double>::quiet_NaN();
 }
 
 bool FrameSource::read_image(cv::Mat& frame) {

@@ -14,19 +14,13 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "io/video_facts.h"
+
 namespace cv {
 class VideoCapture;
 }
 
 namespace walktrack {
-
-struct VideoFacts {
-  int width_px = 0, height_px = 0;  // of the frames as delivered
-  double frame_rate = 0;            // Hz; 0 = not known (images)
-  int frame_count = 0;              // as the container says; exact for images; 0 = not known
-  int rotation_deg = 0;             // turn that the file asks for, clockwise (phones)
-  bool rotated = false;             // whether frames are delivered turned by it
-};
 
 class FrameSource {
  public:
@@ -41,6 +35,8 @@ class FrameSource {
 
   const VideoFacts& facts() const { return facts_; }
   int next_frame() const { return next_frame_; }
+  // The container's time stamp of the last frame read or passed, s; NaN for images.
+  double time() const;
 
   // The next frame, 8-bit BGR; overwritten by the next call, so clone it to keep it. False at the
   // end and when a frame cannot be read: then trouble() says which and why.

@@ -1,0 +1,31 @@
+// walktrack check: the doctor for scenes and calibrations.
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "jobs/check.h"
+#include "terminal.h"
+
+namespace walktrack {
+
+int run_check(const Arguments& arguments) {
+  CheckJob job;
+  std::string scene;
+  CommandLine line({.name = "check",
+                    .operands = "SCENE.yaml",
+                    .about =
+                        "Says where each camera stands and what it sees, and finds mistakes in "
+                        "calibrations and\nvideos with their cure. With -o FOLDER draws ground, "
+                        "axes and a standing figure into a\nframe of each camera. Exits with 3 "
+                        "if something is wrong.",
+                    .example = "walktrack check data/demo/scene.yaml -o out/check"});
+  line.operand("SCENE.yaml", &scene);
+  if (!line.parse(arguments)) return kDone;
+  job.scene = scene;
+  job.pictures = line.common().output;
+  Terminal terminal(line.common());
+  const CheckReport report = check_scene(job, terminal.control());
+  fmt::print("{}", check_text(report));
+  return report.failed() ? kUnreadable : kDone;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,14 @@
+// What a source of frames says about itself.
+#pragma once
+
+namespace walktrack {
+
+struct VideoFacts {
+  int width_px = 0, height_px = 0;  // of the frames as delivered
+  double frame_rate = 0;            // Hz; 0 = not known (images)
+  int frame_count = 0;              // as the container says; exact for images; 0 = not known
+  int rotation_deg = 0;             // turn that the file asks for, clockwise (phones)
+  bool rotated = false;             // whether frames are delivered turned by it
+};
+
+}  // namespace walktrack

@@ -1,0 +1,292 @@
+#include "jobs/check.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+
+#include "core/errors.h"
+#include "core/rng.h"
+#include "io/calibration.h"
+#include "io/video.h"
+#include "io/video_writer.h"
+#include "jobs/check_parts.h"
+#include "tests/io/sample_files.h"
+#include "tests/io/sample_video.h"
+
+namespace walktrack {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::HasSubstr;
+
+// 64 x 48 px, at `centre`, looking at the middle of the room.
+Camera room_camera(const Vector3d& centre) {
+  Camera camera;
+  camera.width_px = 64;
+  camera.height_px = 48;
+  camera.focal_px = {60, 60};
+  camera.centre_px = {31.5, 23.5};
+  const Vector3d ahead = (Vector3d(0, 0, 0.9) - centre).normalized();
+  const Vector3d right = ahead.cross(Vector3d::UnitZ()).normalized();
+  camera.rotation << right.transpose(), ahead.cross(right).transpose(), ahead.transpose();
+  camera.translation = -camera.rotation * centre;
+  return camera;
+}
+
+// Three cameras about a room and their videos, then one fault.
+class CheckTest : public testing::Test {
+ protected:
+  CheckTest() {
+    const std::vector<Vector3d> centres{{5, -4, 2}, {-5, -3.5, 1.6}, {0.5, 6, 2.4}};
+    for (size_t i = 0; i < centres.size(); ++i) {
+      cameras_.push_back(room_camera(centres[i]));
+      write_camera(i, cameras_[i]);
+      write_sample_video(folder_ / file_name(i, ".mp4"), 30);
+    }
+  }
+  static std::string file_name(size_t i, const std::string& end) {
+    return std::string("c").append(std::to_string(i)).append(end);
+  }
+  void write_camera(size_t i, const Camera& camera) {
+    folder_.write(file_name(i, ".yaml"), opencv_from_camera(camera));
+  }
+  CheckReport check(const std::string& more = "") {
+    std::string text = "frame_rate: 25\n";
+    text.append(more).append("cameras:\n");
+    for (size_t i = 0; i < cameras_.size(); ++i) {
+      text.append("  - {name: ").append(file_name(i, ""));
+      text.append(", video: ").append(file_name(i, ".mp4"));
+      text.append(", calibration: ").append(file_name(i, ".yaml")).append("}\n");
+    }
+    job_.scene = folder_.write("scene.yaml", text);
+    return check_scene(job_, {});
+  }
+  // The one failure that the report must hold.
+  static Finding only_failure(const CheckReport& report) {
+    Finding found{"", false, "no failure", ""};
+    int count = 0;
+    for (const Finding& finding : report.findings) {
+      if (!finding.failure) continue;
+      found = finding;
+      ++count;
+    }
+    EXPECT_LE(count, 1) << check_text(report);
+    return found;
+  }
+  TemporaryFolder folder_;
+  std::vector<Camera> cameras_;
+  CheckJob job_;
+};
+
+TEST_F(CheckTest, ASoundSceneHasNothingToComplainAbout) {
+  const CheckReport report = check();
+  EXPECT_FALSE(report.failed()) << check_text(report);
+  ASSERT_EQ(report.cameras.size(), 3u);
+  EXPECT_NEAR(report.cameras[0].view.centre.z(), 2, 1e-9);
+  EXPECT_EQ(report.cameras[0].video.frame_count, 30);
+  EXPECT_THAT(check_text(report), HasSubstr("c0\n  stands at (5.00, -4.00), 2.00 m above"));
+}
+
+TEST_F(CheckTest, FindsMillimetres) {
+  cameras_[1].translation *= 1000;
+  write_camera(1, cameras_[1]);
+  const Finding finding = only_failure(check());
+  EXPECT_EQ(finding.camera, "c1");
+  EXPECT_THAT(finding.what, HasSubstr("m high"));
+  EXPECT_THAT(finding.cure, HasSubstr("millimetres; divide it by 1000"));
+}
+
+TEST_F(CheckTest, FindsSwappedRowsAndColumns) {
+  cameras_[1].rotation.transposeInPlace();
+  write_camera(1, cameras_[1]);
+  const Finding finding = only_failure(check());
+  EXPECT_EQ(finding.camera, "c1");
+  EXPECT_THAT(finding.cure, HasSubstr("the rotation is transposed"));
+}
+
+TEST_F(CheckTest, FindsAnInvertedPose) {
+  Camera& camera = cameras_[2];
+  const Vector3d centre = camera_centre(camera);
+  camera.rotation.transposeInPlace();
+  camera.translation = centre;  // world_from_camera: (R', C)
+  write_camera(2, camera);
+  const Finding finding = only_failure(check());
+  EXPECT_EQ(finding.camera, "c2");
+  EXPECT_THAT(finding.cure, HasSubstr("are world_from_camera"));
+}
+
+TEST_F(CheckTest, FindsThePlaceForTheTranslation) {
+  cameras_[0].translation = camera_centre(cameras_[0]);
+  write_camera(0, cameras_[0]);
+  EXPECT_THAT(only_failure(check()).cure, HasSubstr("the camera's place C; store -R C"));
+}
+
+TEST_F(CheckTest, FindsAWorldThatIsUpsideDown) {
+  // Calibrated with z down: x_camera = R diag(1, -1, -1) x.
+  for (size_t i = 0; i < cameras_.size(); ++i) {
+    cameras_[i].rotation = cameras_[i].rotation * Vector3d(1, -1, -1).asDiagonal();
+    write_camera(i, cameras_[i]);
+  }
+  const CheckReport report = check();
+  ASSERT_EQ(report.findings.size(), 3u) << check_text(report);
+  for (const Finding& finding : report.findings) {
+    EXPECT_THAT(finding.what, HasSubstr("underground"));
+    EXPECT_THAT(finding.cure, HasSubstr("ground: {normal: [0, 0, -1]}"));
+  }
+  EXPECT_FALSE(check("ground: {normal: [0, 0, -1]}\n").failed());  // the cure cures
+}
+
+TEST_F(CheckTest, AMirroredMatrixIsRefusedByTheReader) {
+  cameras_[0].rotation.row(0) *= -1;
+  write_camera(0, cameras_[0]);
+  try {
+    check();
+    FAIL() << "read a mirrored camera";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("rotation: found a mirrored matrix"));
+    EXPECT_THAT(error.what(), HasSubstr("one axis has the wrong sign"));
+  }
+}
+
+TEST_F(CheckTest, FindsAWrongSize) {
+  cameras_[0].width_px = 128;
+  write_camera(0, cameras_[0]);
+  Finding finding = only_failure(check());
+  EXPECT_THAT(finding.what, HasSubstr("frames are 64x48 px, the calibration is of 128x48 px"));
+  EXPECT_THAT(finding.cure, HasSubstr("use the calibration of this resolution"));
+  cameras_[0].width_px = 48;
+  cameras_[0].height_px = 64;
+  write_camera(0, cameras_[0]);
+  EXPECT_THAT(only_failure(check()).cure, HasSubstr("width and height are swapped"));
+}
+
+TEST_F(CheckTest, FindsFocalLengthsInMillimetres) {
+  cameras_[0].focal_px = {4.5, 4.5};
+  write_camera(0, cameras_[0]);
+  const CheckReport report = check();
+  ASSERT_TRUE(report.failed());
+  EXPECT_THAT(report.findings[0].cure, HasSubstr("must be in pixels"));
+}
+
+TEST_F(CheckTest, FindsADistortionThatFolds) {
+  set_distortion(cameras_[0], std::vector<double>{-2, 0, 0, 0, 0});
+  write_camera(0, cameras_[0]);
+  EXPECT_THAT(only_failure(check()).what, HasSubstr("folds the image over"));
+}
+
+TEST_F(CheckTest, FindsUnequalRatesAndLengths) {
+  {
+    VideoWriter writer(folder_ / "c1.mp4", {64, 48}, 50);
+    for (int i = 0; i < 30; ++i) writer.write(sample_frame(i));
+    writer.close();
+  }
+  Finding finding = only_failure(check());
+  EXPECT_THAT(finding.what, HasSubstr("the video says 50 Hz, the scene 25 Hz"));
+  EXPECT_THAT(finding.cure, HasSubstr("set frame_rate: 50"));
+  write_sample_video(folder_ / "c1.mp4", 20);
+  finding = only_failure(check());
+  EXPECT_THAT(finding.what, HasSubstr("videos last from 0.80 s to 1.20 s"));
+  EXPECT_FALSE(check("last_frame: 19\n").failed());
+}
+
+TEST_F(CheckTest, DrawsAPictureOfEveryCamera) {
+  job_.pictures = folder_.path() / "pictures";
+  check();
+  for (const char* name : {"check_c0.png", "check_c1.png", "check_c2.png"}) {
+    FrameSource source(job_.pictures / name);
+    cv::Mat frame;
+    ASSERT_TRUE(source.read(frame));
+    EXPECT_EQ(frame.size(), cv::Size(64, 48));
+    EXPECT_GT(cv::norm(frame, sample_frame(0), cv::NORM_INF), 100);  // something is drawn
+  }
+}
+
+// A point that walks on a gentle curve through the room, seen by cameras of which one is late.
+std::vector<FigurePath> walked_paths(const std::vector<Camera>& cameras, size_t late, int lag,
+                                     double noise_px) {
+  Rng rng(11, Purpose::kTest);
+  std::vector<FigurePath> paths(cameras.size());
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    for (int frame = 0; frame < 90; ++frame) {
+      const double t = (frame - (i == late ? lag : 0)) / 30.0;
+      const Vector3d point(1.2 * (t - 1.5), 0.5 * std::sin(t), 1.3 + 0.02 * std::sin(12 * t));
+      const auto pixel = project(cameras[i], point);
+      paths[i].emplace_back(*pixel + noise_px * Vector2d(rng.normal(), rng.normal()));
+    }
+  }
+  return paths;
+}
+
+TEST_F(CheckTest, FindsTheCameraThatIsOutOfStep) {
+  // With three cameras shifting another one may do as well; with four it is unique.
+  for (const size_t count : {3u, 4u}) {
+    if (count == 4) cameras_.push_back(room_camera({-0.5, -6, 1.8}));
+    EXPECT_TRUE(find_out_of_step(cameras_, walked_paths(cameras_, 0, 0, 0.05)).empty());
+    for (size_t late = 0; late < count; ++late) {
+      for (const int lag : {-3, 3, 8}) {
+        const auto found = find_out_of_step(cameras_, walked_paths(cameras_, late, lag, 0.05));
+        const auto is_truth = [&](const OutOfStep& one) {
+          return one.camera == late && one.frames_late == lag;
+        };
+        EXPECT_TRUE(std::any_of(found.begin(), found.end(), is_truth)) << late << " " << lag;
+        if (count == 4) {
+          EXPECT_TRUE(!found.empty() && is_truth(found.front()));
+        }
+      }
+    }
+  }
+}
+
+TEST_F(CheckTest, SaysNothingAboutStepsWithoutAFigure) {
+  const std::vector<FigurePath> empty(3, FigurePath(90, std::nullopt));
+  EXPECT_TRUE(find_out_of_step(cameras_, empty).empty());
+}
+
+TEST_F(CheckTest, FollowsTheMovingFigure) {
+  {
+    VideoWriter writer(folder_ / "c0.mp4", {64, 48}, 25);
+    for (int i = 0; i < 40; ++i) {
+      cv::Mat frame(48, 64, CV_8UC3, cv::Scalar::all(90));
+      frame(cv::Rect(4 + i, 10, 6, 20)).setTo(cv::Scalar::all(240));
+      writer.write(frame);
+    }
+    writer.close();
+  }
+  check();
+  const Scene scene = read_scene(folder_ / "scene.yaml");
+  const FigurePath path = figure_path(scene.cameras[0]);
+  ASSERT_EQ(path.size(), 40u);
+  ASSERT_TRUE(path[20]);
+  EXPECT_NEAR(path[20]->x(), 4 + 20 + 2.5, 1.0);
+  EXPECT_NEAR(path[20]->y(), 10 + 3.5, 1.5);  // the middle of its upper 40 %
+}
+
+TEST(CheckRealRig, FindsThreeFramesInRenderedWalks) {
+  const std::string folder = shared_data("rendered/cmu_02_01");
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
+  Scene scene = read_scene(folder + "/scene.yaml");
+  std::vector<Camera> cameras;
+  std::vector<FigurePath> paths;
+  for (const SceneCamera& camera : scene.cameras) {
+    cameras.push_back(camera.camera);
+    paths.push_back(figure_path(camera));
+  }
+  EXPECT_TRUE(find_out_of_step(cameras, paths).empty());
+  for (size_t late = 0; late < paths.size(); ++late) {
+    auto shifted = paths;
+    shifted[late].insert(shifted[late].begin(), 3, std::nullopt);
+    const auto found = find_out_of_step(cameras, shifted);
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found.front().camera, late);
+    EXPECT_EQ(found.front().frames_late, 3);
+  }
+}
+
+}  // namespace
+}  // namespace walktrack
