@@ -7,7 +7,9 @@ namespace walktrack {
 
 int run_check(const Arguments& arguments);
 int run_config(const Arguments& arguments);
+int run_cycle(const Arguments& arguments);
 int run_evaluate(const Arguments& arguments);
 int run_render(const Arguments& arguments);
+int run_simulate(const Arguments& arguments);
 
 }  // namespace walktrack

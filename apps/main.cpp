@@ -21,8 +21,10 @@ namespace {
 constexpr std::array kCommands{
     Command{"check", "find mistakes in a scene, its calibrations and videos", run_check},
     Command{"config", "print the commented defaults or the effective configuration", run_config},
+    Command{"cycle", "find a limit cycle of a walker and what it is like", run_cycle},
     Command{"evaluate", "measure estimates against a truth", run_evaluate},
     Command{"render", "render a motion as synthetic video with its truth", run_render},
+    Command{"simulate", "simulate a walker: tables, pictures, an animation", run_simulate},
 };
 
 void print_overview(std::FILE* to) {

@@ -107,15 +107,18 @@ std::optional<LimitCycle> find_limit_cycle(const ReturnMap& map, const SectionRo
 
 std::optional<LimitCycle> follow_limit_cycle(const MapFamily& family, const VectorXd& guess,
                                              double from, double to, const CycleOptions& options) {
-  constexpr double kFirstShare = 0.25, kSmallestShare = 1e-4;  // of the way
+  constexpr double kFirstShare = 0.25, kSmallestShare = 2e-3;  // of the way
+  constexpr int kFewIterations = 12;                           // a good predictor needs no more
   const auto at = [&](double share) { return from + share * (to - from); };
   auto cycle = find_limit_cycle(family.map(from), family.rows(from), guess, options);
+  CycleOptions near = options;
+  near.max_iterations = std::min(options.max_iterations, kFewIterations);
   double done = 0, step = kFirstShare;
   VectorXd slope = VectorXd::Zero(guess.size());
   while (cycle && done < 1) {
     const double next = std::min(1.0, done + step);
     const auto found = find_limit_cycle(family.map(at(next)), family.rows(at(next)),
-                                        cycle->point + (next - done) * slope, options);
+                                        cycle->point + (next - done) * slope, near);
     if (!found) {
       step /= 2;
       if (step < kSmallestShare) return std::nullopt;

@@ -32,6 +32,7 @@ class LinkageWalker : public Walker {
   Transition strike(const WalkerState& state, bool swing) const;
 
   std::vector<std::string> coordinates() const override;
+  size_t section_size() const override { return linkage_.angles.size(); }
   double weight() const override;
   WalkerState settled(WalkerState state) const override;
   Eigen::VectorXd acceleration(const WalkerState& state) const override;

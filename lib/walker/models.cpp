@@ -18,6 +18,19 @@ Vector2d gravity_vector(double gravity, double slope) {
 
 VectorXd unit(Index n, Index i) { return VectorXd::Unit(n, i); }
 
+// The sole to draw: the arc that rolls while its part leans from -.4 to .7 rad.
+void add_sole(Linkage& linkage, const PlanarPoint& centre, Index angle, int group) {
+  if (linkage.foot_radius == 0) return;
+  constexpr int kPieces = 6;
+  const Index n = centre.along.size();
+  const auto point = [&](int piece) {
+    const double s = -.4 + 1.1 * piece / kPieces;
+    return centre +
+           bar(n, angle, -linkage.foot_radius * std::cos(s), linkage.foot_radius * std::sin(s));
+  };
+  for (int i = 0; i < kPieces; ++i) linkage.lines.push_back({point(i), point(i + 1), group});
+}
+
 PlanarPoint origin(Index n) { return PlanarPoint(n); }
 
 }  // namespace
@@ -62,7 +75,11 @@ Linkage straight_legged(const StraightLeggedParameters& p) {
   linkage.may_scuff = true;
   linkage.may_fly = p.may_fly;
   linkage.lowest_hip = kFallenShare * p.hip_to_arc + p.foot_radius;
-  linkage.lines = {{linkage.stance_foot, origin(2), 1}, {origin(2), linkage.swing_foot, 2}};
+  // Legs down to their soles.
+  const double length = p.hip_to_arc + p.foot_radius;
+  linkage.lines = {{bar(2, 0, -length), origin(2), 1}, {origin(2), bar(2, 1, -length), 2}};
+  add_sole(linkage, linkage.stance_foot, 0, 1);
+  add_sole(linkage, linkage.swing_foot, 1, 2);
   return linkage;
 }
 
@@ -131,7 +148,7 @@ Linkage kneed(const KneedParameters& p, const KneedControls& controls, const Kne
   const auto leg = [&](Index thigh, Index shank, int group) {
     linkage.lines.push_back({origin(n), knee(thigh), group});
     linkage.lines.push_back({knee(thigh), ankle(thigh, shank), group});
-    linkage.lines.push_back({ankle(thigh, shank), foot(thigh, shank), group});
+    add_sole(linkage, foot(thigh, shank), shank, group);
   };
   if (has_torso) linkage.lines.push_back({origin(n), bar(n, 0, 1.6 * p.torso.com_above_hip), 0});
   leg(thigh1, shank1, 1);

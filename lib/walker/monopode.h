@@ -29,6 +29,7 @@ class Monopode : public Walker {
   std::optional<Eigen::VectorXd> apex(double height, double ahead, double energy) const;
 
   std::vector<std::string> coordinates() const override { return {"x", "z"}; }
+  size_t section_size() const override { return 2; }
   double weight() const override { return parameters_.mass * parameters_.gravity; }
   WalkerState settled(WalkerState state) const override { return state; }
   Eigen::VectorXd acceleration(const WalkerState& state) const override;

@@ -80,7 +80,8 @@ class Walker {
 
   // Names of q, e.g. "stance_thigh"; of the phase that has most coordinates.
   virtual std::vector<std::string> coordinates() const = 0;
-  virtual double weight() const = 0;  // N
+  virtual size_t section_size() const = 0;  // number of coordinates q of a state on the section
+  virtual double weight() const = 0;        // N
 
   // A state made consistent: limits that touch push or let go, and no rate leads through one.
   virtual WalkerState settled(WalkerState state) const = 0;

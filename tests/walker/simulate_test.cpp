@@ -18,6 +18,7 @@ class Balls : public Walker {
   double gravity = 1;
 
   std::vector<std::string> coordinates() const override { return {"z"}; }
+  size_t section_size() const override { return 1; }
   double weight() const override { return 1; }
   WalkerState settled(WalkerState state) const override { return state; }
   VectorXd acceleration(const WalkerState& state) const override {

@@ -1,0 +1,33 @@
+// Pictures of planar stick figures: a strip of postures as SVG and as an image, and an animation.
+// Points are in metres, x forward, z up, the ground at z = 0; a slope turns the picture.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+
+namespace walktrack {
+
+struct StickLine {
+  Eigen::Vector2d from, to;
+  int group = 0;  // 0 trunk, 1 stance leg, 2 swing leg
+};
+
+struct StickFigure {
+  double time = 0;  // s
+  double x = 0;     // m, where the picture is centred
+  std::vector<StickLine> lines;
+};
+
+// Figures side by side, each centred, with its time below.
+std::string strip_as_svg(const std::vector<StickFigure>& figures, double slope);
+cv::Mat strip_as_image(const std::vector<StickFigure>& figures, double slope);
+
+// One frame a figure, the view moving with it over a ground with marks every half metre.
+void write_animation(const std::filesystem::path& path, const std::vector<StickFigure>& figures,
+                     double slope, double frame_rate);
+
+}  // namespace walktrack

@@ -1,0 +1,52 @@
+// `walktrack simulate`: a walker through time, as tables, pictures and an animation.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/job_control.h"
+#include "walker/model_spec.h"
+#include "walker/simulate.h"
+
+namespace walktrack {
+
+struct SimulateJob {
+  ModelSpec model;
+  SimulationOptions simulation;
+  double duration = 5;            // s
+  int steps = 0;                  // > 0: stop after so many steps
+  double sample_interval = 0.01;  // s, between rows of states.csv
+  double frame_rate = 30;         // Hz, of the animation
+  double slow_motion = 1;         // times slower than life
+  bool pictures = true;           // strip.svg, strip.png, animation.mp4
+};
+
+// What was recorded: a state at every sample, and on both sides of every event.
+struct Recording {
+  std::vector<WalkerState> states;
+  std::vector<WalkerEvent> events;
+  WalkerState end;
+  int steps = 0;
+};
+Recording record(const Walker& walker, const SimulateJob& job, const JobControl& control);
+
+// t, phase, coordinates and rates, kinetic, gravity, elastic and total energy (J), ground force
+// (N), centre of mass (m), whole-body angular momentum about it (kg m^2/s, positive forward). Cells
+// of coordinates that a phase does not have are empty.
+std::string states_csv(const Walker& walker, const Recording& recording);
+
+// t, event, index, impulse of the ground (N s), work of the toe-off (J), travel and step length
+// (m).
+std::string events_csv(const Recording& recording);
+
+// Runs the job; the folder holds states.csv, events.csv, model.yaml, the pictures and run.json.
+// `command_line` is kept in run.json. Returns one line for people.
+std::string simulate_into(const std::filesystem::path& folder, bool overwrite,
+                          const SimulateJob& job, const std::vector<std::string>& command_line,
+                          const JobControl& control);
+
+const char* name_of(EventKind kind);
+const char* name_of(Health health);
+
+}  // namespace walktrack

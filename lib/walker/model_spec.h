@@ -1,0 +1,54 @@
+// Everything that says which planar walker is meant and where it starts, by name: what the model
+// files in configs/models and `--set` can change. Names are dotted: parameters.*, controls.*,
+// style.* and start.*.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "walker/models.h"
+#include "walker/monopode.h"
+
+namespace walktrack {
+
+// The start of a step: just after support transfer, or an apex (monopode).
+struct ModelStart {
+  std::vector<double> q, qd;  // as the model's coordinates
+  double energy = 0;          // J, monopode: > 0 replaces the forward speed
+};
+
+struct ModelSpec {
+  std::string model;  // one of model_names()
+  MonopodeParameters monopode;
+  RimlessWheelParameters rimless_wheel;
+  StraightLeggedParameters anthropomorphic;
+  KneedParameters kneed;
+  KneedControls controls;
+  KneedStyle style;
+  ModelStart start;
+};
+
+const std::vector<std::string>& model_names();
+
+// A model of that name with parameters and a start that walk. UsageError naming the nearest model.
+ModelSpec default_model(const std::string& name);
+
+// One entry of a model, to read or write. Exactly one pointer is set; it points into the spec.
+struct ModelEntry {
+  std::string key;
+  std::string comment;  // meaning and unit
+  double* number = nullptr;
+  bool* flag = nullptr;
+  std::vector<double>* list = nullptr;
+  double lowest = 0, highest = 0;  // of the number
+};
+std::vector<ModelEntry> entries(ModelSpec& spec);
+
+// The walker. UsageError where the start does not fit the model's coordinates.
+std::unique_ptr<Walker> make_walker(const ModelSpec& spec);
+
+// (q, qd) of the start. UsageError where an energy does not suffice.
+Eigen::VectorXd start_point(const ModelSpec& spec, const Walker& walker);
+
+}  // namespace walktrack

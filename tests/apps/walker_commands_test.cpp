@@ -1,0 +1,48 @@
+// simulate and cycle from outside.
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/run_program.h"
+
+namespace walktrack {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(CycleCommand, PrintsJsonToStdoutAndTextToStderr) {
+  const ProgramResult result = run_walktrack({"cycle", "--model", "rimless_wheel"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("\"stable\": true"));
+  EXPECT_THAT(result.err, HasSubstr("stable limit cycle"));
+}
+
+TEST(CycleCommand, FailsWithOneWhereThereIsNoCycle) {
+  const ProgramResult result =
+      run_walktrack({"cycle", "--model", "rimless_wheel", "--set", "slope=0", "--max-time", "5"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("no limit cycle"));
+}
+
+TEST(WalkerCommands, UsageErrors) {
+  EXPECT_EQ(run_walktrack({"cycle"}).exit_code, 2);
+  EXPECT_EQ(run_walktrack({"simulate", "--model", "kneed"}).exit_code, 2);  // no --output
+  EXPECT_EQ(run_walktrack({"cycle", "--model", "kneed", "--step", "0"}).exit_code, 2);
+  EXPECT_EQ(run_walktrack({"cycle", "--model", "kneed", "--integrator", "rk5"}).exit_code, 2);
+  EXPECT_EQ(run_walktrack({"cycle", "--model", "kneed", "--follow", "slope"}).exit_code, 2);
+  EXPECT_EQ(run_walktrack({"cycle", "--config", "no_such_file.yaml"}).exit_code, 3);
+}
+
+TEST(SimulateCommand, WritesAFolderAndRefusesToOverwriteIt) {
+  const TemporaryFolder temporary;
+  const std::string folder = temporary / "gait";
+  const std::vector<std::string> arguments{
+      "simulate", "--model", "rimless_wheel", "--duration", "4", "--no-pictures", "-o", folder};
+  EXPECT_EQ(run_walktrack(arguments).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder + "/run.json"));
+  EXPECT_EQ(run_walktrack(arguments).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace walktrack

@@ -1,0 +1,65 @@
+#include "jobs/cycle.h"
+
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/errors.h"
+#include "io/model_file.h"
+
+namespace walktrack {
+namespace {
+
+CycleJob garcia(const char* slope) {
+  CycleJob job;
+  job.model = read_model(
+      "", std::string(WALKTRACK_SOURCE_DIR) + "/configs/models/garcia_" + slope + ".yaml", {});
+  job.options.simulation.max_step = 4e-3;
+  return job;
+}
+
+TEST(CycleJob, JsonHoldsTheFixedPointAndMultipliers) {
+  const FoundCycle found = find_cycle(garcia("009"));
+  const auto json = nlohmann::json::parse(cycle_json(found));
+  EXPECT_NEAR(json["q"][1].get<double>(), .200310901, 2e-7);
+  EXPECT_NEAR(json["period"].get<double>(), 3.8824638, 4e-6);
+  EXPECT_NEAR(json["multipliers"][0]["re"].get<double>(), -.19010, 1e-3);
+  EXPECT_TRUE(json["stable"].get<bool>());
+  EXPECT_NE(cycle_text(found).find("stable limit cycle"), std::string::npos);
+}
+
+// theta* grows as slope^(1/3): followed from .009 to .004 the cycle is the published one.
+TEST(CycleJob, FollowsAParameter) {
+  CycleJob job = garcia("009");
+  job.follow_key = "slope";
+  job.follow_to = .004;
+  const FoundCycle found = find_cycle(job);
+  EXPECT_NEAR(found.gait.start.q(1), .153389565, 2e-7);
+  EXPECT_EQ(found.model.anthropomorphic.slope, .004);
+  EXPECT_NEAR(found.model.start.q[1], .153389565, 2e-7);
+}
+
+TEST(CycleJob, SaysWhatHappensWhereThereIsNoCycle) {
+  CycleJob job = garcia("009");
+  job.model.anthropomorphic.slope = 0.3;
+  try {
+    find_cycle(job);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("falls after"), std::string::npos) << error.what();
+  }
+  job = garcia("009");
+  job.follow_key = "slop";
+  EXPECT_THROW(find_cycle(job), UsageError);
+}
+
+TEST(CycleJob, SettlingWalksTheGuessIn) {
+  CycleJob job = garcia("004");
+  for (double& rate : job.model.start.qd) rate *= 1.02;
+  job.settling_steps = 5;
+  EXPECT_NEAR(find_cycle(job).gait.start.q(1), .153389565, 2e-7);
+}
+
+}  // namespace
+}  // namespace walktrack
