@@ -16,8 +16,8 @@ struct Progress {
 };
 
 struct JobControl {
-  std::function<void(const Progress&)> report;    // may be empty
-  std::function<void(std::string_view)> message;  // one line worth knowing; may be empty
+  std::function<void(const Progress&)> report{};    // may be empty
+  std::function<void(std::string_view)> message{};  // one line worth knowing; may be empty
   const std::atomic<bool>* stop_request = nullptr;
 
   void progress(std::string_view what, size_t done, size_t total) const {

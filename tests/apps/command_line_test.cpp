@@ -90,6 +90,14 @@ TEST(CommandLine, NamesMistakes) {
       {{"config", "--quiet", "--verbose"}, 2, "--quiet and --verbose exclude each other"},
       {{"config", "-c", "/nowhere.yaml"}, 2, "/nowhere.yaml: no such file"},
       {{"config", "-o", "/nowhere/config.yaml"}, 1, "/nowhere/config.yaml"},
+      {{"batch", "/nowhere", "-o", "/tmp/x"}, 3, "/nowhere: found no folder"},
+      {{"batch", "/tmp", "-o", "/tmp/x", "--shard", "3/2"},
+       2,
+       "--shard: found '3/2', allowed: i/n"},
+      {{"batch", "/tmp", "-o", "/tmp/x", "--jobs", "0"}, 2, "--jobs: found less than 1"},
+      {{"batch", "/tmp"}, 2, "--output is missing"},
+      {{"check"}, 2, "SCENE.yaml is missing"},
+      {{"check", "/nowhere.yaml"}, 3, "/nowhere.yaml: no such file"},
   };
   for (const Mistake& mistake : mistakes) {
     const ProgramResult result = run_walktrack(mistake.words);
@@ -121,6 +129,21 @@ TEST(ConfigCommand, ItsOutputIsAConfiguration) {
   EXPECT_THAT(again.err, HasSubstr("-y overwrites"));
   EXPECT_EQ(run_walktrack({"config", "-o", file, "-y"}).exit_code, 0);
   EXPECT_THAT(read_file(file), HasSubstr("seed: 1\n"));
+}
+
+TEST(BatchCommand, GoesOnListsFailuresAndExitsWithOne) {
+  const TemporaryFolder folder;
+  folder.write("in/bad one/scene.yaml", "cameras: [");
+  folder.write("in/other/scene.yaml", "camras: []\n");
+  const std::string in = folder / "in", out = folder / "out";
+  EXPECT_EQ(run_walktrack({"batch", in, "-o", out, "--list"}).out,
+            "waiting\tbad one\nwaiting\tother\n");
+  EXPECT_FALSE(std::filesystem::exists(out));
+  const ProgramResult result = run_walktrack({"batch", in, "-o", out, "--jobs", "2"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("0 complete, 0 degraded, 2 failed, 0 left; see "));
+  EXPECT_THAT(read_file(out + "/failures.txt"), StartsWith("bad one: exit "));
+  EXPECT_THAT(read_file(out + "/failures.txt"), HasSubstr("\nother: exit "));
 }
 
 }  // namespace

@@ -1,0 +1,92 @@
+// walktrack batch: every sequence below a folder.
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "core/errors.h"
+#include "core/parallel_for.h"
+#include "jobs/batch.h"
+#include "terminal.h"
+
+namespace walktrack {
+
+namespace po = boost::program_options;
+
+namespace {
+
+// "2/8", from 1.
+void parse_shard(const std::string& text, BatchJob& job) {
+  const size_t slash = text.find('/');
+  try {
+    job.shard = std::stoi(text.substr(0, slash));
+    job.shards = slash == std::string::npos ? 0 : std::stoi(text.substr(slash + 1));
+  } catch (const std::exception&) {
+    job.shards = 0;
+  }
+  if (job.shard < 1 || job.shard > job.shards) {
+    throw UsageError(describe({"", 0, "--shard"}, fmt::format("'{}'", text), "i/n, i from 1 to n"));
+  }
+}
+
+// This program tracking one sequence, with the options that it was given itself.
+std::vector<std::string> track_command(const CommonOptions& common, int jobs) {
+  std::vector<std::string> words{std::filesystem::read_symlink("/proc/self/exe").string(), "track"};
+  if (!common.config_file.empty()) words.insert(words.end(), {"-c", common.config_file});
+  for (const std::string& setting : common.settings) words.insert(words.end(), {"--set", setting});
+  if (!common.seed.empty()) words.insert(words.end(), {"--seed", common.seed});
+  const int share = std::max(1, hardware_threads() / std::max(1, jobs));
+  words.insert(words.end(),
+               {"--threads", common.threads.empty() ? std::to_string(share) : common.threads});
+  return words;
+}
+
+int list(const BatchJob& job) {
+  for (const Sequence& sequence :
+       shard_of(find_sequences(job.folder, job.output), job.shard, job.shards)) {
+    fmt::print("{}\t{}\n", state_name(result_of(sequence).state), sequence.name);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+int run_batch(const Arguments& arguments) {
+  BatchJob job;
+  std::string folder, shard = "1/1";
+  bool list_only = false;
+  CommandLine line({.name = "batch",
+                    .operands = "FOLDER",
+                    .about = "Tracks every scene below FOLDER, each in a process of its own; goes "
+                             "on after failures.\nRun again, it does what is not complete. Several "
+                             "machines may share one output folder.",
+                    .example = "walktrack batch data -o out/batch --jobs 2"});
+  line.options().add_options()("jobs,j", po::value(&job.jobs)->default_value(1)->value_name("N"),
+                               "sequences at a time")("shard", po::value(&shard)->value_name("i/n"),
+                                                      "do every n-th sequence, from the i-th")(
+      "time-limit", po::value(&job.limits.seconds)->value_name("S"), "seconds for one sequence")(
+      "memory-limit", po::value(&job.limits.memory_mb)->value_name("MB"), "for one sequence")(
+      "list", po::bool_switch(&list_only), "print the sequences and their state, do nothing")(
+      "dry-run", po::bool_switch(&list_only), "the same");
+  line.operand("FOLDER", &folder);
+  if (!line.parse(arguments)) return kDone;
+  if (job.jobs < 1) throw UsageError("--jobs: found less than 1, allowed: from 1");
+  parse_shard(shard, job);
+  job.folder = folder;
+  job.output = line.required_output();
+  job.overwrite = line.common().overwrite;
+  if (list_only) return list(job);
+  line.config();  // a mistake in it would fail every sequence
+  job.command = track_command(line.common(), job.jobs);
+  Terminal terminal(line.common());
+  const JobControl control = terminal.control();
+  const BatchOutcome outcome = run_batch(job, control);
+  control.say(fmt::format("{} complete, {} degraded, {} failed, {} left; see {}", outcome.complete,
+                          outcome.degraded, outcome.failed, outcome.waiting,
+                          (job.output / "batch.html").string()));
+  if (outcome.interrupted) return kInterrupted;
+  if (outcome.failed + outcome.waiting > 0) return kFailed;
+  return outcome.degraded > 0 ? kDegraded : kDone;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,121 @@
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/errors.h"
+#include "io/files.h"
+#include "io/result_folder.h"
+#include "io/video.h"
+#include "jobs/batch.h"
+
+namespace walktrack {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr size_t kMostSceneBytes = 16u << 20;
+constexpr size_t kMostRecordBytes = 256u << 20;
+
+// Scene files by name are taken even when broken, so that they end up among the failures.
+bool is_scene(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension != ".yaml" && extension != ".yml") return false;
+  if (path.stem().string().starts_with("scene")) return true;
+  std::error_code ignored;
+  if (fs::file_size(path, ignored) > kMostSceneBytes) return false;
+  const std::string text = read_text_file(path, kMostSceneBytes);
+  return text.starts_with("cameras:") || text.find("\ncameras:") != std::string::npos;
+}
+
+// "a/b/scene.yaml" is "a/b", other files keep their stem.
+std::string sequence_name(const fs::path& relative) {
+  const fs::path folder = relative.parent_path();
+  if (relative.stem() == "scene" && !folder.empty()) return folder.generic_string();
+  return (folder / relative.stem()).generic_string();
+}
+
+std::string text_or(const nlohmann::json& json, const char* key, const std::string& otherwise) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : otherwise;
+}
+
+SequenceResult complete_result(const fs::path& file) {
+  const auto json = nlohmann::json::parse(read_text_file(file, kMostRecordBytes), nullptr, false);
+  SequenceResult result{.state = SequenceState::kComplete};
+  if (!json.is_object()) {
+    return {.state = SequenceState::kFailed, .reason = "run.json is broken"};
+  }
+  const std::string status = text_or(json, "status", "tracked");
+  if (status != "tracked") {
+    result.state = SequenceState::kDegraded;
+    result.reason = status;
+    const auto notes = json.find("notes");
+    if (notes != json.end() && notes->is_array() && !notes->empty() && notes->front().is_string()) {
+      result.reason += ": " + notes->front().get<std::string>();
+    }
+  }
+  result.digest = text_or(json, "digest", "");
+  const auto timing = json.find("timing");
+  if (timing != json.end() && timing->is_object()) {
+    result.seconds = timing->value("seconds", 0.0);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Sequence> find_sequences(const fs::path& folder, const fs::path& output) {
+  if (!fs::is_directory(folder)) {
+    throw InputError(describe({folder.string(), 0, ""}, "no folder", "a folder with scenes"));
+  }
+  const fs::path out = fs::weakly_canonical(output);
+  std::vector<Sequence> found;
+  for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::end(entry); ++entry) {
+    if (entry->is_directory() && fs::weakly_canonical(entry->path()) == out) {
+      entry.disable_recursion_pending();
+    } else if (entry->is_regular_file() && is_scene(entry->path())) {
+      const std::string name = sequence_name(entry->path().lexically_relative(folder));
+      found.push_back({name, fs::absolute(entry->path()).lexically_normal(), output / name});
+    }
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Sequence& a, const Sequence& b) { return natural_less(a.name, b.name); });
+  return found;
+}
+
+std::vector<Sequence> shard_of(const std::vector<Sequence>& sequences, int shard, int shards) {
+  std::vector<Sequence> own;
+  for (size_t i = 0; i < sequences.size(); ++i) {
+    if (i % static_cast<size_t>(shards) == static_cast<size_t>(shard - 1)) {
+      own.push_back(sequences[i]);
+    }
+  }
+  return own;
+}
+
+SequenceResult result_of(const Sequence& sequence) {
+  const fs::path failure = sequence.output / "failure.txt";
+  if (is_complete_result(sequence.output)) return complete_result(sequence.output / "run.json");
+  if (!fs::exists(failure)) return {};
+  SequenceResult result{.state = SequenceState::kFailed};
+  result.reason = read_text_file(failure, kMostSceneBytes);
+  while (result.reason.ends_with('\n')) result.reason.pop_back();
+  return result;
+}
+
+std::string_view state_name(SequenceState state) {
+  switch (state) {
+    case SequenceState::kComplete:
+      return "complete";
+    case SequenceState::kDegraded:
+      return "degraded";
+    case SequenceState::kFailed:
+      return "failed";
+    case SequenceState::kWaiting:
+      break;
+  }
+  return "waiting";
+}
+
+}  // namespace walktrack

@@ -1,0 +1,213 @@
+// The batch with a small script in the place of `walktrack track`.
+#include "jobs/batch.h"
+
+#include <atomic>
+#include <fstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "jobs/claim.h"
+#include "tests/run_program.h"
+
+namespace walktrack {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// What the scene's second line says, it does: "ok", "lost", "fail", "crash", "slow", "lie".
+constexpr const char* kScript =
+    "#!/bin/sh\n"
+    "scene=$1; out=$3; mode=$(sed -n 2p \"$scene\")\n"
+    "echo x >> \"$out/runs\"\n"
+    "case $mode in\n"
+    "  '#ok') echo '{\"status\": \"tracked\", \"digest\": \"d1\", \"timing\": {\"seconds\": 1.5}}'"
+    " > \"$out/run.json\";;\n"
+    "  '#lost') echo '{\"status\": \"below gates\", \"notes\": [\"lost 40 %\"]}' > "
+    "\"$out/run.json\"; exit 4;;\n"
+    "  '#fail') echo 'walktrack: cam.mp4: found \"no\" <video>, allowed: one' >&2; exit 3;;\n"
+    "  '#crash') kill -SEGV $$;;\n"
+    "  '#slow') sleep 30;;\n"
+    "  '#lie') exit 0;;\n"
+    "esac\n";
+
+class BatchTest : public testing::Test {
+ protected:
+  BatchTest() {
+    const std::string script = folder_.write("track.sh", kScript);
+    fs::permissions(script, fs::perms::owner_all);
+    job_.folder = folder_.path() / "in";
+    job_.output = folder_.path() / "out";
+    job_.command = {script};
+    fs::create_directory(job_.folder);
+  }
+  void add(const std::string& name, const std::string& mode) {
+    const fs::path scene = fs::path("in") / name / "scene.yaml";
+    folder_.write(scene.string(), std::string("cameras: []\n#").append(mode).append("\n"));
+  }
+  static std::string numbered(int i) { return std::string("s").append(std::to_string(i)); }
+  // How often the script ran for a sequence.
+  size_t runs(const std::string& name) const {
+    return read_file(job_.output / name / "runs").size() / 2;
+  }
+  TemporaryFolder folder_;
+  BatchJob job_;
+};
+
+TEST_F(BatchTest, FindsScenesInNaturalOrderOutsideTheOutput) {
+  add("trial10", "ok");
+  add("trial9", "ok");
+  folder_.write("in/a/walker.yaml", "# note\ncameras: []\n");
+  folder_.write("in/a/scene_one.yaml", "broken: [");
+  folder_.write("in/a/cam.yaml", "image_width: 3\n");
+  folder_.write("in/out/x/scene.yaml", "cameras: []\n");
+  fs::create_directory_symlink(job_.folder, job_.folder / "loop");
+  std::vector<std::string> names;
+  for (const Sequence& found : find_sequences(job_.folder, job_.folder / "out")) {
+    names.push_back(found.name);
+    EXPECT_TRUE(found.scene.is_absolute());
+  }
+  EXPECT_THAT(names, ElementsAre("a/scene_one", "a/walker", "trial9", "trial10"));
+  EXPECT_THROW(find_sequences(folder_ / "none", job_.output), InputError);
+}
+
+TEST_F(BatchTest, GoesOnAfterFailuresOfEveryKind) {
+  for (const char* mode : {"ok", "lost", "fail", "crash", "lie"}) add(mode, mode);
+  job_.jobs = 3;
+  const BatchOutcome outcome = run_batch(job_, {});
+  EXPECT_EQ(outcome.complete, 1);
+  EXPECT_EQ(outcome.degraded, 1);
+  EXPECT_EQ(outcome.failed, 3);
+  EXPECT_EQ(outcome.waiting, 0);
+  EXPECT_EQ(read_file(job_.output / "summary.csv"),
+            "sequence,state,seconds,digest,reason\n"
+            "crash,failed,,,ended by signal 11 (Segmentation fault)\n"
+            "fail,failed,,,\"exit 3: cam.mp4: found \"\"no\"\" <video>, allowed: one\"\n"
+            "lie,failed,,,exit 0\n"
+            "lost,degraded,,,below gates: lost 40 %\n"
+            "ok,complete,1.5,d1,\n");
+  EXPECT_THAT(read_file(job_.output / "failures.txt"),
+              testing::StartsWith("crash: ended by signal 11 (Segmentation fault)\nfail: exit 3"));
+  const std::string page = read_file(job_.output / "batch.html");
+  EXPECT_THAT(page, HasSubstr("1 of 5 sequences complete"));
+  EXPECT_THAT(page, HasSubstr("&lt;video&gt;"));
+  EXPECT_THAT(page, testing::Not(HasSubstr("<video>")));
+}
+
+TEST_F(BatchTest, RunAgainItDoesOnlyWhatIsNotComplete) {
+  for (const char* mode : {"ok", "lost", "fail"}) add(mode, mode);
+  run_batch(job_, {});
+  add("fail", "ok");  // repaired
+  const BatchOutcome outcome = run_batch(job_, {});
+  EXPECT_EQ(outcome.complete, 2);
+  EXPECT_EQ(outcome.failed, 0);
+  EXPECT_EQ(runs("ok"), 1u);
+  EXPECT_EQ(runs("lost"), 1u);
+  EXPECT_EQ(runs("fail"), 2u);
+  EXPECT_EQ(read_file(job_.output / "failures.txt"), "");
+  job_.overwrite = true;
+  run_batch(job_, {});
+  EXPECT_EQ(runs("ok"), 2u);
+}
+
+TEST_F(BatchTest, ShardsCoverEverySequenceOnce) {
+  for (int i = 0; i < 7; ++i) add(numbered(i), "ok");
+  const auto all = find_sequences(job_.folder, job_.output);
+  for (job_.shards = 3, job_.shard = 1; job_.shard <= 3; ++job_.shard) run_batch(job_, {});
+  for (const Sequence& sequence : all) {
+    EXPECT_EQ(runs(sequence.name), 1u) << sequence.name;
+  }
+}
+
+TEST_F(BatchTest, EndsWhatTakesTooLong) {
+  add("slow", "slow");
+  add("ok", "ok");
+  job_.limits.seconds = 1.5;  // a sound one takes milliseconds
+  const BatchOutcome outcome = run_batch(job_, {});
+  EXPECT_EQ(outcome.complete, 1);
+  EXPECT_EQ(outcome.failed, 1);
+  EXPECT_EQ(read_file(job_.output / "failures.txt"), "slow: took longer than 1.5 s\n");
+}
+
+TEST_F(BatchTest, StopsWhenAskedAndLeavesTheRestWaiting) {
+  add("a", "slow");
+  add("b", "ok");
+  std::atomic<bool> stop{false};
+  std::thread asker([&] {
+    while (!fs::exists(job_.output / "a/runs")) std::this_thread::yield();
+    stop = true;
+  });
+  const BatchOutcome outcome = run_batch(job_, {.stop_request = &stop});
+  asker.join();
+  EXPECT_TRUE(outcome.interrupted);
+  EXPECT_EQ(outcome.waiting, 2);
+  EXPECT_FALSE(fs::exists(job_.output / "a/failure.txt"));
+  EXPECT_FALSE(fs::exists(job_.output / "a/claim"));
+}
+
+TEST_F(BatchTest, TwoWorkersNeverDoOneSequenceTwice) {
+  for (int i = 0; i < 12; ++i) add(numbered(i), "ok");
+  job_.jobs = 2;
+  std::thread other([&] { run_batch(job_, {}); });
+  run_batch(job_, {});
+  other.join();
+  for (int i = 0; i < 12; ++i) EXPECT_EQ(runs(numbered(i)), 1u) << i;
+}
+
+TEST_F(BatchTest, LeavesClaimedSequencesAlone) {
+  add("mine", "ok");
+  add("theirs", "ok");
+  fs::create_directories(job_.output / "theirs");
+  const auto claim = Claim::try_take(job_.output / "theirs");
+  const BatchOutcome outcome = run_batch(job_, {});
+  EXPECT_EQ(outcome.complete, 1);
+  EXPECT_EQ(outcome.waiting, 1);
+}
+
+TEST_F(BatchTest, RefusesAFolderWithoutSequences) { EXPECT_THROW(run_batch(job_, {}), UsageError); }
+
+TEST(Claim, IsGivenToOneAndBack) {
+  const TemporaryFolder folder;
+  {
+    const auto first = Claim::try_take(folder.path());
+    ASSERT_TRUE(first);
+    first->renew();
+    EXPECT_FALSE(Claim::try_take(folder.path()));
+  }
+  EXPECT_TRUE(Claim::try_take(folder.path()));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(Claim, OfADeadWorkerIsTakenOver) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("claim", "elsewhere.1");
+  fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::seconds(100));
+  EXPECT_FALSE(Claim::try_take(folder.path(), 200));
+  EXPECT_TRUE(Claim::try_take(folder.path(), 60));
+}
+
+TEST(ChildProcess, LimitsMemory) {
+  const TemporaryFolder folder;
+  // dd needs its block in memory at once.
+  ChildProcess child({"/bin/dd", "if=/dev/zero", "of=/dev/null", "bs=300M", "count=1"},
+                     folder.path() / "log", {.memory_mb = 100});
+  std::optional<ChildEnd> end;
+  while (!(end = child.poll())) std::this_thread::yield();
+  EXPECT_NE(end->exit_code, 0);
+  EXPECT_THAT(read_file(folder.path() / "log"), HasSubstr("memory"));
+}
+
+TEST(ChildProcess, SaysWhenThereIsNoProgram) {
+  const TemporaryFolder folder;
+  ChildProcess child({"/nowhere/track"}, folder.path() / "log", {});
+  std::optional<ChildEnd> end;
+  while (!(end = child.poll())) std::this_thread::yield();
+  EXPECT_EQ(end->exit_code, 127);
+}
+
+}  // namespace
+}  // namespace walktrack
