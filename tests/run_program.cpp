@@ -59,6 +59,7 @@ TemporaryFolder::~TemporaryFolder() {
 std::string TemporaryFolder::write(const std::string& name, const std::string& content) const {
   const fs::path file = path_ / name;
   fs::create_directories(file.parent_path());
+  fs::remove(file);  // file systems flush a file that is cut short and written anew
   std::ofstream(file, std::ios::binary) << content;
   return file.string();
 }
