@@ -12,5 +12,6 @@ int run_cycle(const Arguments& arguments);
 int run_evaluate(const Arguments& arguments);
 int run_render(const Arguments& arguments);
 int run_simulate(const Arguments& arguments);
+int run_track(const Arguments& arguments);
 
 }  // namespace walktrack

@@ -26,6 +26,7 @@ constexpr std::array kCommands{
     Command{"evaluate", "measure estimates against a truth", run_evaluate},
     Command{"render", "render a motion as synthetic video with its truth", run_render},
     Command{"simulate", "simulate a walker: tables, pictures, an animation", run_simulate},
+    Command{"track", "track the walker of one scene", run_track},
 };
 
 void print_overview(std::FILE* to) {

@@ -13,14 +13,25 @@
 #include <utility>
 #include <vector>
 
+#include "body/body.h"
 #include "observation/config.h"
+#include "tracker/tracker.h"
 
 namespace walktrack {
+
+// A result below these ends in exit code 4.
+struct GateConfig {
+  double lost_share = 0.1;  // of the frames after the walker was found
+  double least_steps = 1;   // foot changes seen; who makes none does not walk
+};
 
 struct Config {
   uint64_t seed = 1;  // of all random numbers
   int threads = 0;    // 0 = all of the machine
+  BodyGroups body;
   ObservationConfig observation;
+  TrackerConfig tracker;
+  GateConfig gates;
 };
 
 // A configuration and where each value that is no default came from.

@@ -60,10 +60,90 @@ void add_observation(ParameterTable& table) {
   w.number("weight", &W::weight, 0, 1000, "against the silhouettes");
 }
 
+void add_body(ParameterTable& table) {
+  ParameterGroup<BodyGroups> b(table, "body", "which parts of the body are modelled",
+                               &Config::body);
+  b.flag("head", &BodyGroups::head, "whether head and neck are");
+  b.flag("arms", &BodyGroups::arms, "whether the arms are");
+}
+
+void add_motion(ParameterTable& table) {
+  using M = MotionConfig;
+  ParameterGroup<M> m(table, "motion", "how the walker moves", &Config::tracker,
+                      &TrackerConfig::motion);
+  m.number("torso_torque", &M::torso_torque, 0, 10, "torque noise, M g L per sqrt(s)");
+  m.number("hip_torque", &M::hip_torque, 0, 10, "torque noise, M g L per sqrt(s)");
+  m.number("stance_knee_torque", &M::stance_knee_torque, 0, 10, "torque noise, M g L per sqrt(s)");
+  m.number("swing_knee_torque", &M::swing_knee_torque, 0, 10, "torque noise, M g L per sqrt(s)");
+  m.number("ankle_torque", &M::ankle_torque, 0, 10, "torque noise, M g L per sqrt(s)");
+  m.number("torque_noise_scale", &M::torque_noise_scale, 0, 1000, "multiplies all five torques");
+  m.number("planar_misfit_deg", &M::planar_misfit_deg, 0, 90,
+           "how far angles stray from the walker's, degrees per sqrt(s)");
+  m.number("ball_drift", &M::ball_drift, 0, 1, "of a standing foot, m per sqrt(s)");
+  m.number("landing", &M::landing, 0, 1, "uncertainty of where a foot comes down, m");
+  m.number("settling", &M::settling, 1e-3, 10, "in which that dies away, s");
+  m.number("arrival", &M::arrival, 0, 10, "uncertainty of the first foot's place, m");
+  m.number("control_noise", &M::control_noise, 0, 1, "relative, per step");
+  m.number("feedback", &M::feedback, 0, 1, "correction of controls at a support transfer");
+  m.number("aim_drift", &M::aim_drift, 0, 1, "relative, per step, of speed and step length");
+}
+
+void add_filter(ParameterTable& table) {
+  using F = FilterConfig;
+  ParameterGroup<F> f(table, "filter", "the particle filter", &Config::tracker,
+                      &TrackerConfig::filter);
+  f.integer("particles", &F::particles, 1, 10'000'000, "particles");
+  f.number("resample_below", &F::resample_below, 0, 1, "share of effective particles");
+  f.number("layer_ess", &F::layer_ess, 0, 1, "effective share that a layer may cost down to");
+  f.integer("max_layers", &F::max_layers, 1, 1000, "tempered layers of a frame; 1 = none");
+  f.integer("moves", &F::moves, 0, 1000, "moves of a particle after each layer");
+}
+
+void add_search(ParameterTable& table) {
+  using S = SightingConfig;
+  ParameterGroup<S> s(table, "search", "finding the walker", &Config::tracker,
+                      &TrackerConfig::sighting);
+  s.number("window", &S::window, 0.1, 10, "film that a walk is read from, s");
+  s.number("slowest", &S::slowest, 0, 10, "who is slower is not walking, m/s");
+  s.number("fastest", &S::fastest, 0.1, 20, "m/s");
+  s.number("complete", &S::complete, 0, 1, "least score of a frame, share of the median");
+  s.number("least_score", &S::least_score, 0, kAnyPositive, "of a figure in any frame, nats");
+  s.integer("candidates", &S::candidates, 1, 1000, "places of a frame that lines go through");
+  s.integer("grid_px", &S::grid_px, 1, 1000, "spacing of places at 640 px of image width, px");
+
+  using A = StartConfig;
+  ParameterGroup<A> a(table, "start", "the first particles", &Config::tracker,
+                      &TrackerConfig::start);
+  a.integer("phases", &A::phases, 1, 1000, "hypotheses over the phase of each foot's step");
+  a.integer("particles", &A::particles, 1, 10'000'000, "of each hypothesis");
+  a.number("seconds", &A::seconds, 0, 10, "for which hypotheses compete, s");
+  a.number("heading_deg", &A::heading_deg, 0, 180, "deviation of the first heading, degrees");
+  a.number("speed", &A::speed, 0, 2, "deviation of the first speed, relative");
+  a.number("step_length", &A::step_length, 0, 2, "deviation of the step length, relative");
+}
+
+void add_track(ParameterTable& table) {
+  using T = TrackerConfig;
+  ParameterGroup<T> t(table, "track", "keeping the track", &Config::tracker);
+  t.number("lost_below", &T::lost_below, 0, 1, "share of the likelihood's median");
+  t.number("lost_after", &T::lost_after, 0, 100, "time below it until the track is lost, s");
+  t.number("recall", &T::recall, 0.1, 100, "past that the median is taken over, s");
+  t.integer("samples", &T::samples, 0, 1000, "particles of a frame drawn into the overlay");
+  using G = GateConfig;
+  ParameterGroup<G> g(table, "gates", "when a result is not good enough", &Config::gates);
+  g.number("lost_share", &G::lost_share, 0, 1, "of the frames after the walker was found");
+  g.number("least_steps", &G::least_steps, 0, 1000, "foot changes that make a walk");
+}
+
 ParameterTable make_table() {
   ParameterTable table;
   add_run(table);
+  add_body(table);
   add_observation(table);
+  add_motion(table);
+  add_filter(table);
+  add_search(table);
+  add_track(table);
   return table;
 }
 

@@ -1,0 +1,122 @@
+#include "jobs/track_results.h"
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+
+#include "io/motion_file.h"
+#include "io/opensim.h"
+#include "io/overlay.h"
+#include "io/run_record.h"
+#include "io/scene_video.h"
+#include "io/video_writer.h"
+
+namespace walktrack {
+
+namespace {
+
+double time_of(const TrackedFrames& frames, size_t i) {
+  return static_cast<double>(i) / frames.frame_rate;
+}
+
+void draw_record(const FrameRecord& record, const Camera& camera, bool arms, double time,
+                 cv::Mat& image) {
+  if (record.tracked) {
+    draw_spread(image, camera, record.samples, arms, 0.35);
+    draw_skeleton(image, camera, record.estimate.joints, arms, 2 * line_thickness(image));
+    draw_caption(image, fmt::format("{:.2f} s  {:.2f} m/s", time, record.estimate.speed));
+  } else {
+    draw_caption(image, fmt::format("{:.2f} s  not tracked", time));
+  }
+}
+
+}  // namespace
+
+Motion motion_of(const TrackedFrames& frames) {
+  Motion motion;
+  for (size_t i = 0; i < frames.records.size(); ++i) {
+    motion.time.push_back(time_of(frames, i));
+    motion.joints.push_back(unknown_joints());
+    const FrameRecord& record = frames.records[i];
+    if (!record.tracked) continue;
+    for (size_t j = 0; j < record.estimate.joint_count; ++j)
+      motion.joints.back().at[j] = record.estimate.joints.at[j];
+  }
+  return motion;
+}
+
+JointUncertainty uncertainty_of(const TrackedFrames& frames) {
+  JointUncertainty out;
+  for (size_t i = 0; i < frames.records.size(); ++i) {
+    out.time.push_back(time_of(frames, i));
+    for (auto* column : {&out.sd, &out.p05, &out.p95}) column->push_back(unknown_joints());
+    const FrameRecord& record = frames.records[i];
+    for (size_t j = 0; record.tracked && j < record.estimate.joint_count; ++j) {
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        const Spread& spread = record.estimate.spread[j][static_cast<size_t>(axis)];
+        out.sd.back().at[j][axis] = spread.sd;
+        out.p05.back().at[j][axis] = spread.p05;
+        out.p95.back().at[j][axis] = spread.p95;
+      }
+    }
+  }
+  return out;
+}
+
+std::string write_tables(const TrackedFrames& frames, const WorldFrame& world,
+                         const ResultFolder& folder) {
+  const Motion motion = motion_of(frames);
+  const std::string joints = motion_csv(motion, world);
+  const std::string uncertainty = uncertainty_csv(motion, uncertainty_of(frames), world);
+  folder.write("joints.csv", joints);
+  folder.write("uncertainty.csv", uncertainty);
+  folder.write("joints.trc", trc_from_motion(motion, frames.frame_rate, "joints.trc"));
+  std::vector<double> times;
+  std::vector<Pose> poses;
+  for (size_t i = 0; i < frames.records.size(); ++i) {
+    if (!frames.records[i].tracked) continue;
+    times.push_back(time_of(frames, i));
+    poses.push_back(frames.records[i].estimate.pose);
+  }
+  if (!times.empty()) folder.write("angles.mot", mot_from_poses(times, poses, "angles"));
+  return result_digest(joints, uncertainty);
+}
+
+std::filesystem::path write_overlays(const TrackJob& job, const TrackedFrames& frames,
+                                     const ResultFolder& folder, const JobControl& control) {
+  SceneVideo video(job.scene);
+  std::vector<VideoWriter> writers;
+  const auto name = [&](size_t c) {
+    return fmt::format("overlay_{}.mp4", job.scene.cameras[c].name);
+  };
+  for (size_t c = 0; c < job.scene.cameras.size(); ++c) {
+    const Camera& camera = job.scene.cameras[c].camera;
+    writers.emplace_back(folder.file(name(c)), cv::Size(camera.width_px, camera.height_px),
+                         frames.frame_rate);
+  }
+  SceneFrames images;
+  const bool arms = job.config.values.body.arms;
+  for (size_t i = 0; i < frames.records.size() && video.read(images); ++i) {
+    for (size_t c = 0; c < writers.size(); ++c) {
+      draw_record(frames.records[i], job.scene.cameras[c].camera, arms, time_of(frames, i),
+                  images.images[c]);
+      writers[c].write(images.images[c]);
+    }
+    control.progress("drawing", i + 1, frames.records.size());
+  }
+  for (VideoWriter& writer : writers) writer.close();
+  return folder.file(name(0));
+}
+
+int foot_changes(const TrackedFrames& frames) {
+  int changes = 0;
+  bool before_left = false, known_before = false;
+  for (const FrameRecord& record : frames.records) {
+    const bool left = record.estimate.left_stance > 0.5;
+    if (record.tracked && known_before && left != before_left) ++changes;
+    known_before = record.tracked;
+    before_left = left;
+  }
+  return changes;
+}
+
+}  // namespace walktrack

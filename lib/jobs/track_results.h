@@ -1,0 +1,36 @@
+// What tracking leaves behind: tables of joints and angles, overlay videos, the record of the run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/job_control.h"
+#include "io/result_folder.h"
+#include "jobs/track.h"
+#include "metrics/coverage.h"
+#include "tracker/tracker.h"
+
+namespace walktrack {
+
+// One frame of a finished track.
+struct TrackedFrames {
+  double frame_rate = 30;  // Hz
+  std::vector<FrameRecord> records;
+};
+
+Motion motion_of(const TrackedFrames& frames);
+JointUncertainty uncertainty_of(const TrackedFrames& frames);
+
+// Writes the tables and returns the digest of joints.csv and uncertainty.csv.
+std::string write_tables(const TrackedFrames& frames, const WorldFrame& world,
+                         const ResultFolder& folder);
+
+// Reads the film again and draws the mean pose and the particles' spread into it, one video a
+// camera. Returns the path of the first.
+std::filesystem::path write_overlays(const TrackJob& job, const TrackedFrames& frames,
+                                     const ResultFolder& folder, const JobControl& control);
+
+// Feet that took over from each other: how often the likelier stance side changed.
+int foot_changes(const TrackedFrames& frames);
+
+}  // namespace walktrack

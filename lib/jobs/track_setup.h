@@ -1,0 +1,27 @@
+// From a scene and a configuration to a tracker's inputs: observers that know the empty scene, the
+// subject's body, where the walk begins.
+#pragma once
+
+#include <vector>
+
+#include "core/job_control.h"
+#include "io/config.h"
+#include "io/scene.h"
+#include "observation/observer.h"
+#include "tracker/scene.h"
+
+namespace walktrack {
+
+struct TrackSetup {
+  std::vector<Observer> observers;  // by camera
+  TrackerScene scene;
+};
+
+// Learns each camera's background from its empty frames or, without them, from the film itself.
+TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
+                  const JobControl& control);
+
+// Where to look in the next frame: around the walker once tracked, everywhere before.
+Region search_region(const Camera& camera, double subject_height);
+
+}  // namespace walktrack

@@ -1,0 +1,211 @@
+#include "tracker/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "body/kinematics.h"
+#include "core/conventions.h"
+
+namespace walktrack {
+
+namespace {
+
+size_t index(Side side) { return static_cast<size_t>(side); }
+
+// Rows: q's coordinates; columns: torques between torso and stance thigh, hip, stance knee, swing
+// knee, and of the ground on the stance shank.
+// clang-format off
+Matrix5 torque_distribution() {
+  Matrix5 b;
+  b <<  1,  0,  0,  0, 0,
+       -1, -1, -1,  0, 0,
+        0,  1,  0, -1, 0,
+        0,  0,  1,  0, 1,
+        0,  0,  0,  1, 0;
+  return b;
+}
+// clang-format on
+
+// Arms swing against the legs: forward with the other side's thigh.
+double rest_of(Extra extra, const MarkovConstants& constants, const WalkerParticle& particle) {
+  if (extra != kShoulder && extra != kShoulderRight) return constants.rest;
+  constexpr double kArmPerLeg = 0.6;  // walking at 1.3 m/s, Murray et al. 1967
+  const size_t other_leg = 1 - static_cast<size_t>(extra - kShoulder);
+  return constants.rest + kArmPerLeg * particle.pose.legs[other_leg].hip_flexion;
+}
+
+void predict_extras(const MotionContext& context, WalkerParticle& particle) {
+  for (int k = 0; k < extra_count(context.model.body); ++k) {
+    const auto extra = static_cast<Extra>(k);
+    const size_t i = static_cast<size_t>(k);
+    const MarkovConstants c = markov_constants(extra);
+    const double a = std::exp(-context.dt / c.memory);
+    const double b = c.settling > 0 ? 1 - std::exp(-context.dt / c.settling) : 0;
+    const double now = particle.extra[i];
+    const double next =
+        now + a * (now - particle.extra_before[i]) + b * (rest_of(extra, c, particle) - now);
+    particle.extra_before[i] = now;
+    particle.predicted_extra[i] = std::clamp(next, c.lowest, c.highest);
+  }
+}
+
+void draw_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  const int count = kExtraNoise + extra_count(context.model.body);
+  for (int k = 0; k < count; ++k) particle.noise[static_cast<size_t>(k)] = rng.truncated_normal(4);
+}
+
+// The new step aims a little differently from the last; its controls start from the gait of that
+// aim, corrected for the state that the strike has left.
+void choose_controls(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  const MotionConfig& config = context.config;
+  StepAim& aim = particle.aim;
+  aim.speed *= std::exp(config.aim_drift * rng.truncated_normal(3));
+  aim.step_length *= std::exp(config.aim_drift * rng.truncated_normal(3));
+  const PriorGait gait =
+      gait_at(context.prior, context.model.walker.parameters, aim.speed, aim.step_length);
+  aim = {gait.speed, gait.step_length};  // within the table
+  particle.controls = draw_controls(
+      rng, next_controls(gait, particle.walker, config.feedback),
+      {.relative = config.control_noise, .rest = 0.5 * config.control_noise, .torque = 0});
+}
+
+// The swing foot has come down: it carries the body from here, and a new step begins.
+void change_support(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  const Side landed = other(particle.stance);
+  // The transfer has exchanged the names of the legs already: pose them by their new roles on the
+  // old place, which is where the leg that now swings still stands.
+  Pose pose = particle.pose;
+  particle.stance = landed;
+  pose.tilt = particle.walker.q[kTorso];
+  const auto set = [&](Side side, int thigh, int shank) {
+    LegPose& leg = pose.legs[index(side)];
+    leg.hip_flexion = pose.tilt - particle.walker.q[thigh];
+    leg.knee_flexion = particle.walker.q[shank] - particle.walker.q[thigh];
+  };
+  set(landed, kStanceThigh, kStanceShank);
+  set(other(landed), kSwingThigh, kSwingShank);
+  const double old_ankle = kneed_posture(context.model.walker, particle.walker).swing_ankle.y();
+  stand_on(context.model.body, other(landed),
+           Eigen::Vector3d(particle.ball.x(), particle.ball.y(), 0),
+           sole_pitch(context.model.body.lengths, old_ankle), pose);
+  particle.ball = landing_ball(context.model.body, pose, landed);
+  choose_controls(context, particle, rng);
+}
+
+Outcome simulate(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  const bool sloped = !context.model.downhill.isZero();
+  const KneedModel tilted =
+      sloped ? in_plane(context.model, particle.extra[kHeading]) : KneedModel{};
+  const KneedModel& model = sloped ? tilted : context.model.walker;
+  settle_knee_stops(model, particle.controls, Vector5::Zero(), particle.walker);
+  double left = context.dt;
+  while (left > 0) {
+    const KneedAdvance done =
+        kneed_advance(model, particle.controls, Vector5::Zero(), particle.walker, left);
+    left -= done.elapsed;
+    if (done.event == KneedEvent::kFallen) return Outcome::kFallen;
+    if (done.event == KneedEvent::kDiverged) return Outcome::kDiverged;
+    if (done.event == KneedEvent::kNone) break;
+    change_support(context, particle, rng);
+  }
+  return Outcome::kAlive;
+}
+
+double ball_sigma(const MotionContext& context, const WalkerParticle& particle) {
+  const MotionConfig& config = context.config;
+  const double fresh = std::exp(-particle.walker.since_transfer / config.settling);
+  return std::hypot(config.ball_drift * std::sqrt(context.dt), config.landing * fresh);
+}
+
+// The walker as it is becomes the frame's prediction, and its noise is drawn.
+Outcome predict(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  const Matrix5 mass = kneed_mass_matrix(context.model.walker, particle.walker.q);
+  particle.velocity_per_impulse = mass.llt().solve(torque_distribution());
+  if (!particle.velocity_per_impulse.allFinite()) return Outcome::kDiverged;
+  particle.predicted = particle.walker;
+  particle.predicted_ball = particle.ball;
+  particle.ball_sigma = particle.arriving ? context.config.arrival : ball_sigma(context, particle);
+  draw_noise(context, particle, rng);
+  realise(context.model, context.scale, particle);
+  return Outcome::kAlive;
+}
+
+}  // namespace
+
+MarkovConstants markov_constants(Extra extra) {
+  const auto deg = [](double angle) { return rad_from_deg(angle); };
+  switch (extra) {
+    case kHeading:
+      return {0, 0.5, 0, 0.35, -1e9, 1e9};
+    case kList:
+      return {0, 0.15, 0.3, 1.2, deg(-15), deg(15)};
+    case kAbduction:
+    case kAbductionRight:
+      return {deg(-2.5), 0.15, 0.4, 1.6, deg(-20), deg(30)};
+    case kRotation:
+    case kRotationRight:
+      return {deg(-5), 0.1, 0.3, 2.0, deg(-40), deg(40)};
+    case kAnkle:
+    case kAnkleRight:
+      return {deg(-3), 0.05, 0.12, 8.0, deg(-45), deg(30)};
+    case kShoulder:
+    case kShoulderRight:
+      return {0, 0.15, 0.25, 5.0, deg(-60), deg(120)};
+    case kShoulderAbduction:
+    case kShoulderAbductionRight:
+      return {deg(6), 0.1, 0.3, 2.5, deg(-10), deg(60)};
+    case kElbow:
+    case kElbowRight:
+    case kExtraCount:
+      break;
+  }
+  return {deg(22), 0.1, 0.3, 5.0, 0, deg(130)};
+}
+
+NoiseScale noise_scale(const MotionConfig& config, const BodyModel& model, double dt) {
+  const KneedParameters& p = model.walker.parameters;
+  const double leg = leg_length(model.body.lengths);
+  const double unit = config.torque_noise_scale * model.walker.total_mass * p.gravity * leg;
+  const double root = std::sqrt(dt);
+  NoiseScale scale;
+  const std::array<double, 5> shares{config.torso_torque, config.hip_torque,
+                                     config.stance_knee_torque, config.swing_knee_torque,
+                                     config.ankle_torque};
+  for (size_t k = 0; k < 5; ++k) scale.impulse[k] = shares[k] * unit * root;
+  scale.elapsed = dt;
+  scale.planar = rad_from_deg(config.planar_misfit_deg) * root;
+  for (int k = 0; k < kExtraCount; ++k)
+    scale.extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).sigma * dt * root;
+  return scale;
+}
+
+Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  particle.arriving = true;
+  return predict(context, particle, rng);
+}
+
+Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  particle.arriving = false;
+  particle.pose_before = particle.pose;
+  predict_extras(context, particle);
+  const Outcome outcome = simulate(context, particle, rng);
+  return outcome == Outcome::kAlive ? predict(context, particle, rng) : outcome;
+}
+
+void perturb(const MotionContext& context, double boldness, WalkerParticle& particle, Rng& rng) {
+  // Half of the proposals change everything a little, the others one group of coordinates.
+  const double keep = std::sqrt(1 - boldness * boldness);
+  const int count = kExtraNoise + extra_count(context.model.body);
+  const bool all = rng.uniform() < 0.5;
+  const int first = all ? 0 : static_cast<int>(rng.uniform() * count);
+  const int last = all ? count : std::min(count, first + 5);
+  for (int k = first; k < last; ++k) {
+    double& z = particle.noise[static_cast<size_t>(k)];
+    z = keep * z + boldness * rng.normal();
+  }
+  realise(context.model, context.scale, particle);
+}
+
+}  // namespace walktrack

@@ -1,0 +1,61 @@
+// How a particle gets from one frame to the next: the kneed walker under its springs, new controls
+// at every support transfer, and Markov processes for what the walker does not drive.
+//
+//   k_t = k_(t-1) + a (k_(t-1) - k_(t-2)) + b (k0 - k_(t-1)) + noise,
+//   a = exp(-dt / memory), b = 1 - exp(-dt / settling), noise ~ N(0, (sigma dt^1.5)^2)
+// so that the process does not depend on the frame rate; truncated at anatomical limits.
+#pragma once
+
+#include "gait/gait_prior.h"
+#include "tracker/particle.h"
+#include "walker/kneed_advance.h"
+
+namespace walktrack {
+
+struct MotionConfig {
+  // Torque noise as shares of M g L per sqrt(s), L the leg's length: torso, hip, knees and, for the
+  // ground under the stance foot, ankle.
+  double torso_torque = 0.010;
+  double hip_torque = 0.012;
+  double stance_knee_torque = 0.008;
+  double swing_knee_torque = 0.004;
+  double ankle_torque = 0.040;
+  double planar_misfit_deg = 4.0;  // per sqrt(s): how far people's angles stray from the walker's
+  double ball_drift = 0.012;    // m per sqrt(s): the drawn foot does not roll as the walker's does
+  double landing = 0.04;        // m, along and across: where a foot comes down
+  double settling = 0.05;       // s after the strike in which that uncertainty dies away
+  double arrival = 0.10;        // m, the same when a walker is first seen
+  double control_noise = 0.05;  // relative, per step (gait/gait_prior.h)
+  double feedback = 1;          // strength of the correction of controls at a support transfer
+  double aim_drift = 0.06;      // relative, per step, of the speed and the step length aimed at
+  double torque_noise_scale = 0.4;  // multiplies all five torques
+};
+
+// Constants of the Markov process of one extra coordinate.
+struct MarkovConstants {
+  double rest, memory, settling, sigma;  // rad, s, s (0: never settles), rad/s^1.5
+  double lowest, highest;                // rad
+};
+MarkovConstants markov_constants(Extra extra);
+
+NoiseScale noise_scale(const MotionConfig& config, const BodyModel& model, double dt);
+
+struct MotionContext {
+  const BodyModel& model;
+  const GaitPrior& prior;
+  MotionConfig config;
+  NoiseScale scale;
+  double dt;  // s
+};
+
+enum class Outcome { kAlive, kFallen, kDiverged };
+
+// The first frame of a particle: nothing moves, but its noise is drawn.
+Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng);
+// One frame forward and its noise drawn.
+Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& rng);
+
+// Changes some of the frame's noise, reversibly with respect to its prior, and realises it.
+void perturb(const MotionContext& context, double boldness, WalkerParticle& particle, Rng& rng);
+
+}  // namespace walktrack

@@ -1,0 +1,110 @@
+// One hypothesis: a kneed walker in its vertical plane, where that plane stands, and the angles
+// that the walker does not drive. The one place where a planar state becomes a 3-D pose.
+//
+// A frame's state is what physics predicted plus standardised normal noise brought in by `realise`.
+// Keeping the noise apart lets the filter's moves explore it reversibly (preconditioned
+// Crank-Nicolson: z' = sqrt(1 - s^2) z + s n leaves N(0, 1) invariant), without simulating again.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "body/body.h"
+#include "body/pose.h"
+#include "core/rng.h"
+#include "walker/kneed_walker.h"
+
+namespace walktrack {
+
+// The coordinates that follow a damped second-order Markov process, in this order. The arms come
+// last, so that a body without arms carries and pays for kExtraWithoutArms of them.
+enum Extra {
+  kHeading,
+  kList,
+  kAbduction,  // of the left leg; the right one's follows, and so for all pairs
+  kAbductionRight,
+  kRotation,
+  kRotationRight,
+  kAnkle,  // dorsiflexion; a standing foot's follows from its sole instead
+  kAnkleRight,
+  kShoulder,  // flexion
+  kShoulderRight,
+  kShoulderAbduction,
+  kShoulderAbductionRight,
+  kElbow,
+  kElbowRight,
+  kExtraCount
+};
+inline constexpr int kExtraWithoutArms = kShoulder;
+using Extras = std::array<double, kExtraCount>;  // rad
+
+inline constexpr int extra_count(const Body& body) {
+  return body.groups.arms ? int{kExtraCount} : kExtraWithoutArms;
+}
+
+// Where the noise of a frame acts.
+enum NoiseIndex {
+  kTorqueNoise,                     // 5: torso, hip, stance knee, swing knee, stance ankle
+  kPlanarNoise = kTorqueNoise + 5,  // 5: misfit of the planar angles, in the order of q
+  kBallNoise = kPlanarNoise + 5,    // 2: the standing foot's place, along and across
+  kExtraNoise = kBallNoise + 2,
+  kNoiseCount = kExtraNoise + kExtraCount
+};
+
+// Standard deviations of one frame's noise, derived from MotionConfig and the frame's length.
+struct NoiseScale {
+  std::array<double, 5> impulse{};  // N m s
+  double elapsed = 0;               // s, the frame's length
+  double planar = 0;                // rad
+  Extras extra{};                   // rad
+};
+
+// What the present step aims at; chosen anew at every support transfer.
+struct StepAim {
+  double speed = 0;        // m/s
+  double step_length = 0;  // m
+};
+
+struct WalkerParticle {
+  // As predicted, before this frame's noise.
+  KneedState predicted;
+  Eigen::Matrix<double, 5, 5> velocity_per_impulse;  // rad/s per N m s of each torque noise
+  Eigen::Vector2d predicted_ball = Eigen::Vector2d::Zero();
+  double ball_sigma = 0;  // m, of the standing foot's place in this frame
+  Extras predicted_extra{};
+  std::array<double, kNoiseCount> noise{};  // standard normal
+
+  // As realised.
+  KneedState walker;
+  Side stance = Side::kLeft;
+  Eigen::Vector2d ball = Eigen::Vector2d::Zero();  // of the standing foot, on the ground, m
+  Extras extra{}, extra_before{};                  // now and one frame ago
+  Pose pose, pose_before;                          // now and one frame ago
+  bool arriving = false;  // the first frame: there is no frame before, extras start at rest
+
+  KneedControls controls;
+  StepAim aim;
+};
+
+// What all particles of a scene share.
+struct BodyModel {
+  Body body;
+  KneedModel walker;                                   // on level ground
+  Eigen::Vector2d downhill = Eigen::Vector2d::Zero();  // horizontal gravity, m/s^2; 0 on the level
+};
+
+// Sets the realised part (walker, ball, extra, pose) from the predicted part and the noise.
+void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle);
+
+// The pose of a planar state whose standing foot has its ball at `ball`.
+Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance,
+             const Eigen::Vector2d& ball, const Extras& extra);
+
+// Where the swing foot's ball would stand if it came down flat now: the next `ball`.
+Eigen::Vector2d landing_ball(const Body& body, const Pose& pose, Side swing);
+
+// The model's gravity in the plane of `heading`.
+KneedModel in_plane(const BodyModel& model, double heading);
+
+}  // namespace walktrack

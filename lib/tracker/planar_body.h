@@ -1,0 +1,17 @@
+// The subject as a kneed walker: the one place where anthropometrics become planar parameters.
+//
+// Masses, centres of mass and radii of gyration: Winter 2009, table 4.1 (Dempster), as shares of
+// the subject's mass and of the segment's length; shank and foot are one part. The rolling foot has
+// .3 leg lengths of radius, its arc's centre 5 cm (at a leg of .9275 m) ahead of the shank's axis
+// and as high above the ankle as makes the ankle stand at its height (lib/walker, kneed_walker.h).
+#pragma once
+
+#include "body/subject.h"
+#include "walker/kneed_walker.h"
+
+namespace walktrack {
+
+// `gravity` in m/s^2. Level ground; a slope is set by tilting the model's gravity.
+KneedParameters kneed_parameters(const Subject& subject, double gravity);
+
+}  // namespace walktrack

@@ -1,0 +1,73 @@
+// Finding a walking person before any tracking: along which straight line over the ground does an
+// upright figure of the subject's size best explain the foreground of a short stretch of film?
+//
+// One frame of one camera hardly tells how far away somebody is; a stretch of walking does, because
+// one speed and one size must fit every frame. Candidates of two frames propose lines, which are
+// scored on all frames and refined.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "body/body.h"
+#include "body/kinematics.h"
+#include "camera/camera.h"
+
+namespace walktrack {
+
+struct SightingConfig {
+  double window = 0.8;      // s of film that a walk is read from
+  double slowest = 0.35;    // m/s: who is slower is not walking
+  double fastest = 3.0;     // m/s
+  double complete = 0.6;    // no frame's score below this share of the window's median
+  double least_score = 25;  // nats, of the figure in any frame
+  int candidates = 10;      // places of a frame that lines are laid through
+  int grid_px = 8;          // spacing of the pixel grid at 640 px of image width
+};
+
+// Where the person was and how they moved, on the ground, metres and m/s.
+struct Sighting {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // at the window's first frame
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+};
+
+struct Place {
+  Eigen::Vector2d position;
+  double score;  // nats
+};
+
+// Log-likelihood ratio of the upright figure over a ground point, all cameras together, nats.
+using PlaceScore = std::function<double(const Eigen::Vector2d&)>;
+// The same in one frame of a window.
+using WindowScore = std::function<double(size_t frame, const Eigen::Vector2d&)>;
+
+// Upright figures over a ground point, walking along `heading`, with the legs together, halfway and
+// fully apart: one of them resembles a walker in any frame.
+std::array<std::vector<PosedPart>, 3> upright_figures(const Body& body,
+                                                      const Eigen::Vector2d& position,
+                                                      double heading);
+
+// The heading that shows a figure over `position` side on to the camera.
+double side_on_heading(const Camera& camera, const Eigen::Vector2d& position);
+
+// Ground points under the pixel grid of `cameras[0]` at which the figure lies wholly inside the
+// image of every camera that has it in front.
+std::vector<Eigen::Vector2d> standing_places(std::span<const Camera> cameras, double height,
+                                             const SightingConfig& config);
+
+// The best of `places`, at least half a metre apart, best first.
+std::vector<Place> find_figures(const PlaceScore& score, std::span<const Eigen::Vector2d> places,
+                                const SightingConfig& config, int threads);
+
+// The walk through the window's frames, dt apart, given each frame's candidates; nullopt when
+// nobody walks there, is cut off by an edge or hidden in part of the frames.
+std::optional<Sighting> find_walk(std::span<const std::vector<Place>> candidates,
+                                  const WindowScore& score, double dt, const SightingConfig& config,
+                                  int threads);
+
+}  // namespace walktrack

@@ -1,0 +1,88 @@
+#include "tracker/start.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/conventions.h"
+
+namespace walktrack {
+
+namespace {
+
+// The state and controls at a phase of the aimed gait.
+void enter_gait(const MotionContext& context, double phase, WalkerParticle& particle) {
+  const KneedModel& model = context.model.walker;
+  const PriorGait gait =
+      gait_at(context.prior, model.parameters, particle.aim.speed, particle.aim.step_length);
+  particle.aim = {gait.speed, gait.step_length};
+  particle.controls = gait.controls;
+  particle.walker = state_at_phase(model, gait, phase);
+  particle.predicted = particle.walker;
+  particle.velocity_per_impulse.setZero();
+}
+
+void place(const MotionContext& context, const Eigen::Vector2d& position, WalkerParticle& p) {
+  p.predicted_ball.setZero();
+  p.predicted_extra = p.extra;
+  realise(context.model, context.scale, p);
+  p.predicted_ball = position - p.pose.root.head<2>();
+  realise(context.model, context.scale, p);
+  p.pose_before = p.pose;
+}
+
+}  // namespace
+
+std::vector<PhaseRange> phase_ranges(const StartConfig& config) {
+  std::vector<PhaseRange> ranges;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    for (int k = 0; k < config.phases; ++k)
+      ranges.push_back({side, double(k) / config.phases, double(k + 1) / config.phases});
+  }
+  return ranges;
+}
+
+std::vector<PhaseRange> phase_ranges(const StartConfig& config, double stride_phase) {
+  const double steps = 2 * (stride_phase - std::floor(stride_phase));
+  const Side side = steps < 1 ? Side::kLeft : Side::kRight;
+  const double phase = steps - std::floor(steps), half = 1.0 / config.phases;
+  return {{side, std::max(0.0, phase - half), std::min(1.0, phase + half)}};
+}
+
+std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfig& config,
+                                  const Sighting& sighting, const PhaseRange& range,
+                                  uint64_t seed) {
+  std::vector<WalkerParticle> out(static_cast<size_t>(config.particles));
+  const double leg = leg_length(context.model.body.lengths);
+  const double unit_speed = std::sqrt(context.model.walker.parameters.gravity * leg);
+  for (size_t i = 0; i < out.size(); ++i) {
+    Rng rng(seed, Purpose::kInitialisation, 0, static_cast<uint32_t>(i));
+    WalkerParticle& p = out[i];
+    const double speed =
+        sighting.velocity.norm() * std::exp(config.speed * rng.truncated_normal(2.5));
+    const double step = leg * preferred_step_length(speed / unit_speed) *
+                        std::exp(config.step_length * rng.truncated_normal(2.5));
+    p.aim = {speed, step};
+    p.stance = range.stance;
+    for (int k = 0; k < extra_count(context.model.body); ++k)
+      p.extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).rest;
+    p.extra[kHeading] = std::atan2(sighting.velocity.y(), sighting.velocity.x());
+    p.extra_before = p.extra;
+    enter_gait(context, range.from + (range.to - range.from) * rng.uniform(), p);
+    place(context, sighting.position, p);
+  }
+  return out;
+}
+
+NoiseScale start_scale(const StartConfig& config, const NoiseScale& frame) {
+  NoiseScale scale = frame;
+  scale.planar = std::max(frame.planar, rad_from_deg(3));
+  scale.extra[kHeading] = rad_from_deg(config.heading_deg);
+  for (const int k : {int{kList}, int{kAbduction}, kAbduction + 1, int{kRotation}, kRotation + 1,
+                      int{kAnkle}, kAnkle + 1})
+    scale.extra[static_cast<size_t>(k)] = rad_from_deg(4);
+  for (int k = kShoulder; k < kExtraCount; ++k)
+    scale.extra[static_cast<size_t>(k)] = rad_from_deg(15);
+  return scale;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,38 @@
+// The first particles: a walker seen at a place, walking some way, may be in any phase of either
+// leg's step. Hypotheses over phase and side are tracked side by side for a while and compete by
+// evidence, so that no single frame decides left from right.
+#pragma once
+
+#include <vector>
+
+#include "tracker/motion.h"
+#include "tracker/sighting.h"
+
+namespace walktrack {
+
+struct StartConfig {
+  int phases = 6;        // hypotheses over the phase of a step, for each standing foot
+  int particles = 160;   // of each hypothesis
+  double seconds = 0.5;  // for which they compete
+  double heading_deg = 5;
+  double speed = 0.15;        // relative
+  double step_length = 0.12;  // relative, about the human relation
+};
+
+// Which part of the stride a hypothesis covers: a standing foot and phases [from, to) of its step.
+struct PhaseRange {
+  Side stance = Side::kLeft;
+  double from = 0, to = 1;
+};
+std::vector<PhaseRange> phase_ranges(const StartConfig& config);
+// The ranges that hold a stated phase of the stride (0 = left foot strike), give or take a range.
+std::vector<PhaseRange> phase_ranges(const StartConfig& config, double stride_phase);
+
+// Particles drawn around a sighting, realised; their noise is still to be drawn by a first frame.
+std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfig& config,
+                                  const Sighting& sighting, const PhaseRange& range, uint64_t seed);
+
+// The noise of a first frame: as wide as the sighting is coarse.
+NoiseScale start_scale(const StartConfig& config, const NoiseScale& frame);
+
+}  // namespace walktrack

@@ -1,0 +1,225 @@
+#include "tracker/tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "body/kinematics.h"
+#include "core/log_weights.h"
+
+namespace walktrack {
+
+namespace {
+
+// A hypothesis this many nats behind the best has lost (odds of 1 to 3 million).
+constexpr double kHopeless = 15;
+
+int frames_in(double seconds, double dt) {
+  return std::max(2, static_cast<int>(std::lround(seconds / dt)));
+}
+
+}  // namespace
+
+Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig& config,
+                 uint64_t seed, int threads)
+    : scene_(std::move(scene)),
+      prior_(prior),
+      config_(config),
+      seed_(seed),
+      threads_(threads),
+      frame_scale_(noise_scale(config.motion, scene_.model, scene_.dt)),
+      filter_(config.filter, seed, threads) {}
+
+std::vector<FrameRecord> Tracker::push(const SceneEvidence& evidence) {
+  std::vector<FrameRecord> out;
+  consume(evidence, out);
+  return out;
+}
+
+std::vector<FrameRecord> Tracker::finish() {
+  std::vector<FrameRecord> out;
+  if (mode_ == Mode::kStarting) settle(out);
+  out.resize(out.size() + window_.size());
+  window_.clear();
+  return out;
+}
+
+void Tracker::consume(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
+  switch (mode_) {
+    case Mode::kSearching:
+      return search(evidence, out);
+    case Mode::kStarting:
+      return compete(evidence, out);
+    case Mode::kTracking:
+      return track(evidence, out);
+  }
+}
+
+void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
+  if (scene_.initial) {
+    if (frame_ < static_cast<uint32_t>(scene_.initial_frame)) {
+      ++frame_;
+      out.emplace_back();
+      return;
+    }
+    begin(*std::exchange(scene_.initial, std::nullopt), scene_.initial_phase);
+    return compete(evidence, out);
+  }
+  if (places_.empty())
+    places_ = standing_places(scene_.cameras, scene_.model.body.subject.height, config_.sighting);
+  const auto heading = [&](const Eigen::Vector2d& place) {
+    return side_on_heading(scene_.cameras[0], place);
+  };
+  const auto score = [&](const Eigen::Vector2d& place) {
+    return place_score(scene_, evidence, place, heading(place));
+  };
+  candidates_.push_back(find_figures(score, places_, config_.sighting, threads_));
+  window_.push_back(evidence);
+  if (static_cast<int>(window_.size()) < frames_in(config_.sighting.window, scene_.dt)) return;
+  const auto window_score = [&](size_t frame, const Eigen::Vector2d& place) {
+    return place_score(scene_, window_[frame], place, heading(place));
+  };
+  const auto sighting = find_walk(std::vector(candidates_.begin(), candidates_.end()), window_score,
+                                  scene_.dt, config_.sighting, threads_);
+  if (!sighting) {
+    window_.pop_front();
+    candidates_.pop_front();
+    ++frame_;
+    out.emplace_back();
+    return;
+  }
+  begin(*sighting, std::nullopt);
+  const std::deque<SceneEvidence> waiting = std::exchange(window_, {});
+  candidates_.clear();
+  for (const SceneEvidence& each : waiting) consume(each, out);
+}
+
+void Tracker::begin(const Sighting& sighting, std::optional<double> stride_phase) {
+  const MotionContext motion{scene_.model, prior_, config_.motion, frame_scale_, scene_.dt};
+  FilterConfig filter = config_.filter;
+  filter.particles = config_.start.particles;
+  hypotheses_.clear();
+  const auto ranges =
+      stride_phase ? phase_ranges(config_.start, *stride_phase) : phase_ranges(config_.start);
+  for (const PhaseRange& range : ranges) {
+    const uint64_t seed = seed_ + 0x9E3779B97F4A7C15u * ++starts_;  // streams of its own
+    hypotheses_.push_back({Filter(filter, seed, threads_), seed, 0, {}});
+    hypotheses_.back().filter.start(spawn(motion, config_.start, sighting, range, seed));
+  }
+  mode_ = Mode::kStarting;
+}
+
+void Tracker::compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
+  for (Hypothesis& each : hypotheses_) {
+    each.records.push_back(advance(each.filter, evidence, each.seed, each.records.empty()));
+    each.log_evidence += each.records.back().filter.log_evidence;
+  }
+  ++frame_;
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Hypothesis& each : hypotheses_) best = std::max(best, each.log_evidence);
+  const size_t frames = hypotheses_.front().records.size();
+  if (best == -std::numeric_limits<double>::infinity()) {
+    out.resize(out.size() + frames);  // nobody walks like this: frames stay untracked
+    mode_ = Mode::kSearching;
+    return;
+  }
+  std::erase_if(hypotheses_,
+                [&](const Hypothesis& h) { return h.log_evidence < best - kHopeless; });
+  if (static_cast<int>(frames) >= frames_in(config_.start.seconds, scene_.dt)) settle(out);
+}
+
+// The hypotheses that are left become one set of particles, each with its share of the evidence.
+void Tracker::settle(std::vector<FrameRecord>& out) {
+  std::vector<double> evidence;
+  for (const Hypothesis& each : hypotheses_) evidence.push_back(each.log_evidence);
+  const std::vector<double> share = normalised_weights(evidence);
+  const size_t best =
+      static_cast<size_t>(std::max_element(share.begin(), share.end()) - share.begin());
+  std::vector<WalkerParticle> states;
+  std::vector<double> log_weights;
+  for (size_t h = 0; h < hypotheses_.size(); ++h) {
+    const auto& set = hypotheses_[h].filter.particles();
+    const double total = log_sum_exp(set.log_weights);
+    for (size_t i = 0; i < set.states.size(); ++i) {
+      states.push_back(set.states[i]);
+      log_weights.push_back(set.log_weights[i] - total + std::log(share[h]));
+    }
+  }
+  std::vector<uint32_t> parents(static_cast<size_t>(config_.filter.particles));
+  systematic_resample(log_weights, Rng(seed_, Purpose::kInitialisation, frame_).uniform(), parents);
+  std::vector<WalkerParticle> chosen;
+  chosen.reserve(parents.size());
+  for (const uint32_t parent : parents) chosen.push_back(states[parent]);
+  filter_.start(std::move(chosen));
+  for (FrameRecord& record : hypotheses_[best].records) {
+    supports_.push_back(record.support);
+    out.push_back(std::move(record));
+  }
+  hypotheses_.clear();
+  mode_ = Mode::kTracking;
+  frames_below_ = 0;
+}
+
+void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
+  FrameRecord record = advance(filter_, evidence, seed_, false);
+  ++frame_;
+  if (record.filter.all_dead || fading(record.support)) {
+    record.tracked = false;
+    ++losses_;
+    supports_.clear();
+    mode_ = Mode::kSearching;
+  }
+  out.push_back(std::move(record));
+}
+
+// One frame of the filter: propagate, weigh, resample; then what the particles say.
+FrameRecord Tracker::advance(Filter& filter, const SceneEvidence& evidence, uint64_t seed,
+                             bool first) {
+  const NoiseScale scale = first ? start_scale(config_.start, frame_scale_) : frame_scale_;
+  const MotionContext motion{scene_.model, prior_, config_.motion, scale, scene_.dt};
+  std::vector<Outcome> outcomes(filter.particles().states.size());
+  const auto step = [&](WalkerParticle& particle, uint32_t i) {
+    Rng rng(seed, Purpose::kTorque, frame_, i);
+    outcomes[i] = first ? arrive(motion, particle, rng) : propagate(motion, particle, rng);
+    return outcomes[i] == Outcome::kAlive;
+  };
+  const auto weigh = [&](const WalkerParticle& particle) {
+    return log_likelihood(scene_, evidence, particle, !first);
+  };
+  const auto move = [&](WalkerParticle& particle, double boldness, Rng& rng) {
+    perturb(motion, boldness, particle, rng);
+  };
+  FrameRecord record;
+  record.filter = filter.step(frame_, step, weigh, move);
+  record.fallen = static_cast<int>(std::count(outcomes.begin(), outcomes.end(), Outcome::kFallen));
+  record.diverged =
+      static_cast<int>(std::count(outcomes.begin(), outcomes.end(), Outcome::kDiverged));
+  if (record.filter.all_dead) return record;
+  const auto& set = filter.particles();
+  const std::vector<double> weights = normalised_weights(set.log_weights);
+  for (size_t i = 0; i < weights.size(); ++i)
+    if (weights[i] > 0) record.support += weights[i] * set.log_likelihoods[i];
+  record.tracked = true;
+  record.estimate = estimate_frame(scene_.model, set.states, weights, scene_.dt, threads_);
+  std::vector<uint32_t> chosen(static_cast<size_t>(config_.samples));
+  systematic_resample(set.log_weights, 0.5, chosen);
+  for (const uint32_t i : chosen)
+    record.samples.push_back(forward_kinematics(scene_.model.body, set.states[i].pose).joints);
+  return record;
+}
+
+// Whether the likelihood has stayed far below its own recent median for too long.
+bool Tracker::fading(double support) {
+  std::vector<double> past(supports_.begin(), supports_.end());
+  std::nth_element(past.begin(), past.begin() + static_cast<long>(past.size() / 2), past.end());
+  const double median = past[past.size() / 2];
+  frames_below_ = support < config_.lost_below * median ? frames_below_ + 1 : 0;
+  // Bad frames do not become the measure of good ones.
+  if (frames_below_ == 0) supports_.push_back(support);
+  if (static_cast<int>(supports_.size()) > frames_in(config_.recall, scene_.dt))
+    supports_.pop_front();
+  return frames_below_ >= frames_in(config_.lost_after, scene_.dt);
+}
+
+}  // namespace walktrack

@@ -1,0 +1,99 @@
+// The tracker: frames of evidence in, poses with their uncertainty out.
+//
+//   searching: look for a walk in a sliding window of frames         (tracker/sighting.h)
+//   starting:  hypotheses over phase and side compete for a while    (tracker/start.h)
+//   tracking:  for every frame: propagate, weigh, resample, estimate (filter/particle_filter.h)
+//   lost:      the likelihood fell far below its own past; search again
+//
+// Frames before the walk was found, and while it was lost, are reported as not tracked. Searching
+// looks a window ahead, so records come out late at first and one for one afterwards.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "filter/particle_filter.h"
+#include "tracker/estimate.h"
+#include "tracker/motion.h"
+#include "tracker/scene.h"
+#include "tracker/start.h"
+
+namespace walktrack {
+
+struct TrackerConfig {
+  MotionConfig motion;
+  FilterConfig filter;
+  SightingConfig sighting;
+  StartConfig start;
+  double lost_below = 0.35;  // share of the likelihood's own median at which the track is lost
+  double lost_after = 0.4;   // s below it
+  int samples = 12;          // particles kept of every frame to show the spread
+  double recall = 1.5;       // s of past likelihoods that the median is taken over
+};
+
+struct FrameRecord {
+  bool tracked = false;
+  FrameEstimate estimate;
+  FilterReport filter;
+  double support = 0;                   // mean log-likelihood of the particles, nats
+  std::vector<JointPositions> samples;  // a few particles, to show their spread
+  int fallen = 0, diverged = 0;
+};
+
+class Tracker {
+ public:
+  Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig& config, uint64_t seed,
+          int threads);
+
+  // Takes the next frame; hands back the records of all frames that are finished now, in order.
+  std::vector<FrameRecord> push(const SceneEvidence& evidence);
+  // The records of frames that still wait at the end of the film.
+  std::vector<FrameRecord> finish();
+
+  // Whether the newest frame has been tracked, so that its particles say where the person is.
+  bool tracking() const { return mode_ == Mode::kTracking; }
+  const ParticleSet<WalkerParticle>& particles() const { return filter_.particles(); }
+  // Times that the track was lost after it had been found.
+  int losses() const { return losses_; }
+
+ private:
+  enum class Mode { kSearching, kStarting, kTracking };
+  using Filter = ParticleFilter<WalkerParticle>;
+  struct Hypothesis {
+    Filter filter;
+    uint64_t seed;
+    double log_evidence = 0;
+    std::vector<FrameRecord> records;
+  };
+
+  void consume(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
+  void search(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
+  void begin(const Sighting& sighting, std::optional<double> stride_phase);
+  void compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
+  void settle(std::vector<FrameRecord>& out);
+  void track(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
+  FrameRecord advance(Filter& filter, const SceneEvidence& evidence, uint64_t seed, bool first);
+  bool fading(double support);
+
+  TrackerScene scene_;
+  const GaitPrior& prior_;
+  TrackerConfig config_;
+  uint64_t seed_;
+  int threads_;
+  NoiseScale frame_scale_;
+
+  Mode mode_ = Mode::kSearching;
+  uint32_t frame_ = 0;  // of the next evidence to be worked on
+  std::vector<Eigen::Vector2d> places_;
+  std::deque<SceneEvidence> window_;
+  std::deque<std::vector<Place>> candidates_;
+  std::vector<Hypothesis> hypotheses_;
+  uint32_t starts_ = 0;  // how often a search has ended: keys the random streams
+  Filter filter_;
+  std::deque<double> supports_;
+  int frames_below_ = 0;
+  int losses_ = 0;
+};
+
+}  // namespace walktrack
