@@ -10,10 +10,15 @@ namespace walktrack {
 
 void ModelOptions::declare(CommandLine& line) {
   namespace po = boost::program_options;
-  line.options().add_options()("model", po::value(&model_),
-                               "monopode, rimless_wheel, anthropomorphic or kneed")(
+  line.options().add_options()(
+      "model", po::value(&model_),
+      "monopode, rimless_wheel, anthropomorphic, kneed; simulate also articulated")(
       "step", po::value(&step_)->default_value(step_, "0.001"), "s, largest time step")(
       "integrator", po::value(&integrator_)->default_value(integrator_), "euler, rk4 or midpoint");
+}
+
+std::string ModelOptions::name(const CommandLine& line) const {
+  return model_name(model_, line.common().config_file);
 }
 
 ModelSpec ModelOptions::model(const CommandLine& line) const {

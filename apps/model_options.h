@@ -14,6 +14,8 @@ namespace walktrack {
 class ModelOptions {
  public:
   void declare(CommandLine& line);
+  // What --model or the model file says.
+  std::string name(const CommandLine& line) const;
   // The model that --model, --config and --set describe.
   ModelSpec model(const CommandLine& line) const;
   SimulationOptions simulation() const;

@@ -57,9 +57,9 @@ std::string allowed_text(const ModelEntry& entry) {
   throw UsageError(describe({setting.file, setting.line, setting.key}, found, allowed));
 }
 
-void apply(ModelSpec& spec, const ModelSetting& setting) {
+void set_value(const std::vector<ModelEntry>& entries, const ModelSetting& setting) {
   std::vector<std::string> keys;
-  for (const ModelEntry& entry : entries(spec)) {
+  for (const ModelEntry& entry : entries) {
     if (entry.key == setting.key || entry.key == kParameters + setting.key) {
       if (set_entry(entry, setting.text)) return;
       fail(setting, fmt::format("'{}'", setting.text), allowed_text(entry));
@@ -74,6 +74,14 @@ void apply(ModelSpec& spec, const ModelSetting& setting) {
        fmt::format("{}", fmt::join(keys, ", ")));
 }
 
+ModelSetting from_text(const std::string& setting) {
+  const size_t equals = setting.find('=');
+  if (equals == std::string::npos) {
+    throw UsageError(describe({"", 0, "--set"}, fmt::format("'{}'", setting), "KEY=VALUE"));
+  }
+  return {"--set", 0, setting.substr(0, equals), setting.substr(equals + 1)};
+}
+
 }  // namespace
 
 std::vector<ModelSetting> read_model_settings(const std::string& path) {
@@ -82,35 +90,43 @@ std::vector<ModelSetting> read_model_settings(const std::string& path) {
   return settings;
 }
 
-void apply_model_setting(ModelSpec& spec, const std::string& setting) {
-  const size_t equals = setting.find('=');
-  if (equals == std::string::npos) {
-    throw UsageError(describe({"", 0, "--set"}, fmt::format("'{}'", setting), "KEY=VALUE"));
+void apply_model_settings(const std::vector<ModelEntry>& entries, const std::string& file,
+                          const std::vector<std::string>& settings) {
+  if (!file.empty()) {
+    for (const ModelSetting& setting : read_model_settings(file)) {
+      if (setting.key != "model") set_value(entries, setting);
+    }
   }
-  apply(spec, {"--set", 0, setting.substr(0, equals), setting.substr(equals + 1)});
+  for (const std::string& setting : settings) set_value(entries, from_text(setting));
 }
 
-ModelSpec read_model(const std::string& name, const std::string& file,
-                     const std::vector<std::string>& settings) {
-  std::vector<ModelSetting> from_file;
-  if (!file.empty()) from_file = read_model_settings(file);
+void apply_model_setting(ModelSpec& spec, const std::string& setting) {
+  set_value(entries(spec), from_text(setting));
+}
+
+std::string model_name(const std::string& name, const std::string& file) {
   std::string model = name;
-  for (const ModelSetting& setting : from_file) {
-    if (setting.key != "model") continue;
-    if (!name.empty() && name != setting.text) {
-      fail(setting, fmt::format("'{}'", setting.text), fmt::format("'{}', as --model says", name));
+  if (!file.empty()) {
+    for (const ModelSetting& setting : read_model_settings(file)) {
+      if (setting.key != "model") continue;
+      if (!name.empty() && name != setting.text) {
+        fail(setting, fmt::format("'{}'", setting.text),
+             fmt::format("'{}', as --model says", name));
+      }
+      model = setting.text;
     }
-    model = setting.text;
   }
   if (model.empty()) {
     throw UsageError(
         describe({"", 0, "--model"}, "nothing", fmt::format("{}", fmt::join(model_names(), ", "))));
   }
-  ModelSpec spec = default_model(model);
-  for (const ModelSetting& setting : from_file) {
-    if (setting.key != "model") apply(spec, setting);
-  }
-  for (const std::string& setting : settings) apply_model_setting(spec, setting);
+  return model;
+}
+
+ModelSpec read_model(const std::string& name, const std::string& file,
+                     const std::vector<std::string>& settings) {
+  ModelSpec spec = default_model(model_name(name, file));
+  apply_model_settings(entries(spec), file, settings);
   return spec;
 }
 

@@ -24,6 +24,13 @@ struct ModelSetting {
 // The values of a file; "model" is one of them.
 std::vector<ModelSetting> read_model_settings(const std::string& path);
 
+// The name that --model or the file gives. UsageError where they differ or neither gives one.
+std::string model_name(const std::string& name, const std::string& file);
+
+// The values of a file, then "key=value" settings, into `entries`; "model" is passed over.
+void apply_model_settings(const std::vector<ModelEntry>& entries, const std::string& file,
+                          const std::vector<std::string>& settings);
+
 // The model that `name`, a file and "key=value" settings describe, each on top of the one before;
 // an empty name takes the file's. In settings "parameters." may be left out.
 ModelSpec read_model(const std::string& name, const std::string& file,
