@@ -17,14 +17,14 @@ namespace po = boost::program_options;
 int run_render(const Arguments& arguments) {
   std::string motion, options;
   CommandLine line({.name = "render",
-                    .operands = "MOTION.csv",
+                    .operands = "[MOTION.csv]",
                     .about = "Renders a motion (joints.csv, or a result folder of 'walktrack "
-                             "track') as calibrated video\nwith its truth: a scene folder that "
-                             "'walktrack track' reads.",
+                             "track'; without one the 'walk'\nof the options) as calibrated "
+                             "video with its truth: a scene folder that 'walktrack track' reads.",
                     .example = "walktrack render data/demo/truth.csv -o out/again"});
   line.options().add_options()("options", po::value(&options)->value_name("FILE"),
                                "what to render and how (YAML): cameras, light, clothes, ...");
-  line.operand("MOTION.csv", &motion);
+  line.operand("MOTION.csv", &motion, /*optional=*/true);
   if (!line.parse(arguments)) return kDone;
   RenderJob job;
   job.output = line.required_output();
@@ -33,9 +33,13 @@ int run_render(const Arguments& arguments) {
     job.options = std::move(file.options);
     job.walker = std::move(file.subject);
   }
-  const std::filesystem::path given = motion;
-  const bool is_result = std::filesystem::is_directory(given);
-  job.walker.motion = read_motion(is_result ? given / "joints.csv" : given);
+  if (!motion.empty()) {
+    const std::filesystem::path given = motion;
+    const bool is_result = std::filesystem::is_directory(given);
+    job.walker.motion = read_motion(is_result ? given / "joints.csv" : given);
+  } else if (job.walker.motion.time.empty()) {
+    throw UsageError("nothing to render: name a MOTION.csv, or a 'walk' in the --options");
+  }
   const Config config = line.config().values;
   if (!line.common().seed.empty()) job.options.seed = config.seed;
   job.threads = config.threads;

@@ -8,6 +8,7 @@
 #include "io/files.h"
 #include "io/motion_file.h"
 #include "io/yaml.h"
+#include "synth/made_walk.h"
 
 namespace walktrack {
 
@@ -19,6 +20,8 @@ constexpr double kFar = 1000;                                  // m
 constexpr double kLongest = 24 * 3600;                         // s
 constexpr double kSlowestRate = 0.1, kFastestRate = 1000;      // Hz
 constexpr int kLargestPicture = 16'384, kSmallestPicture = 8;  // px
+constexpr double kWalkMargin = 0.25;                           // s
+constexpr double kDefaultDuration = 4;                         // s, of a walk
 constexpr double kLargestFocal = 1e6;                          // px
 
 // Reads `key` into `target` if it is there.
@@ -126,12 +129,33 @@ void read_looks(const YamlValue& value, Walker& walker) {
   if (value.has("shift")) walker.shift = Eigen::Vector2d(value.at("shift").numbers(2).data());
 }
 
-Walker read_other(const YamlValue& value, const fs::path& folder) {
-  value.only_keys({"motion", "height", "mass", "clothes", "arms", "turn_deg", "delay", "shift"});
+// A walk over the scene's duration and a little more, for shutters that open before a frame's time.
+Motion read_walk(const YamlValue& value, double height, double duration) {
+  value.only_keys(
+      {"speed", "step_length", "start", "heading_deg", "turn_deg_s", "phase", "arm_swing"});
+  MadeWalk walk;
+  take(value, "speed", 0.2, 3, walk.speed);
+  take(value, "step_length", 0.1, 2, walk.step_length);
+  if (value.has("start")) walk.start = Eigen::Vector2d(value.at("start").numbers(2).data());
+  take_degrees(value, "heading_deg", 360, walk.heading);
+  take_degrees(value, "turn_deg_s", 180, walk.turn_rate);
+  take(value, "phase", 0, 1, walk.phase);
+  take(value, "arm_swing", 0, 3, walk.arm_swing);
+  walk.from = -kWalkMargin;
+  walk.to = duration + kWalkMargin;
+  Subject subject;
+  subject.height = height;
+  return made_walk(make_body(subject, {.head = true, .arms = true}), walk);
+}
+
+Walker read_other(const YamlValue& value, const fs::path& folder, double duration) {
+  value.only_keys(
+      {"motion", "walk", "height", "mass", "clothes", "arms", "turn_deg", "delay", "shift"});
   Walker walker;
   walker.clothes = 1;
   read_looks(value, walker);
-  walker.motion = read_motion(resolved(folder, value.at("motion").text()));
+  walker.motion = value.has("walk") ? read_walk(value.at("walk"), walker.height, duration)
+                                    : read_motion(resolved(folder, value.at("motion").text()));
   return walker;
 }
 
@@ -140,8 +164,8 @@ Walker read_other(const YamlValue& value, const fs::path& folder) {
 RenderFile read_render_file(const fs::path& path) {
   const YamlValue file = YamlValue::from_file(path.string());
   file.only_keys({"seed", "frame_rate", "start", "duration", "setting", "light", "sensor",
-                  "background_frames", "subject", "cameras", "occluders", "others", "slope_deg",
-                  "initial", "truth"});
+                  "background_frames", "subject", "walk", "cameras", "occluders", "others",
+                  "slope_deg", "initial", "truth"});
   const fs::path folder = fs::absolute(path).parent_path();
   RenderFile out;
   RenderOptions& options = out.options;
@@ -161,6 +185,11 @@ RenderFile read_render_file(const fs::path& path) {
         {"height", "mass", "clothes", "arms", "turn_deg", "delay", "shift"});
     read_looks(file.at("subject"), out.subject);
   }
+  const double duration = options.duration.value_or(kDefaultDuration);
+  if (file.has("walk")) {
+    out.subject.motion = read_walk(file.at("walk"), out.subject.height, duration);
+    options.duration = duration;
+  }
   if (file.has("cameras")) {
     for (const YamlValue& item : file.at("cameras").items())
       options.cameras.push_back(read_camera(item, folder));
@@ -171,7 +200,7 @@ RenderFile read_render_file(const fs::path& path) {
   }
   if (file.has("others")) {
     for (const YamlValue& item : file.at("others").items())
-      options.others.push_back(read_other(item, folder));
+      options.others.push_back(read_other(item, folder, duration));
   }
   if (file.has("truth")) {
     const YamlValue truth = file.at("truth");

@@ -5,13 +5,16 @@
 //   setting: room                # room, field, studio
 //   light: {azimuth_deg: -60, elevation_deg: 50, sun: 0.55, ambient: 0.45, shadows: true}
 //   sensor: {exposure: 1, noise: 0.01, flicker: 0, blur_samples: 1, shutter: 0.5, jpeg_quality: 0}
+//   walk: {speed: 1.25, step_length: 0.7, start: [0, 0], heading_deg: 0, turn_deg_s: 0, phase: 0,
+//          arm_swing: 1}         # where there is no MOTION.csv (synth/made_walk.h)
 //   subject: {height: 1.75, mass: 70, clothes: 0, arms: true}
 //   cameras:
 //     - {name: side, azimuth_deg: -90, distance: 5, height: 1.2, size: [640, 480], focal_px: 600,
 //        distortion: [-0.1, 0.02]}
 //     - {name: lab, calibration: lab.yaml, frame_rate: 25, start_frame: 3, delay: 0.01}
 //   occluders: [{post: [x, y, radius, height]}, {box: [x0, y0, z0, x1, y1, z1]}]
-//   others: [{motion: other.csv, shift: [0, 1.5], turn_deg: 180, delay: 0.5, clothes: 2}]
+//   others: [{motion: other.csv, shift: [0, 1.5], turn_deg: 180, delay: 0.5, clothes: 2},
+//            {walk: {speed: 1, start: [3, 1], heading_deg: 180}}]
 //   truth: {labels: false, flow: false, depth: false}
 #pragma once
 
@@ -23,7 +26,7 @@ namespace walktrack {
 
 struct RenderFile {
   RenderOptions options;
-  Walker subject;  // all but its motion
+  Walker subject;  // its motion is empty if there is no `walk`
 };
 
 // Paths in it are relative to the file; motions of others are read. InputErrors name file, line and
