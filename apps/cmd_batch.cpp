@@ -42,8 +42,7 @@ std::vector<std::string> track_command(const CommonOptions& common, int jobs) {
 }
 
 int list(const BatchJob& job) {
-  for (const Sequence& sequence :
-       shard_of(find_sequences(job.folder, job.output), job.shard, job.shards)) {
+  for (const Sequence& sequence : shard_of(sequences_of(job), job.shard, job.shards)) {
     fmt::print("{}\t{}\n", state_name(result_of(sequence).state), sequence.name);
   }
   return kDone;
@@ -53,7 +52,7 @@ int list(const BatchJob& job) {
 
 int run_batch(const Arguments& arguments) {
   BatchJob job;
-  std::string folder, shard = "1/1";
+  std::string folder, scene_template, shard = "1/1";
   bool list_only = false;
   CommandLine line({.name = "batch",
                     .operands = "FOLDER",
@@ -61,9 +60,10 @@ int run_batch(const Arguments& arguments) {
                              "on after failures.\nRun again, it does what is not complete. Several "
                              "machines may share one output folder.",
                     .example = "walktrack batch data -o out/batch --jobs 2"});
-  line.options().add_options()("jobs,j", po::value(&job.jobs)->default_value(1)->value_name("N"),
-                               "sequences at a time")("shard", po::value(&shard)->value_name("i/n"),
-                                                      "do every n-th sequence, from the i-th")(
+  line.options().add_options()("scene", po::value(&scene_template)->value_name("FILE"),
+                               "take every video below FOLDER in the place of this scene\'s video")(
+      "jobs,j", po::value(&job.jobs)->default_value(1)->value_name("N"), "sequences at a time")(
+      "shard", po::value(&shard)->value_name("i/n"), "do every n-th sequence, from the i-th")(
       "time-limit", po::value(&job.limits.seconds)->value_name("S"), "seconds for one sequence")(
       "memory-limit", po::value(&job.limits.memory_mb)->value_name("MB"), "for one sequence")(
       "list", po::bool_switch(&list_only), "print the sequences and their state, do nothing")(
@@ -73,6 +73,7 @@ int run_batch(const Arguments& arguments) {
   if (job.jobs < 1) throw UsageError("--jobs: found less than 1, allowed: from 1");
   parse_shard(shard, job);
   job.folder = folder;
+  job.scene_template = scene_template;
   job.output = line.required_output();
   job.overwrite = line.common().overwrite;
   if (list_only) return list(job);

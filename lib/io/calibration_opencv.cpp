@@ -29,7 +29,7 @@ std::vector<double> matrix_numbers(const YamlValue& value) {
 }
 
 std::vector<double> matrix_numbers(const YamlValue& value, std::initializer_list<size_t> counts) {
-  const std::vector<double> numbers = matrix_numbers(value);
+  std::vector<double> numbers = matrix_numbers(value);
   if (std::find(counts.begin(), counts.end(), numbers.size()) == counts.end()) {
     value.fail(fmt::format("{} numbers", numbers.size()),
                fmt::format("{} numbers", fmt::join(counts, " or ")));

@@ -46,7 +46,7 @@ class CameraTable {
     return values;
   }
   std::vector<double> numbers(const std::string& key, size_t count) const {
-    const std::vector<double> values = numbers(key);
+    std::vector<double> values = numbers(key);
     if (values.size() != count) {
       fail(key, fmt::format("{} numbers", values.size()), fmt::format("{}", count));
     }

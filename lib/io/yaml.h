@@ -46,8 +46,8 @@ class YamlValue {
   std::string describe_found() const;  // "'text'", "a list", "a map", "nothing"
 
  private:
-  YamlValue(YAML::Node node, std::string file, std::string key)
-      : node_(std::move(node)), file_(std::move(file)), key_(std::move(key)) {}
+  YamlValue(const YAML::Node& node, std::string file, std::string key)
+      : node_(node), file_(std::move(file)), key_(std::move(key)) {}
   YAML::Node node_;
   std::string file_, key_;
 };

@@ -13,6 +13,7 @@
 #include "core/errors.h"
 #include "io/files.h"
 #include "io/result_folder.h"
+#include "io/scene_template.h"
 #include "jobs/claim.h"
 
 namespace walktrack {
@@ -61,6 +62,9 @@ std::optional<Running> start(const BatchJob& job, const Sequence& sequence) {
   // Another worker may have finished it between the look and the claim.
   if (!claim || (!job.overwrite && is_complete_result(sequence.output))) return std::nullopt;
   fs::remove(sequence.output / "failure.txt");
+  if (!sequence.video.empty()) {
+    write_file_atomically(sequence.scene, scene_for_video(job.scene_template, sequence.video));
+  }
   std::vector<std::string> words = job.command;
   words.insert(words.end(), {sequence.scene.string(), "-o", sequence.output.string()});
   if (job.overwrite) words.push_back("-y");
@@ -144,10 +148,12 @@ class Runner {
 }  // namespace
 
 BatchOutcome run_batch(const BatchJob& job, const JobControl& control) {
-  const std::vector<Sequence> all = find_sequences(job.folder, job.output);
+  const std::vector<Sequence> all = sequences_of(job);
   if (all.empty()) {
     throw UsageError(describe({job.folder.string(), 0, ""}, "no sequence",
-                              "scene*.yaml files, or .yaml files that list cameras"));
+                              job.scene_template.empty()
+                                  ? "scene*.yaml files, or .yaml files that list cameras"
+                                  : "video files"));
   }
   fs::create_directories(job.output);
   const std::vector<Sequence> own = shard_of(all, job.shard, job.shards);

@@ -20,6 +20,7 @@ namespace walktrack {
 struct Sequence {
   std::string name;  // path below the folder, e.g. "monday/trial3"
   std::filesystem::path scene, output;
+  std::filesystem::path video{};  // where `scene` is yet to be made of a template and this video
 };
 
 enum class SequenceState { kWaiting, kComplete, kDegraded, kFailed };
@@ -33,6 +34,7 @@ struct SequenceResult {
 
 struct BatchJob {
   std::filesystem::path folder, output;
+  std::filesystem::path scene_template;  // empty, or the scene of every video below the folder
   // Program and options that do one sequence; "SCENE -o OUT/<sequence>" is appended.
   std::vector<std::string> command;
   int jobs = 1;  // processes at a time
@@ -51,6 +53,13 @@ struct BatchOutcome {
 // of their names; not inside `output`. Links to folders are not followed.
 std::vector<Sequence> find_sequences(const std::filesystem::path& folder,
                                      const std::filesystem::path& output);
+
+// All video files below the folder; their scenes will be OUT/<sequence>/scene.yaml.
+std::vector<Sequence> find_videos(const std::filesystem::path& folder,
+                                  const std::filesystem::path& output);
+
+// The one or the other, as the job wants it.
+std::vector<Sequence> sequences_of(const BatchJob& job);
 
 // The sequences of one shard, which are also what --list prints.
 std::vector<Sequence> shard_of(const std::vector<Sequence>& sequences, int shard, int shards);

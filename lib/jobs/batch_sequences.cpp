@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <map>
 
 #include <nlohmann/json.hpp>
 
 #include "core/errors.h"
 #include "io/files.h"
 #include "io/result_folder.h"
+#include "io/scene_template.h"
 #include "io/video.h"
 #include "jobs/batch.h"
 
@@ -33,6 +35,30 @@ std::string sequence_name(const fs::path& relative) {
   const fs::path folder = relative.parent_path();
   if (relative.stem() == "scene" && !folder.empty()) return folder.generic_string();
   return (folder / relative.stem()).generic_string();
+}
+
+// Regular files that `wanted` takes, not inside `output`. Links to folders are not followed.
+template <typename Wanted>
+std::vector<fs::path> files_below(const fs::path& folder, const fs::path& output, Wanted wanted) {
+  if (!fs::is_directory(folder)) {
+    throw InputError(describe({folder.string(), 0, ""}, "no folder", "a folder with sequences"));
+  }
+  const fs::path out = fs::weakly_canonical(output);
+  std::vector<fs::path> found;
+  for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::end(entry); ++entry) {
+    if (entry->is_directory() && fs::weakly_canonical(entry->path()) == out) {
+      entry.disable_recursion_pending();
+    } else if (entry->is_regular_file() && wanted(entry->path())) {
+      found.push_back(entry->path());
+    }
+  }
+  return found;
+}
+
+std::vector<Sequence> in_natural_order(std::vector<Sequence> sequences) {
+  std::sort(sequences.begin(), sequences.end(),
+            [](const Sequence& a, const Sequence& b) { return natural_less(a.name, b.name); });
+  return sequences;
 }
 
 std::string text_or(const nlohmann::json& json, const char* key, const std::string& otherwise) {
@@ -66,22 +92,34 @@ SequenceResult complete_result(const fs::path& file) {
 }  // namespace
 
 std::vector<Sequence> find_sequences(const fs::path& folder, const fs::path& output) {
-  if (!fs::is_directory(folder)) {
-    throw InputError(describe({folder.string(), 0, ""}, "no folder", "a folder with scenes"));
-  }
-  const fs::path out = fs::weakly_canonical(output);
   std::vector<Sequence> found;
-  for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::end(entry); ++entry) {
-    if (entry->is_directory() && fs::weakly_canonical(entry->path()) == out) {
-      entry.disable_recursion_pending();
-    } else if (entry->is_regular_file() && is_scene(entry->path())) {
-      const std::string name = sequence_name(entry->path().lexically_relative(folder));
-      found.push_back({name, fs::absolute(entry->path()).lexically_normal(), output / name});
-    }
+  for (const fs::path& file : files_below(folder, output, is_scene)) {
+    const std::string name = sequence_name(file.lexically_relative(folder));
+    found.push_back({name, fs::absolute(file).lexically_normal(), output / name});
   }
-  std::sort(found.begin(), found.end(),
-            [](const Sequence& a, const Sequence& b) { return natural_less(a.name, b.name); });
-  return found;
+  return in_natural_order(std::move(found));
+}
+
+std::vector<Sequence> find_videos(const fs::path& folder, const fs::path& output) {
+  const std::vector<fs::path> files = files_below(folder, output, is_video_file);
+  std::map<std::string, int> stems;
+  const auto stem = [&](const fs::path& file) {
+    return file.lexically_relative(folder).replace_extension().generic_string();
+  };
+  for (const fs::path& file : files) ++stems[stem(file)];
+  std::vector<Sequence> found;
+  for (const fs::path& file : files) {
+    // "a.mp4" and "a.mov" keep their endings, to be told apart.
+    const std::string name =
+        stems[stem(file)] == 1 ? stem(file) : file.lexically_relative(folder).generic_string();
+    found.push_back({name, output / name / "scene.yaml", output / name, fs::absolute(file)});
+  }
+  return in_natural_order(std::move(found));
+}
+
+std::vector<Sequence> sequences_of(const BatchJob& job) {
+  return job.scene_template.empty() ? find_sequences(job.folder, job.output)
+                                    : find_videos(job.folder, job.output);
 }
 
 std::vector<Sequence> shard_of(const std::vector<Sequence>& sequences, int shard, int shards) {

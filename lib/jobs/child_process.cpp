@@ -45,6 +45,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::fil
     : limits_(limits), start_(Clock::now()) {
   std::vector<std::string> copies = words;
   std::vector<char*> argv;
+  argv.reserve(copies.size() + 1);
   for (std::string& word : copies) argv.push_back(word.data());
   argv.push_back(nullptr);
   const rlim_t memory_bytes = rlim_t{limits.memory_mb} << 20;

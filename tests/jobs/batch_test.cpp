@@ -168,6 +168,22 @@ TEST_F(BatchTest, LeavesClaimedSequencesAlone) {
   EXPECT_EQ(outcome.waiting, 1);
 }
 
+TEST_F(BatchTest, MakesAScenePerVideoFromATemplate) {
+  folder_.write("in/a/walk2.mp4", "");
+  folder_.write("in/a/walk10.mp4", "");
+  folder_.write("in/b.mp4", "");
+  folder_.write("in/b.mov", "");
+  job_.scene_template = folder_.write("room.yaml", "cameras: [{name: c, video: x.mp4}]\n");
+  // The template has no second line that the script knows: nothing is complete.
+  EXPECT_EQ(run_batch(job_, {}).failed, 4);
+  for (const char* name : {"a/walk2", "a/walk10", "b.mp4", "b.mov"}) {
+    EXPECT_THAT(read_file(job_.output / name / "scene.yaml"), HasSubstr("/in/")) << name;
+    EXPECT_EQ(runs(name), 1u) << name;
+  }
+  job_.scene_template = folder_.write("two.yaml", "cameras: [{name: c}, {name: d}]\n");
+  EXPECT_THROW(run_batch(job_, {}), InputError);
+}
+
 TEST_F(BatchTest, RefusesAFolderWithoutSequences) { EXPECT_THROW(run_batch(job_, {}), UsageError); }
 
 TEST(Claim, IsGivenToOneAndBack) {
