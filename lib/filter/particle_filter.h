@@ -37,11 +37,11 @@
 namespace walktrack {
 
 struct FilterConfig {
-  int particles = 1000;
+  int particles = 600;
   double resample_below = 0.5;  // resample when ESS / particles falls below this
   double layer_ess = 0.5;  // ESS / particles that an increment of the exponent may cost down to
-  int max_layers = 12;     // the last layer takes whatever exponent is left
-  int moves = 2;           // Metropolis-Hastings steps a particle and layer
+  int max_layers = 8;      // the last layer takes whatever exponent is left
+  int moves = 1;           // Metropolis-Hastings steps a particle and layer
 };
 
 template <typename State>

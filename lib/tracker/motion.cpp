@@ -138,7 +138,7 @@ MarkovConstants markov_constants(Extra extra) {
   const auto deg = [](double angle) { return rad_from_deg(angle); };
   switch (extra) {
     case kHeading:
-      return {0, 0.5, 0, 0.35, -1e9, 1e9};
+      return {0, 0.5, 0, 0.2, -1e9, 1e9};
     case kList:
       return {0, 0.15, 0.3, 1.2, deg(-15), deg(15)};
     case kAbduction:

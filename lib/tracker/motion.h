@@ -21,14 +21,14 @@ struct MotionConfig {
   double swing_knee_torque = 0.004;
   double ankle_torque = 0.040;
   double planar_misfit_deg = 4.0;  // per sqrt(s): how far people's angles stray from the walker's
-  double ball_drift = 0.012;    // m per sqrt(s): the drawn foot does not roll as the walker's does
+  double ball_drift = 0.03;     // m per sqrt(s): the drawn foot does not roll as the walker's does
   double landing = 0.04;        // m, along and across: where a foot comes down
   double settling = 0.05;       // s after the strike in which that uncertainty dies away
   double arrival = 0.10;        // m, the same when a walker is first seen
   double control_noise = 0.05;  // relative, per step (gait/gait_prior.h)
   double feedback = 1;          // strength of the correction of controls at a support transfer
   double aim_drift = 0.06;      // relative, per step, of the speed and the step length aimed at
-  double torque_noise_scale = 0.4;  // multiplies all five torques
+  double torque_noise_scale = 0.15;  // multiplies all five torques
 };
 
 // Constants of the Markov process of one extra coordinate.

@@ -47,19 +47,32 @@ bool visible_everywhere(std::span<const Camera> cameras, const Vector2d& positio
   return true;
 }
 
-// A straight walk and its mean score a frame, nats.
+// A straight walk and how much better it explains a frame than standing still does, nats.
 struct Walk {
   Sighting line;
   double score;
 };
 
-double mean_score(const WindowScore& score, const Sighting& line, size_t frames, size_t stride,
-                  double dt) {
-  double sum = 0;
-  int count = 0;
-  for (size_t f = 0; f < frames; f += stride, ++count)
-    sum += score(f, line.position + dt * double(f) * line.velocity);
-  return sum / count;
+// Mean score of the worst third of the frames: a line counts by where it fails, so that two things
+// that stand still do not make a walk between them.
+double worst_score(const WindowScore& score, const Sighting& line, size_t frames, size_t stride,
+                   double dt) {
+  std::vector<double> scores;
+  for (size_t f = 0; f < frames; f += stride)
+    scores.push_back(score(f, line.position + dt * double(f) * line.velocity));
+  const size_t third = (scores.size() + 2) / 3;
+  std::nth_element(scores.begin(), scores.begin() + long(third - 1), scores.end());
+  return std::accumulate(scores.begin(), scores.begin() + long(third), 0.0) / double(third);
+}
+
+// The line's score less that of standing in its middle: somebody who stands there, or a thing
+// that is always there, makes no walk.
+double walking_score(const WindowScore& score, const Sighting& line, size_t frames, size_t stride,
+                     double dt) {
+  const Sighting still{line.position + 0.5 * dt * double(frames - 1) * line.velocity,
+                       Vector2d::Zero()};
+  return worst_score(score, line, frames, stride, dt) -
+         std::max(0.0, worst_score(score, still, frames, stride, dt));
 }
 
 // Lines through a candidate of an early and one of a late frame, at a walking speed.
@@ -90,7 +103,7 @@ Walk refined(Walk walk, const WindowScore& score, size_t frames, double dt) {
         Sighting line = walk.line;
         if (direction < 4) line.position += shift;
         line.velocity += (direction < 4 ? -shift : shift) / time;
-        const double value = mean_score(score, line, frames, 1, dt);
+        const double value = walking_score(score, line, frames, 1, dt);
         if (value <= walk.score) continue;
         walk = {line, value};
         better = true;
@@ -177,13 +190,13 @@ std::optional<Sighting> find_walk(std::span<const std::vector<Place>> candidates
   std::vector<Walk> walks = proposed_walks(candidates, dt, config);
   if (walks.empty()) return std::nullopt;
   parallel_for(walks.size(), threads, [&](size_t i) {
-    walks[i].score = mean_score(score, walks[i].line, frames, kStride, dt);
+    walks[i].score = walking_score(score, walks[i].line, frames, kStride, dt);
   });
   std::stable_sort(walks.begin(), walks.end(),
                    [](const Walk& a, const Walk& b) { return a.score > b.score; });
   walks.resize(std::min(walks.size(), kRefined));
   parallel_for(walks.size(), threads, [&](size_t i) {
-    walks[i].score = mean_score(score, walks[i].line, frames, 1, dt);
+    walks[i].score = walking_score(score, walks[i].line, frames, 1, dt);
     walks[i] = refined(walks[i], score, frames, dt);
   });
   const Walk& best = *std::max_element(

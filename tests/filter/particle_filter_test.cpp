@@ -100,7 +100,7 @@ TEST(ParticleFilter, PlainFilterAgreesWithTheKalmanFilter) {
 }
 
 TEST(ParticleFilter, TemperedFilterAgreesWithTheKalmanFilterOnASharpLikelihood) {
-  expect_kalman({.particles = 20000, .moves = 3}, 0.02, 30);
+  expect_kalman({.particles = 20000, .max_layers = 12, .moves = 3}, 0.02, 30);
 }
 
 TEST(ParticleFilter, BitIdenticalForAnyThreadCount) {

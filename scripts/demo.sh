@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, tracks the shipped demo, measures it against its truth and names
+# the file to open.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/setup.sh
+cmake --preset release -DWALKTRACK_TESTS=OFF
+cmake --build --preset release --target walktrack
+build/release/walktrack track data/demo/scene.yaml -o out/demo -y
+build/release/walktrack evaluate data/demo/truth.csv out/demo
+echo
+echo "Open out/demo/overlay_side.mp4 to see the track; the numbers are in out/demo/joints.csv."

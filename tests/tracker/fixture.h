@@ -1,0 +1,35 @@
+// A subject, its walker and its gaits, as the tracker's tests share them.
+#pragma once
+
+#include "core/conventions.h"
+#include "tracker/motion.h"
+#include "tracker/planar_body.h"
+#include "tracker/start.h"
+
+namespace walktrack {
+
+inline BodyModel test_model() {
+  BodyModel model;
+  model.body = make_body(Subject{}, {.head = true, .arms = false});
+  model.walker = kneed_model(kneed_parameters(Subject{}, kStandardGravity));
+  return model;
+}
+
+// What a context refers to, kept together.
+struct Walking {
+  BodyModel model = test_model();
+  GaitPrior prior = load_gait_prior();
+  MotionContext context(double dt, const MotionConfig& config = {}) const {
+    return {model, prior, config, noise_scale(config, model, dt), dt};
+  }
+};
+
+// Particles that walk along +x through the origin at a speed, m/s.
+inline std::vector<WalkerParticle> walkers(const MotionContext& context, double speed, int count) {
+  StartConfig start;
+  start.particles = count;
+  const Sighting sighting{.position = {0, 0}, .velocity = {speed, 0}};
+  return spawn(context, start, sighting, {Side::kLeft, 0.0, 1.0}, 7);
+}
+
+}  // namespace walktrack

@@ -1,0 +1,96 @@
+#include "tracker/sighting.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/conventions.h"
+
+namespace walktrack {
+namespace {
+
+constexpr double kDt = 1.0 / 30;
+
+// A camera 1 m high, 6 m from the origin, looking along +y.
+Camera side_camera() {
+  Camera camera;
+  camera.width_px = 640;
+  camera.height_px = 480;
+  camera.focal_px = {600, 600};
+  camera.centre_px = {319.5, 239.5};
+  camera.rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  camera.translation = -camera.rotation * Eigen::Vector3d(0, -6, 1);
+  return camera;
+}
+
+// A bell of score around where somebody is.
+double bell(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double height) {
+  return height * std::exp(-(place - truth).squaredNorm() / (2 * 0.3 * 0.3));
+}
+
+struct Film {
+  std::vector<std::vector<Place>> candidates;
+  WindowScore score;
+};
+
+Film film(const std::function<double(size_t, const Eigen::Vector2d&)>& score) {
+  const std::vector<Camera> cameras{side_camera()};
+  const auto places = standing_places(cameras, 1.75, {});
+  Film out{{}, score};
+  for (size_t f = 0; f < 24; ++f)
+    out.candidates.push_back(
+        find_figures([&](const Eigen::Vector2d& p) { return score(f, p); }, places, {}, 1));
+  return out;
+}
+
+Eigen::Vector2d walker_at(size_t frame) { return {-0.8 + 1.3 * kDt * double(frame), 0.4}; }
+
+TEST(StandingPlaces, FiguresStandWhollyInTheImage) {
+  const std::vector<Camera> cameras{side_camera()};
+  const auto places = standing_places(cameras, 1.75, {});
+  ASSERT_GT(places.size(), 100u);
+  for (const Eigen::Vector2d& p : places) {
+    const auto foot = project(cameras[0], Eigen::Vector3d(p.x(), p.y(), 0));
+    const auto head = project(cameras[0], Eigen::Vector3d(p.x(), p.y(), 1.75));
+    ASSERT_TRUE(foot && head);
+    EXPECT_TRUE(inside_image(cameras[0], *foot) && inside_image(cameras[0], *head));
+  }
+}
+
+TEST(FindWalk, FindsAWalkerBetweenThingsThatStandStill) {
+  const Film f = film([](size_t frame, const Eigen::Vector2d& p) {
+    return bell(p, walker_at(frame), 100) + bell(p, {0.8, 1.8}, 120);
+  });
+  const auto walk = find_walk(f.candidates, f.score, kDt, {}, 1);
+  ASSERT_TRUE(walk);
+  EXPECT_LT((walk->position - walker_at(0)).norm(), 0.03);  // the search ends at 1 cm steps
+  EXPECT_NEAR(walk->velocity.x(), 1.3, 0.06);
+  EXPECT_NEAR(walk->velocity.y(), 0.0, 0.06);
+}
+
+TEST(FindWalk, NobodyWalks) {
+  const Film empty = film([](size_t, const Eigen::Vector2d&) { return -5.0; });
+  EXPECT_FALSE(find_walk(empty.candidates, empty.score, kDt, {}, 1));
+  const Film still = film([](size_t, const Eigen::Vector2d& p) { return bell(p, {0, 1}, 100); });
+  EXPECT_FALSE(find_walk(still.candidates, still.score, kDt, {}, 1));
+}
+
+TEST(FindWalk, AWalkerHiddenInPartOfTheFramesIsNotThereYet) {
+  const Film f = film([](size_t frame, const Eigen::Vector2d& p) {
+    return frame < 8 ? -1.0 : bell(p, walker_at(frame), 100);
+  });
+  EXPECT_FALSE(find_walk(f.candidates, f.score, kDt, {}, 1));
+}
+
+TEST(FindWalk, ThreadsDoNotMatter) {
+  const Film f =
+      film([](size_t frame, const Eigen::Vector2d& p) { return bell(p, walker_at(frame), 100); });
+  const auto one = find_walk(f.candidates, f.score, kDt, {}, 1);
+  const auto many = find_walk(f.candidates, f.score, kDt, {}, 8);
+  ASSERT_TRUE(one && many);
+  EXPECT_EQ(one->position, many->position);
+  EXPECT_EQ(one->velocity, many->velocity);
+}
+
+}  // namespace
+}  // namespace walktrack

@@ -1,0 +1,47 @@
+#include "tracker/start.h"
+
+#include <gtest/gtest.h>
+
+#include "fixture.h"
+
+namespace walktrack {
+namespace {
+
+TEST(PhaseRanges, CoverTheStrideOnce) {
+  StartConfig config;
+  config.phases = 4;
+  const auto ranges = phase_ranges(config);
+  ASSERT_EQ(ranges.size(), 8u);
+  double left = 0, right = 0;
+  for (const PhaseRange& r : ranges) (r.stance == Side::kLeft ? left : right) += r.to - r.from;
+  EXPECT_NEAR(left, 1, 1e-12);
+  EXPECT_NEAR(right, 1, 1e-12);
+}
+
+TEST(PhaseRanges, AStatedPhaseNamesItsFoot) {
+  const StartConfig config;
+  EXPECT_EQ(phase_ranges(config, 0.25)[0].stance, Side::kLeft);
+  EXPECT_EQ(phase_ranges(config, 0.75)[0].stance, Side::kRight);
+  EXPECT_EQ(phase_ranges(config, 1.25)[0].stance, Side::kLeft);
+  const PhaseRange range = phase_ranges(config, 0.25)[0];
+  EXPECT_LT(range.from, 0.5);
+  EXPECT_GT(range.to, 0.5);
+}
+
+TEST(Spawn, WalkersStandOverTheSightingAndLookAhead) {
+  const Walking walking;
+  const MotionContext context = walking.context(1.0 / 30);
+  StartConfig config;
+  config.particles = 30;
+  const Sighting sighting{.position = {2, -1}, .velocity = {0, 1.1}};
+  for (const WalkerParticle& p : spawn(context, config, sighting, {Side::kRight, 0, 1}, 3)) {
+    EXPECT_LT((p.pose.root.head<2>() - sighting.position).norm(), 1e-9);
+    EXPECT_NEAR(p.pose.heading, kPi / 2, 1e-12);
+    EXPECT_EQ(p.stance, Side::kRight);
+    EXPECT_GT(p.pose.root.z(), 0.7);
+    EXPECT_LT(p.pose.root.z(), 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace walktrack
