@@ -26,6 +26,9 @@ constexpr double kHeadTop = .47;  // above the hips
 constexpr double kTrunkMass = .678, kThighMass = .100, kShankMass = .061;
 constexpr double kHipHalfWidth = .0955;
 
+// Rates (rad/s, m/s) that no body reaches before its integration has diverged.
+constexpr double kLargestRate = 1e6;
+
 Vector3d vector3(const char* key, const std::vector<double>& values) {
   if (values.size() != 3) {
     throw UsageError(
@@ -183,13 +186,18 @@ ArticulatedRecording record(const ArticulatedBody& body, const ArticulatedJob& j
     options.baumgarte_rate = job.spec.baumgarte_rate;
   }
   ArticulatedSample now{0, start_of(body, job.spec)};
+  if (!held.empty()) {  // the start keeps what the holds allow of its velocity
+    auto& [q, u] = now.state;
+    u = projected_velocity(assemble(body, q, u, {}).mass, attachment_constraint(body, q, u, held),
+                           u);
+  }
   recording.samples.push_back(now);
   const auto steps = std::llround(job.duration / job.step);
   const auto every = std::max(1LL, std::llround(job.sample_interval / job.step));
   for (long long i = 1; i <= steps; ++i) {
     const auto next =
         step(body, now.state, load_of(body, job.spec, now.state.u), held, job.step, options);
-    if (!next) {
+    if (!next || next->u.cwiseAbs().maxCoeff() > kLargestRate) {
       recording.diverged = true;
       break;
     }

@@ -64,6 +64,10 @@ WalkerState LinkageWalker::with_plastic_stops(WalkerState state) const {
 
 WalkerState LinkageWalker::settled(WalkerState state) const {
   if (state.health != Health::kSound) return state;
+  if (position(frame(state).hip, state.q).y() < linkage_.lowest_hip) {
+    state.health = Health::kFallen;
+    return state;
+  }
   for (size_t i = 0; i < linkage_.limits.size(); ++i) {
     const double excess = gap(state, i);
     const VectorXd& row = linkage_.limits[i].row;

@@ -153,6 +153,7 @@ WalkerState Monopode::section_state(const VectorXd& q, const VectorXd& qd) const
   if (parameters_.walks) state.contacts.push_back(0.0);
   state.phase = static_cast<int>(feet(state));
   state.active = 1;
+  if (q.y() < kFallenShare * parameters_.leg_length) state.health = Health::kFallen;
   return state;
 }
 

@@ -58,6 +58,18 @@ TEST(ArticulatedJob, HangingByTheHeadTheHoldCarriesTheWeight) {
   }
 }
 
+TEST(ArticulatedJob, DivergenceIsReportedAndTheTableStaysFinite) {
+  ArticulatedJob job;
+  job.step = 0.05;
+  job.spec.spin = {100, 200, 300};
+  const ArticulatedBody body = articulated_person(job.spec);
+  const ArticulatedRecording recording = record(body, job);
+  EXPECT_TRUE(recording.diverged);
+  const std::string csv = states_csv(body, job, recording);
+  EXPECT_EQ(csv.find("nan"), std::string::npos);
+  EXPECT_EQ(csv.find("inf"), std::string::npos);
+}
+
 TEST(ArticulatedJob, WritesItsFolderAndChecksItsLists) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "simulate_articulated";
   std::filesystem::remove_all(folder);

@@ -425,6 +425,11 @@ TEST(LinkageWalker, FallsAreAStateAndFeetInOnePlaceAreNoStrike) {
   EXPECT_EQ(state.health, Health::kSound);
 }
 
+TEST(LinkageWalker, AStartThatLiesOnTheGroundHasFallen) {
+  const LinkageWalker walker(straight_legged({}));
+  EXPECT_EQ(walker.section_state(Vector2d(1.5, -1.5), Vector2d(0, 0)).health, Health::kFallen);
+}
+
 TEST(LinkageWalker, AngularMomentumOfAWalkingCycleStaysSmall) {
   // People regulate it (Herr & Popovic 2008: within a few percent of mass x speed x height).
   const CycleFile file = read_kneed_cycles();
