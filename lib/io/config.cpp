@@ -27,10 +27,16 @@ bool is_group(const std::string& prefix) {
                      });
 }
 
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+// Names the nearest key, or one of another group whose own name is the same.
 std::string unknown_key(const std::string& key) {
   std::vector<std::string> names;
   for (const Parameter& parameter : config_table().parameters) names.push_back(parameter.key);
-  const std::string nearest = nearest_word(key, names);
+  std::string nearest = nearest_word(key, names);
+  for (size_t i = 0; i < names.size() && nearest.empty(); ++i) {
+    if (last_part(names[i]) == last_part(key)) nearest = names[i];
+  }
   return nearest.empty() ? "an unknown key"
                          : fmt::format("an unknown key, did you mean '{}'?", nearest);
 }

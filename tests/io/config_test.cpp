@@ -88,6 +88,8 @@ TEST(Config, WritesThroughGroupsToTheMembers) {
 }
 
 TEST(ConfigFile, NamesKeysInsideGroups) {
+  EXPECT_THAT(message_for_file("step_px: 3\n"),
+              HasSubstr("step_px: found an unknown key, did you mean 'observation.flow.step_px'?"));
   EXPECT_THAT(message_for_file("observation:\n  flow:\n    step_pix: 3\n"),
               HasSubstr("c.yaml:3: observation.flow.step_pix: found an unknown key, did you mean "
                         "'observation.flow.step_px'?"));
