@@ -21,7 +21,8 @@ void parallel_ranges(size_t n, int threads, void (*body)(void*, size_t, size_t),
   // Small ranges balance uneven work (a particle in mid-air costs less than one at a strike);
   // 8 a thread keep the hand-over cost far below the work.
   const size_t grain = std::max<size_t>(1, n / (static_cast<size_t>(threads) * 8));
-  tbb::task_arena arena(threads);
+  // More threads than the machine has would only be asked for in vain.
+  tbb::task_arena arena(std::min(threads, hardware_threads()));
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<size_t>(0, n, grain),

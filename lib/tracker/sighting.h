@@ -24,7 +24,7 @@ struct SightingConfig {
   double window = 0.8;      // s of film that a walk is read from
   double slowest = 0.35;    // m/s: who is slower is not walking
   double fastest = 3.0;     // m/s
-  double complete = 0.6;    // no frame's score below this share of the window's median
+  double complete = 0.75;   // no frame's score below this share of the window's median
   double least_score = 25;  // nats, of the figure in any frame
   int candidates = 10;      // places of a frame that lines are laid through
   int grid_px = 8;          // spacing of the pixel grid at 640 px of image width

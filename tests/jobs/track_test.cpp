@@ -1,0 +1,115 @@
+#include "jobs/track.h"
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/errors.h"
+#include "io/files.h"
+#include "io/motion_file.h"
+#include "metrics/joint_error.h"
+
+namespace walktrack {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kDemo = fs::path(WALKTRACK_SOURCE_DIR) / "data/demo";
+
+class Track : public testing::Test {
+ protected:
+  Track() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / (std::string("walktrack_track_") + test->name());
+    fs::remove_all(folder_);
+  }
+  ~Track() override { fs::remove_all(folder_); }
+
+  // The shipped demo's first frames with few particles: seconds, not accuracy.
+  TrackJob job(int last_frame, const std::string& name) const {
+    TrackJob job;
+    job.scene = read_scene(kDemo / "scene.yaml");
+    job.scene.last_frame = last_frame;
+    job.config.values.tracker.filter.particles = 60;
+    job.config.values.tracker.start.particles = 30;
+    job.output = folder_ / name;
+    job.overlay = false;
+    return job;
+  }
+  nlohmann::json run_json(const std::string& name, const char* file = "run.json") const {
+    return nlohmann::json::parse(read_text_file(folder_ / name / file, size_t{1} << 24));
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Track, SameSeedSameBytesForAnyThreadCount) {
+  std::string digest;
+  for (const int threads : {1, 2, 8}) {
+    const std::string name = "threads" + std::to_string(threads);
+    TrackJob each = job(30, name);
+    each.config.values.threads = threads;
+    track_scene(each, {});
+    const std::string found = run_json(name).at("digest");
+    if (digest.empty()) digest = found;
+    EXPECT_EQ(found, digest) << threads << " threads";
+  }
+  TrackJob other = job(30, "other");
+  other.config.values.seed = 2;
+  track_scene(other, {});
+  EXPECT_NE(run_json("other").at("digest"), digest);
+}
+
+TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {
+  const TrackOutcome outcome = track_scene(job(40, "demo"), {});
+  EXPECT_GT(outcome.tracked, 30);
+  const Motion truth = read_motion(kDemo / "truth.csv");
+  const Motion found = read_motion(folder_ / "demo/joints.csv");
+  // Two views fix the place; 60 particles still leave the limbs a hand's breadth or two off.
+  EXPECT_LT(joint_errors(truth, found).by_joint[size_t(Joint::kPelvis)].median, 0.15);
+}
+
+TEST_F(Track, AnEmptySceneHasNobodyInIt) {
+  TrackJob empty = job(30, "empty");
+  for (SceneCamera& camera : empty.scene.cameras) camera.video = camera.background;
+  empty.scene.last_frame.reset();
+  const TrackOutcome outcome = track_scene(empty, {});
+  EXPECT_EQ(outcome.status, TrackStatus::kNotFound);
+  EXPECT_EQ(outcome.tracked, 0);
+  EXPECT_EQ(run_json("empty").at("status"), "not found");
+}
+
+TEST_F(Track, WhatWasToldToStopIsKeptAndMarked) {
+  const std::atomic<bool> stop{true};
+  JobControl control;
+  control.stop_request = &stop;
+  TrackJob stopped = job(30, "stopped");
+  stopped.config.values.observation.background.enabled = false;  // not to be learned once stopped
+  EXPECT_EQ(track_scene(stopped, control).status, TrackStatus::kInterrupted);
+  EXPECT_FALSE(fs::exists(folder_ / "stopped/run.json"));
+  EXPECT_TRUE(fs::exists(folder_ / "stopped/run.partial.json"));
+}
+
+TEST_F(Track, ACompleteResultIsNotOverwrittenUnasked) {
+  track_scene(job(3, "twice"), {});
+  EXPECT_THROW(track_scene(job(3, "twice"), {}), UsageError);
+  TrackJob again = job(3, "twice");
+  again.overwrite = true;
+  EXPECT_NO_THROW(track_scene(again, {}));
+}
+
+TEST_F(Track, TermsThatAreOffTakeNoPartAndNoHarm) {
+  for (const bool background : {true, false}) {
+    TrackJob each = job(20, background ? "no_flow" : "no_background");
+    each.config.values.observation.flow.enabled = false;
+    each.config.values.observation.foreground.enabled = background;
+    each.config.values.observation.background.enabled = background;
+    EXPECT_NO_THROW(track_scene(each, {}));
+  }
+}
+
+}  // namespace
+}  // namespace walktrack
