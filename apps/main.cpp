@@ -24,6 +24,7 @@ constexpr std::array kCommands{
     Command{"config", "print the commented defaults or the effective configuration", run_config},
     Command{"cycle", "find a limit cycle of a walker and what it is like", run_cycle},
     Command{"evaluate", "measure estimates against a truth", run_evaluate},
+    Command{"prior", "build or show the table of gaits", run_prior},
     Command{"render", "render a motion as synthetic video with its truth", run_render},
     Command{"simulate", "simulate a walker: tables, pictures, an animation", run_simulate},
     Command{"track", "track the walker of one scene", run_track},

@@ -100,7 +100,7 @@ class Builder {
         m.slope == earlier.slopes.size())
       return;
     const GaitNode& node = earlier.node(m.speed, m.ratio, m.slope);
-    if (!node.cyclic) return;
+    if (!node.valid) return;
     prior_.nodes[at(n)] = node;
     solved_[at(n)] = 1;
   }
@@ -272,12 +272,14 @@ GaitPrior build_gait_prior(const PriorGrid& grid, const GaitPrior& earlier, int 
   Builder builder(grid, earlier);
   size_t tried = 0;
   for (size_t ring = 0; ring < builder.rings(); ++ring) {
-    tried += builder.solve_ring(ring, threads);
-    progress(builder.prior(), tried);
+    const size_t members = builder.solve_ring(ring, threads);
+    if (members == 0) break;
+    tried += members;
+    if (!progress(builder.prior(), tried)) return builder.prior();
   }
   for (int i = 0; i < grid.sweeps; ++i) {
     builder.sweep(threads);
-    progress(builder.prior(), tried);
+    if (!progress(builder.prior(), tried)) return builder.prior();
   }
   builder.fill();
   return builder.prior();

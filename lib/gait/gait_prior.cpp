@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace walktrack {
 namespace {
@@ -12,13 +14,17 @@ namespace {
 constexpr double kMaxCorrection = 0.4;
 constexpr double kMaxRestCorrection = 0.3;
 
+// Noise is cut at this many standard deviations: none of 1,000 particles leaves the basin by a
+// single draw, and 0.3 % of the mass is lost.
+constexpr double kTruncation = 3;
+
 // A step length among nodes that are no cycles moves to the preferred one by this share, this
 // often.
 constexpr double kShift = 0.1;
 constexpr int kMaxShifts = 20;
 
-// Four neighbours on an even axis and their weights (Catmull-Rom; beyond the ends the line through
-// the last two nodes), and the two that enclose the value with linear weights.
+// Four neighbours on an axis with the weights of cubic Hermite interpolation (tangents through the
+// neighbours; straight towards the ends), and linear weights of the two that enclose the value.
 struct AxisWeights {
   std::array<size_t, 4> index{};
   std::array<double, 4> cubic{};
@@ -31,25 +37,17 @@ AxisWeights axis_weights(const std::vector<double>& axis, double value) {
     w.cubic = w.linear = {0, 1, 0, 0};
     return w;
   }
-  const double position = (value - axis.front()) / (axis[1] - axis[0]);
-  const auto last = static_cast<double>(axis.size() - 1);
-  const double cell = std::clamp(std::floor(position), 0.0, last - 1);
-  const double t = std::clamp(position - cell, 0.0, 1.0);
-  const auto i = static_cast<size_t>(cell);
-  w.index = {i == 0 ? i : i - 1, i, i + 1, i + 2 < axis.size() ? i + 2 : i + 1};
+  const auto above = std::upper_bound(axis.begin() + 1, axis.end() - 1, value);
+  const auto i = static_cast<size_t>(above - axis.begin()) - 1;
+  const size_t before = i == 0 ? i : i - 1, after = std::min(i + 2, axis.size() - 1);
+  const double width = axis[i + 1] - axis[i];
+  const double t = std::clamp((value - axis[i]) / width, 0.0, 1.0);
+  const double left = width * t * (1 - t) * (1 - t) / (axis[i + 1] - axis[before]);
+  const double right = -width * t * t * (1 - t) / (axis[after] - axis[i]);
+  const double rise = t * t * (3 - 2 * t);
+  w.index = {before, i, i + 1, after};
   w.linear = {0, 1 - t, t, 0};
-  w.cubic = {-0.5 * t * (1 - t) * (1 - t), 1 + t * t * (1.5 * t - 2.5),
-             t * (0.5 + t * (2 - 1.5 * t)), -0.5 * t * t * (1 - t)};
-  if (i == 0) {
-    w.cubic[1] += 2 * w.cubic[0];
-    w.cubic[2] -= w.cubic[0];
-    w.cubic[0] = 0;
-  }
-  if (i + 2 == axis.size()) {
-    w.cubic[2] += 2 * w.cubic[3];
-    w.cubic[1] -= w.cubic[3];
-    w.cubic[3] = 0;
-  }
+  w.cubic = {-left, 1 - rise - right, rise + left, right};
   return w;
 }
 
@@ -124,6 +122,10 @@ KneedState state_at_phase(const KneedModel& model, const PriorGait& gait, double
   return state;
 }
 
+double phase_of(const PriorGait& gait, const KneedState& state) {
+  return std::clamp(state.since_transfer / gait.period, 0.0, 1.0);
+}
+
 KneedControls next_controls(const PriorGait& gait, const KneedState& state, double strength) {
   if (strength == 0) return gait.controls;
   const ControlVector own = gait.vector.head<kControlSize>();
@@ -141,7 +143,9 @@ KneedControls next_controls(const PriorGait& gait, const KneedState& state, doub
 }
 
 KneedControls draw_controls(Rng& rng, const KneedControls& controls, const GaitNoise& noise) {
-  const auto draw = [&](double sd) { return sd > 0 ? sd * rng.truncated_normal(3) : 0.0; };
+  const auto draw = [&](double sd) {
+    return sd > 0 ? sd * rng.truncated_normal(kTruncation) : 0.0;
+  };
   const auto factor = [&] { return std::max(0.0, 1 + draw(noise.relative)); };
   KneedControls c = controls;
   for (SpringDamper* joint : {&c.torso, &c.hip, &c.stance_knee, &c.swing_knee}) {
@@ -151,6 +155,30 @@ KneedControls draw_controls(Rng& rng, const KneedControls& controls, const GaitN
   }
   c.toe_off_impulse *= factor();
   return c;
+}
+
+double log_density(const KneedControls& drawn, const KneedControls& controls,
+                   const GaitNoise& noise) {
+  const auto log_normal = [](double deviation, double sd) {
+    const double z = deviation / sd;
+    if (!(std::abs(z) <= kTruncation)) return -std::numeric_limits<double>::infinity();
+    const double mass = std::erf(kTruncation / std::numbers::sqrt2);
+    return -0.5 * z * z - std::log(sd * std::sqrt(2 * std::numbers::pi) * mass);
+  };
+  const auto relative = [&](double value, double mean) {
+    return mean == 0 ? (value == 0 ? 0.0 : -std::numeric_limits<double>::infinity())
+                     : log_normal(value / mean - 1, noise.relative);
+  };
+  const std::array<std::array<const SpringDamper*, 2>, 4> joints{
+      {{&drawn.torso, &controls.torso},
+       {&drawn.hip, &controls.hip},
+       {&drawn.stance_knee, &controls.stance_knee},
+       {&drawn.swing_knee, &controls.swing_knee}}};
+  double sum = relative(drawn.toe_off_impulse, controls.toe_off_impulse);
+  for (const auto& [value, mean] : joints)
+    sum += relative(value->stiffness, mean->stiffness) + relative(value->damping, mean->damping) +
+           log_normal(value->rest - mean->rest, noise.rest);
+  return sum;
 }
 
 Vector5 draw_torques(Rng& rng, const WalkerUnits& units, const GaitNoise& noise, double duration) {

@@ -24,7 +24,7 @@ struct GaitNode {
   double multiplier = 0;         // largest absolute Floquet multiplier without feedback
 };
 
-// Nodes on speeds x ratios x slopes, the slope running fastest. Axes ascend evenly.
+// Nodes on speeds x ratios x slopes, the slope running fastest. Axes ascend.
 struct GaitPrior {
   std::vector<double> speeds;  // of sqrt(g L)
   std::vector<double> ratios;  // of preferred_step_length(speed)
@@ -68,6 +68,9 @@ PriorGait gait_at(const GaitPrior& prior, const KneedParameters& parameters, dou
 // The state of the undisturbed gait after a share (0..1) of a step.
 KneedState state_at_phase(const KneedModel& model, const PriorGait& gait, double phase);
 
+// The share of a step that has passed since the last transfer, 0..1.
+double phase_of(const PriorGait& gait, const KneedState& state);
+
 // The next step's controls after a transfer that left `state`: the gait's own, corrected by
 // `strength` (0 none, 1 full) of the feedback. Corrections are bounded (see kMaxCorrection).
 KneedControls next_controls(const PriorGait& gait, const KneedState& state, double strength = 1);
@@ -82,6 +85,12 @@ struct GaitNoise {
 
 // Draws that never make a spring, damper or impulse negative (truncated at 3 sd, and before zero).
 KneedControls draw_controls(Rng& rng, const KneedControls& controls, const GaitNoise& noise);
+
+// Logarithm of the density with which draw_controls draws `drawn`, per unit of stiffness relative
+// to `controls`, damping and impulse likewise, and per rad of rest angle; -infinity for what it
+// never draws. For relative sd up to 1/3, and noise above zero.
+double log_density(const KneedControls& drawn, const KneedControls& controls,
+                   const GaitNoise& noise);
 
 // Generalised torques of independent joint torques held for `duration` s. Their sd falls with
 // sqrt(duration), so that the walker's diffusion does not depend on the frame rate.

