@@ -58,14 +58,19 @@ class Builder {
     return members.size();
   }
 
-  // Nodes that have no cycle continue the line of the two next to them towards the preferred ratio,
-  // so that the table has no holes.
+  // Nodes that have no cycle continue the lines of their neighbours, outwards from the cycles, so
+  // that the table has no holes.
   void fill() {
-    for (size_t i = 0; i < grid_.speeds.size(); ++i)
-      for (size_t k = 0; k < grid_.slopes.size(); ++k) {
-        for (size_t j = centre_.ratio; j-- > 0;) fill({i, j, k}, 1);
-        for (size_t j = centre_.ratio + 1; j < grid_.ratios.size(); ++j) fill({i, j, k}, -1);
-      }
+    std::vector<char> known = solved_;
+    for (bool grown = true; grown;) {
+      grown = false;
+      const std::vector<char> before = known;
+      for_each_node([&](const Index& n) {
+        if (before[at(n)] || !fill(n, before)) return;
+        known[at(n)] = 1;
+        grown = true;
+      });
+    }
   }
 
   // Every node once more, in two colours so that no node reads what another thread writes.
@@ -143,16 +148,36 @@ class Builder {
     return std::nullopt;
   }
 
-  void fill(const Index& n, int inwards) {
-    if (solved_[at(n)]) return;
-    const auto inner = [&](int by) {
-      return prior_.node(n.speed, n.ratio + static_cast<size_t>(by * inwards), n.slope);
-    };
-    const bool has_two = inwards > 0 ? n.ratio + 2 < grid_.ratios.size() : n.ratio >= 2;
-    GaitNode& node = prior_.nodes[at(n)];
-    node = inner(1);
-    if (has_two) node.gait += node.gait - inner(2).gait;
-    node.cyclic = node.valid = false;
+  // The neighbour of a node `by` nodes along an axis, where there is one.
+  std::optional<Index> neighbour(Index n, size_t Index::*axis, int by) const {
+    const size_t size = axis == &Index::speed   ? grid_.speeds.size()
+                        : axis == &Index::ratio ? grid_.ratios.size()
+                                                : grid_.slopes.size();
+    const auto place = static_cast<std::ptrdiff_t>(n.*axis) + by;
+    if (place < 0 || place >= static_cast<std::ptrdiff_t>(size)) return std::nullopt;
+    n.*axis = static_cast<size_t>(place);
+    return n;
+  }
+
+  // Mean of the straight continuations from the known sides; false where no side is known.
+  bool fill(const Index& n, const std::vector<char>& known) {
+    GaitNode filled;
+    GaitVector sum = GaitVector::Zero();
+    int count = 0;
+    for (const auto axis : {&Index::speed, &Index::ratio, &Index::slope})
+      for (const int side : {-1, 1}) {
+        const auto near = neighbour(n, axis, side), far = neighbour(n, axis, 2 * side);
+        if (!near || !known[at(*near)]) continue;
+        filled = prior_.nodes[at(*near)];
+        const bool line = far && known[at(*far)];
+        sum += line ? GaitVector(2 * filled.gait - prior_.nodes[at(*far)].gait) : filled.gait;
+        ++count;
+      }
+    if (count == 0) return false;
+    filled.gait = sum / count;
+    filled.cyclic = filled.valid = false;
+    prior_.nodes[at(n)] = filled;
+    return true;
   }
 
   void solve(const Index& n) {
@@ -169,16 +194,9 @@ class Builder {
 
   std::vector<Index> solved_neighbours(const Index& n) const {
     std::vector<Index> result;
-    const auto add = [&](Index m, size_t Index::*axis, size_t size, int step) {
-      if ((step < 0 && m.*axis == 0) || (step > 0 && m.*axis + 1 == size)) return;
-      m.*axis = step < 0 ? m.*axis - 1 : m.*axis + 1;
-      if (solved_[at(m)]) result.push_back(m);
-    };
-    for (const int step : {-1, 1}) {
-      add(n, &Index::slope, grid_.slopes.size(), step);
-      add(n, &Index::ratio, grid_.ratios.size(), step);
-      add(n, &Index::speed, grid_.speeds.size(), step);
-    }
+    for (const int side : {-1, 1})
+      for (const auto axis : {&Index::slope, &Index::ratio, &Index::speed})
+        if (const auto m = neighbour(n, axis, side); m && solved_[at(*m)]) result.push_back(*m);
     return result;
   }
 
@@ -187,18 +205,12 @@ class Builder {
   GaitVector smooth_centre(const Index& n) const {
     GaitVector sum = GaitVector::Zero();
     double count = 0;
-    const auto add = [&](size_t Index::*axis, size_t size) {
-      if (n.*axis == 0 || n.*axis + 1 >= size) return;
-      Index below = n, above = n;
-      --(below.*axis);
-      ++(above.*axis);
-      if (!solved_[at(below)] || !solved_[at(above)]) return;
-      sum += 0.5 * (prior_.nodes[at(below)].gait + prior_.nodes[at(above)].gait);
+    for (const auto axis : {&Index::speed, &Index::ratio, &Index::slope}) {
+      const auto below = neighbour(n, axis, -1), above = neighbour(n, axis, 1);
+      if (!below || !above || !solved_[at(*below)] || !solved_[at(*above)]) continue;
+      sum += 0.5 * (prior_.nodes[at(*below)].gait + prior_.nodes[at(*above)].gait);
       count += 1;
-    };
-    add(&Index::speed, grid_.speeds.size());
-    add(&Index::ratio, grid_.ratios.size());
-    add(&Index::slope, grid_.slopes.size());
+    }
     if (count > 0) return sum / count;
     const auto neighbours = solved_neighbours(n);
     if (solved_[at(n)] || neighbours.empty()) return prior_.nodes[at(n)].gait;
