@@ -1,6 +1,7 @@
 #include "observation/background.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <opencv2/imgproc.hpp>
@@ -135,6 +136,99 @@ void floor_variances(const BackgroundConfig& config, BackgroundModel& model) {
   }
 }
 
+// ln x for positive normal x, within 1e-4: exponent by the bits, mantissa by a polynomial. Simple
+// enough to be computed for several pixels at once.
+inline float fast_log(float x) {
+  const auto bits = std::bit_cast<int32_t>(x);
+  const auto exponent = static_cast<float>((bits >> 23) - 127);
+  const float m = std::bit_cast<float>((bits & 0x007fffff) | 0x3f800000);
+  const float p =
+      -1.7417939F + (2.8212026F + (-1.4699568F + (0.44717955F - 0.056570851F * m) * m) * m) * m;
+  return 0.69314718F * exponent + p;
+}
+
+// Constants of the mixture.
+struct Weights {
+  explicit Weights(const BackgroundConfig& c)
+      : log_plain(static_cast<float>(std::log(1 - c.shadow_share - c.unknown_share)) -
+                  1.5F * kLogTwoPi),
+        log_shadow(
+            static_cast<float>(std::log(c.shadow_share / (1 - c.shadow_darkest) / (2 * kPi)))),
+        log_unknown(static_cast<float>(std::log(c.unknown_share)) - kLogCube),
+        darkest(static_cast<float>(c.shadow_darkest)),
+        tint(static_cast<float>(c.shadow_tint * c.shadow_tint)),
+        sky(static_cast<float>(c.shadow_sky * c.shadow_sky)),
+        gradient(static_cast<float>(c.gradient_weight)) {}
+  float log_plain, log_shadow, log_unknown, darkest, tint, sky, gradient;
+};
+
+// Below this mean a pixel is black anyway and a shadow of it is no share of anything.
+constexpr float kDarkestMean = 8;
+
+// A row of a channel with its neighbours above and below (itself at the image's edge).
+struct Rows {
+  const float *above, *here, *below;
+};
+
+Rows rows_of(const std::vector<float>& channel, const PixelRect& area, int x, int y) {
+  const auto row = [&](int at) {
+    const int clamped = std::clamp(at, area.y0, area.y1 - 1) - area.y0;
+    return channel.data() + static_cast<size_t>(clamped) * static_cast<size_t>(area.width()) +
+           static_cast<size_t>(x - area.x0);
+  };
+  return {row(y - 1), row(y), row(y + 1)};
+}
+
+struct Gradient {
+  float x, y;
+};
+
+Gradient slope(const Rows& rows, int x, int left, int right) {
+  return {0.5F * (rows.here[x + right] - rows.here[x + left]),
+          0.5F * (rows.below[x] - rows.above[x])};
+}
+
+// Luma gradients of whatever stands in front: heavy tails in all directions alike,
+// p(g) = s / (2 pi (s^2 + |g|^2)^(3/2)).
+float log_broad_gradient(const Gradient& g) {
+  constexpr float kScale = 4;  // grey levels per px
+  return fast_log(kScale) - kLogTwoPi - 1.5F * fast_log(kScale * kScale + g.x * g.x + g.y * g.y);
+}
+
+// One row of a frame and of the model; all pointers stand at the first pixel wanted.
+struct PixelRows {
+  Rows luma;
+  const float *orange, *green;
+  Rows mean;
+  const float *mean_orange, *mean_green, *luma_precision, *chroma_precision;
+  float gain;
+};
+
+// The header's density at one pixel; `left` and `right` lead to its neighbours.
+inline float log_density(const Weights& w, const PixelRows& p, int x, int left, int right) {
+  const Gradient seen = slope(p.luma, x, left, right), mean = slope(p.mean, x, left, right);
+  const float luma = p.luma.here[x], mu = p.gain * p.mean.here[x];
+  const float pl = p.luma_precision[x], pc = p.chroma_precision[x];
+  // Independent errors of variance v in two pixels two apart: their slope has variance v / 2.
+  const float pg = 2 * pl;
+  const auto miss = [&](float a, float chroma_precision) {
+    const float al = luma - a * mu;
+    const float ao = p.orange[x] - a * p.gain * p.mean_orange[x];
+    const float ag = p.green[x] - a * p.gain * p.mean_green[x];
+    const float ex = seen.x - a * p.gain * mean.x, ey = seen.y - a * p.gain * mean.y;
+    return al * al * pl + (ao * ao + ag * ag) * chroma_precision +
+           w.gradient * pg * (ex * ex + ey * ey);
+  };
+  const float log_gradient = w.gradient * (fast_log(pg) - kLogTwoPi - log_broad_gradient(seen));
+  const float plain = w.log_plain + 0.5F * fast_log(pl * pc * pc) - 0.5F * miss(1, pc);
+  const float bright = std::max(mu, kDarkestMean);
+  const float a = std::min(1.F, std::max(w.darkest, luma / bright));
+  const float sky = (1 - a) * bright;
+  const float ps = pc / (1 + (w.tint + w.sky * sky * sky) * pc);
+  const float shadow = w.log_shadow + fast_log(ps / bright) - 0.5F * miss(a, ps);
+  return std::max(w.log_unknown, std::max(plain, shadow) + log_gradient);
+}
+
 float luma_at(const cv::Mat& bgr, int x, int y) {
   const uint8_t* p = bgr.ptr<uint8_t>(y) + 3 * x;
   return 0.25F * static_cast<float>(p[0] + 2 * p[1] + p[2]);
@@ -201,36 +295,25 @@ double light_gain(const BackgroundModel& model, const cv::Mat& bgr) {
 void background_log_density(const BackgroundModel& model, const BackgroundConfig& config,
                             const ColourPatch& patch, const PixelRect& area, int y, double gain,
                             std::span<float> out) {
-  const auto g = static_cast<float>(gain);
-  const auto darkest = static_cast<float>(config.shadow_darkest);
-  const auto log_plain =
-      static_cast<float>(std::log(1 - config.shadow_share - config.unknown_share)) -
-      1.5F * kLogTwoPi;
-  const auto tint = static_cast<float>(config.shadow_tint * config.shadow_tint);
-  const auto log_shadow =
-      static_cast<float>(std::log(config.shadow_share / (1 - config.shadow_darkest) / (2 * kPi)));
-  const auto log_unknown = static_cast<float>(std::log(config.unknown_share)) - kLogCube;
-  const size_t at = patch.index(area.x0, y);
-  const size_t m =
-      static_cast<size_t>(y) * static_cast<size_t>(model.width) + static_cast<size_t>(area.x0);
-  for (size_t i = 0; i < out.size(); ++i) {
-    const float luma = patch.luma[at + i], orange = patch.orange[at + i],
-                green = patch.green[at + i];
-    const float mean_luma = g * model.luma[m + i], mean_orange = g * model.orange[m + i],
-                mean_green = g * model.green[m + i];
-    const float pl = model.luma_precision[m + i], pc = model.chroma_precision[m + i];
-    const float dl = luma - mean_luma, d_o = orange - mean_orange, dg = green - mean_green;
-    const float plain = log_plain + 0.5F * std::log(pl * pc * pc) -
-                        0.5F * (dl * dl * pl + (d_o * d_o + dg * dg) * pc);
-    const float floor_luma = std::max(mean_luma, 8.F);
-    const float a = std::min(1.F, std::max(darkest, luma / floor_luma));
-    const float rl = luma - a * mean_luma, ro = orange - a * mean_orange,
-                rg = green - a * mean_green;
-    const float ps = pc / (1 + tint * pc);
-    const float shadow =
-        log_shadow + std::log(ps / floor_luma) - 0.5F * (rl * rl * pl + (ro * ro + rg * rg) * ps);
-    out[i] = std::max(log_unknown, std::max(plain, shadow));
-  }
+  const Weights w(config);
+  const PixelRect image{0, 0, model.width, model.height};
+  const PixelRows rows{rows_of(patch.luma, patch.area, area.x0, y),
+                       rows_of(patch.orange, patch.area, area.x0, y).here,
+                       rows_of(patch.green, patch.area, area.x0, y).here,
+                       rows_of(model.luma, image, area.x0, y),
+                       rows_of(model.orange, image, area.x0, y).here,
+                       rows_of(model.green, image, area.x0, y).here,
+                       rows_of(model.luma_precision, image, area.x0, y).here,
+                       rows_of(model.chroma_precision, image, area.x0, y).here,
+                       static_cast<float>(gain)};
+  const int end = area.width();
+  const int first = area.x0 == 0 ? 1 : 0, last = area.x1 == model.width ? end - 1 : end;
+  const auto at = [&](int x, int left, int right) {
+    out[static_cast<size_t>(x)] = log_density(w, rows, x, left, right);
+  };
+  if (first == 1) at(0, 0, 1);
+  for (int x = first; x < last; ++x) at(x, -1, 1);
+  if (last < end) at(last, -1, 0);
 }
 
 void follow_drift(BackgroundModel& model, const BackgroundConfig& config, const cv::Mat& bgr,

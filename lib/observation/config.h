@@ -15,8 +15,11 @@ struct BackgroundConfig {
   double shadow_darkest = .45;  // a cast shadow keeps at least this share of a pixel's value
   double shadow_share = .15;    // prior probability that a background pixel lies in a shadow
   double shadow_tint = 5;       // standard deviation of a shadow's chroma, grey levels
-  double unknown_share = .02;   // of a background pixel looking like nothing learned
-  double drift_rate = .02;      // share of a frame that an explained pixel takes on; 0 = frozen
+  double shadow_sky = .2;       // and per grey level that the shadow takes: skylight is blue
+  double gradient_weight =
+      .5;                      // of the gradient's log-density: it is not independent of the colour
+  double unknown_share = .02;  // of a background pixel looking like nothing learned
+  double drift_rate = .02;     // share of a frame that an explained pixel takes on; 0 = frozen
 };
 
 struct ForegroundConfig {

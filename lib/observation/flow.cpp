@@ -33,7 +33,8 @@ FlowImages flow_images(const cv::Mat& before, const cv::Mat& now) {
   FlowImages out;
   cv::Sobel(now, out.gradient_x, CV_32F, 1, 0, 3, 1.0 / 8);
   cv::Sobel(now, out.gradient_y, CV_32F, 0, 1, 3, 1.0 / 8);
-  const auto search = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_FAST);
+  const auto search = cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM);
+  search->setVariationalRefinementIterations(0);
   search->calc(now, before, out.flow);
   cv::Mat where(out.flow.size(), CV_32FC2), moved;
   for (int y = 0; y < where.rows; ++y) {

@@ -22,6 +22,11 @@ constexpr double kInner = 0.75;
 
 PixelRect image_area(const Camera& camera) { return {0, 0, camera.width_px, camera.height_px}; }
 
+// One pixel more on all sides where there is one: gradients need neighbours.
+PixelRect with_border(const PixelRect& area, const Camera& camera) {
+  return intersection({area.x0 - 1, area.y0 - 1, area.x1 + 1, area.y1 + 1}, image_area(camera));
+}
+
 cv::Mat occluder_mask(const Camera& camera, const std::vector<Polygon>& occluders, int shrink) {
   cv::Mat mask = cv::Mat::zeros(camera.height_px, camera.width_px, CV_8U);
   for (const Polygon& polygon : occluders) {
@@ -183,12 +188,12 @@ int Observer::State::planes_wanted() const {
 void Observer::State::fill_planes(const cv::Mat& bgr, const PixelRect& area,
                                   LogRatioPlanes& planes) {
   if (!config.background.enabled && !config.foreground.enabled) return;
-  read_colours(bgr, area, patch);
+  read_colours(bgr, with_border(area, camera), patch);
   if (!config.background.enabled && scene.empty()) scene = scene_table(bins, bgr);
   const bool learned = config.foreground.enabled && appearance.any_learned();
   planes.plane_of = learned ? appearance.class_of() : std::array<int, kAppearanceCount>{};
   resize(planes, area, planes_wanted());
-  if (planes.count == 0) return;
+  if (planes.count == 0 || area.empty()) return;
   const double gain = config.background.enabled ? light_gain(*background, bgr) : 1;
   const auto width = static_cast<size_t>(area.width());
   row_bins.resize(width);
@@ -238,7 +243,7 @@ void Observer::learn(const CameraEvidence& evidence, const CapsuleList& capsules
   if (!s.config.foreground.enabled) return;
   AppearanceModel::Counts counts = s.appearance.empty_counts();
   const CapsuleList inner = scaled_radii(capsules, kInner);
-  for (const VisibleRun& run : visible_runs(s.patch.area, inner)) {
+  for (const VisibleRun& run : visible_runs(evidence.planes.area, inner)) {
     const Appearance appearance = inner[static_cast<size_t>(run.capsule)].appearance;
     const auto cls = static_cast<size_t>(s.appearance.class_of()[static_cast<size_t>(appearance)]);
     for (int x = run.x0; x < run.x1; ++x) {

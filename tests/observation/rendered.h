@@ -99,6 +99,12 @@ inline Skeleton skeleton_from_joints(const JointPositions& j) {
         axes_up(j[hip(side)] - j[knee(side)], left));
     set(l ? Segment::kLeftShank : Segment::kRightShank,
         axes_up(j[knee(side)] - j[ankle(side)], left));
+    const Joint shoulder = l ? Joint::kLeftShoulder : Joint::kRightShoulder;
+    const Joint elbow = l ? Joint::kLeftElbow : Joint::kRightElbow;
+    const Joint wrist = l ? Joint::kLeftWrist : Joint::kRightWrist;
+    set(l ? Segment::kLeftUpperArm : Segment::kRightUpperArm,
+        axes_up(j[shoulder] - j[elbow], left));
+    set(l ? Segment::kLeftForearm : Segment::kRightForearm, axes_up(j[elbow] - j[wrist], left));
     const Eigen::Vector3d sole = j[toe(side)] - j[ankle(side)];
     set(l ? Segment::kLeftFoot : Segment::kRightFoot, axes_up(sole.cross(left), left));
   }
