@@ -32,10 +32,15 @@ void add_observation(ParameterTable& table) {
   b.integer("samples", &B::samples, 1, 10'000, "frames that the model is made of");
   b.number("noise", &B::noise, 0.1, 255, "smallest deviation of a channel, grey levels of 256");
   b.number("jitter_px", &B::jitter_px, 0, 100, "how far edges move about, px of the shrunk image");
-  b.number("shadow_darkest", &B::shadow_darkest, 0, 1, "share of its value that a shadow leaves");
-  b.number("shadow_share", &B::shadow_share, 0, 1, "prior probability of a shadow");
+  b.number("shadow_darkest", &B::shadow_darkest, 0, 0.99,
+           "share of its value that a shadow leaves");
+  b.number("shadow_share", &B::shadow_share, 0, 0.8, "prior probability of a shadow");
   b.number("shadow_tint", &B::shadow_tint, 0.1, 255, "deviation of a shadow's chroma, grey levels");
-  b.number("unknown_share", &B::unknown_share, 0, 1, "of the background looking like nothing seen");
+  b.number("shadow_sky", &B::shadow_sky, 0, 1,
+           "and more of it per grey level that the shadow takes");
+  b.number("gradient_weight", &B::gradient_weight, 0, 1, "of the luma gradient against the colour");
+  b.number("unknown_share", &B::unknown_share, 1e-6, 0.1,
+           "of the background looking like nothing seen");
   b.number("drift_rate", &B::drift_rate, 0, 1, "share of a frame that the model takes on");
 
   using F = ForegroundConfig;

@@ -1,6 +1,7 @@
 #include "observation/background.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -147,6 +148,10 @@ inline float fast_log(float x) {
   return 0.69314718F * exponent + p;
 }
 
+// Beside a shadow's or a body's edge the gradient is anything, though the pixel is background: the
+// log of the share of such pixels.
+constexpr float kLogEdge = -3.0F;
+
 // Constants of the mixture.
 struct Weights {
   explicit Weights(const BackgroundConfig& c)
@@ -205,28 +210,33 @@ struct PixelRows {
 };
 
 // The header's density at one pixel; `left` and `right` lead to its neighbours.
-inline float log_density(const Weights& w, const PixelRows& p, int x, int left, int right) {
+[[gnu::always_inline]] inline float log_density(const Weights& w, const PixelRows& p, int x,
+                                                int left, int right) {
   const Gradient seen = slope(p.luma, x, left, right), mean = slope(p.mean, x, left, right);
   const float luma = p.luma.here[x], mu = p.gain * p.mean.here[x];
   const float pl = p.luma_precision[x], pc = p.chroma_precision[x];
   // Independent errors of variance v in two pixels two apart: their slope has variance v / 2.
   const float pg = 2 * pl;
+  const float fore_gradient = log_broad_gradient(seen);
+  const auto log_gradient = [&](float a) {
+    const float ex = seen.x - a * p.gain * mean.x, ey = seen.y - a * p.gain * mean.y;
+    const float gauss = fast_log(pg) - kLogTwoPi - 0.5F * pg * (ex * ex + ey * ey);
+    return w.gradient * std::max(kLogEdge, gauss - fore_gradient);
+  };
   const auto miss = [&](float a, float chroma_precision) {
     const float al = luma - a * mu;
     const float ao = p.orange[x] - a * p.gain * p.mean_orange[x];
     const float ag = p.green[x] - a * p.gain * p.mean_green[x];
-    const float ex = seen.x - a * p.gain * mean.x, ey = seen.y - a * p.gain * mean.y;
-    return al * al * pl + (ao * ao + ag * ag) * chroma_precision +
-           w.gradient * pg * (ex * ex + ey * ey);
+    return al * al * pl + (ao * ao + ag * ag) * chroma_precision;
   };
-  const float log_gradient = w.gradient * (fast_log(pg) - kLogTwoPi - log_broad_gradient(seen));
-  const float plain = w.log_plain + 0.5F * fast_log(pl * pc * pc) - 0.5F * miss(1, pc);
+  const float plain =
+      w.log_plain + 0.5F * fast_log(pl * pc * pc) - 0.5F * miss(1, pc) + log_gradient(1);
   const float bright = std::max(mu, kDarkestMean);
   const float a = std::min(1.F, std::max(w.darkest, luma / bright));
   const float sky = (1 - a) * bright;
   const float ps = pc / (1 + (w.tint + w.sky * sky * sky) * pc);
-  const float shadow = w.log_shadow + fast_log(ps / bright) - 0.5F * miss(a, ps);
-  return std::max(w.log_unknown, std::max(plain, shadow) + log_gradient);
+  const float shadow = w.log_shadow + fast_log(ps / bright) - 0.5F * miss(a, ps) + log_gradient(a);
+  return std::max(w.log_unknown, std::max(plain, shadow));
 }
 
 float luma_at(const cv::Mat& bgr, int x, int y) {
@@ -308,12 +318,17 @@ void background_log_density(const BackgroundModel& model, const BackgroundConfig
                        static_cast<float>(gain)};
   const int end = area.width();
   const int first = area.x0 == 0 ? 1 : 0, last = area.x1 == model.width ? end - 1 : end;
-  const auto at = [&](int x, int left, int right) {
-    out[static_cast<size_t>(x)] = log_density(w, rows, x, left, right);
-  };
-  if (first == 1) at(0, 0, 1);
-  for (int x = first; x < last; ++x) at(x, -1, 1);
-  if (last < end) at(last, -1, 0);
+  if (first == 1) out[0] = log_density(w, rows, 0, 0, 1);
+  // Through a buffer that nothing else points to, so that several pixels can be computed at once.
+  constexpr int kChunk = 64;
+  for (int begin = first; begin < last; begin += kChunk) {
+    std::array<float, kChunk> chunk;
+    const int count = std::min(kChunk, last - begin);
+    for (int k = 0; k < count; ++k)
+      chunk[static_cast<size_t>(k)] = log_density(w, rows, begin + k, -1, 1);
+    std::copy_n(chunk.begin(), count, out.begin() + begin);
+  }
+  if (last < end) out[static_cast<size_t>(last)] = log_density(w, rows, last, -1, 0);
 }
 
 void follow_drift(BackgroundModel& model, const BackgroundConfig& config, const cv::Mat& bgr,

@@ -6,8 +6,9 @@
 //     (1 - s - e) N(I; mu, variances)                             the place itself
 //     s  U(a; darkest..1) N(chroma; a mu, tint)                   in a cast shadow, I_Y = a mu_Y
 //     e  U(colour cube)                                           something never seen
-// each times the density of the luma gradient, which shadows scale by a as well. The maximum stands
-// for the sum: the parts hardly overlap.
+// the first two times the density of the luma gradient, normal around that of the mean (times a),
+// or anything for the one pixel in ten that lies beside an edge. The maximum stands for the sum:
+// the parts hardly overlap.
 //
 // Variances are at least those of the sensor noise plus what an edge does that shakes by
 // `jitter_px`, so a model can be made of a single image.

@@ -53,7 +53,7 @@ struct ObservationConfig {
   // Neighbouring pixels err together (a body is not quite our body's shape, clothes fold), so a
   // patch of this side counts as one independent pixel. On the body, hence in metres: a figure
   // twice as large in the image has not four times the evidence.
-  double independent_m = .04;
+  double independent_m = .05;
 };
 
 }  // namespace walktrack

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
@@ -86,18 +87,36 @@ FlowSample sample_from(const FlowConfig& config, const CellSums& sums) {
           static_cast<float>(middle - spread * cosine)};
 }
 
-bool hidden(const CapsuleList& capsules, size_t own, const Vector2d& point) {
-  for (size_t i = 0; i < own; ++i)
-    if (inside(capsules[i], point)) return true;
-  return false;
+// A capsule with what asking about many points needs.
+struct Shape {
+  Vector2d foot, axis, aside;  // lower centre; to the upper centre; unit vector across
+  double radius, grow;         // at the foot; more at the other end
+  double inverse_curvature;    // see inside() of capsules.cpp; huge when one disc holds the other
+};
+
+// Sends the nearest disc of covers() to the larger end.
+constexpr double kOneDisc = 1e30;
+
+Shape shape_of(const Capsule& capsule) {
+  const Vector2d axis = capsule.upper.centre - capsule.lower.centre;
+  const double grow = capsule.upper.radius - capsule.lower.radius;
+  const double curvature = axis.squaredNorm() - grow * grow;
+  return {capsule.lower.centre, axis, Vector2d(-axis.y(), axis.x()) / (axis.norm() + 1e-9),
+          capsule.lower.radius, grow, curvature > 0 ? 1 / curvature : kOneDisc};
 }
 
-// The point a share `along` of the axis, moved aside by `aside` radii.
-Vector2d material_point(const Capsule& capsule, double along, double aside) {
-  const Disc &a = capsule.lower, &b = capsule.upper;
-  const Vector2d axis = b.centre - a.centre;
-  const double length = axis.norm() + 1e-9, radius = a.radius + along * (b.radius - a.radius);
-  return a.centre + along * axis + aside * radius / length * Vector2d(-axis.y(), axis.x());
+bool covers(const Shape& shape, const Vector2d& point) {
+  const Vector2d p = point - shape.foot;
+  const double t = std::clamp(
+      (p.dot(shape.axis) + shape.radius * shape.grow) * shape.inverse_curvature, 0.0, 1.0);
+  const double radius = shape.radius + t * shape.grow;
+  return (p - t * shape.axis).squaredNorm() <= radius * radius;
+}
+
+// The point a share `along` of the axis, moved aside by a share `aside` of the radius there.
+Vector2d material_point(const Shape& shape, double along, double aside) {
+  return shape.foot + along * shape.axis +
+         aside * (shape.radius + along * shape.grow) * shape.aside;
 }
 
 double point_log_ratio(const FlowConfig& config, const FlowSample& flow, const Vector2d& motion) {
@@ -113,6 +132,26 @@ double point_log_ratio(const FlowConfig& config, const FlowSample& flow, const V
 // Points of a capsule: three along the axis times two beside it, a quarter of the width each.
 constexpr double kAlong[] = {1.0 / 6, 0.5, 5.0 / 6};
 constexpr double kAside[] = {-0.5, 0.5};
+
+// Of the last of `shapes`, which those before it may hide.
+double part_log_ratio(const FlowConfig& config, const FlowField& flow,
+                      std::span<const Shape> shapes, const Shape& before) {
+  const Shape& own = shapes.back();
+  const auto nearer = shapes.first(shapes.size() - 1);
+  double sum = 0;
+  for (const double along : kAlong) {
+    for (const double aside : kAside) {
+      const Vector2d point = material_point(own, along, aside);
+      const FlowSample* const measured = flow.at(point.x(), point.y());
+      if (!measured) continue;
+      const auto hides = [&](const Shape& shape) { return covers(shape, point); };
+      if (std::any_of(nearer.begin(), nearer.end(), hides)) continue;
+      sum += point_log_ratio(config, *measured, point - material_point(before, along, aside));
+    }
+  }
+  const double area = own.axis.norm() * (2 * own.radius + own.grow);
+  return sum * area / static_cast<double>(std::size(kAlong) * std::size(kAside));
+}
 
 }  // namespace
 
@@ -144,25 +183,14 @@ void measure_flow(const FlowConfig& config, const cv::Mat& before, const cv::Mat
 double flow_log_ratio(const FlowConfig& config, const FlowField& flow, const CapsuleList& now,
                       const CapsuleList& before) {
   if (flow.samples.empty()) return 0;
+  std::array<Shape, kMaxCapsules> shapes;
   std::array<const Capsule*, kMaxCapsules> earlier{};
   for (const Capsule& capsule : before) earlier[static_cast<size_t>(capsule.part)] = &capsule;
   double sum = 0;
   for (size_t i = 0; i < now.size(); ++i) {
-    const Capsule& capsule = now[i];
-    const Capsule* const was = earlier[static_cast<size_t>(capsule.part)];
-    if (!was) continue;
-    const double length = (capsule.upper.centre - capsule.lower.centre).norm();
-    const double area = length * (capsule.lower.radius + capsule.upper.radius) /
-                        static_cast<double>(std::size(kAlong) * std::size(kAside));
-    for (const double along : kAlong) {
-      for (const double aside : kAside) {
-        const Vector2d point = material_point(capsule, along, aside);
-        const FlowSample* const measured = flow.at(point.x(), point.y());
-        if (!measured || hidden(now, i, point)) continue;
-        sum +=
-            area * point_log_ratio(config, *measured, point - material_point(*was, along, aside));
-      }
-    }
+    shapes[i] = shape_of(now[i]);
+    const Capsule* const was = earlier[static_cast<size_t>(now[i].part)];
+    if (was) sum += part_log_ratio(config, flow, {shapes.data(), i + 1}, shape_of(*was));
   }
   return sum;
 }

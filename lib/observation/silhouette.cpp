@@ -19,7 +19,7 @@ struct Edge {
 // The outline of a capsule: two discs and the two edges that touch both.
 struct Outline {
   Vector2d centre[2];
-  double radius2[2];
+  double radius[2];
   Edge edges[2];
   int first_row, last_row;  // rows whose pixel centres it may cover, inclusive
 };
@@ -56,7 +56,7 @@ int clamped(double value, int low, int high) {
 
 Outline outline(const Capsule& capsule, const PixelRect& area) {
   const Disc &a = capsule.lower, &b = capsule.upper;
-  Outline out{{a.centre, b.centre}, {a.radius * a.radius, b.radius * b.radius}, {}, 0, 0};
+  Outline out{{a.centre, b.centre}, {a.radius, b.radius}, {}, 0, 0};
   const double top = std::min(a.centre.y() - a.radius, b.centre.y() - b.radius);
   const double bottom = std::max(a.centre.y() + a.radius, b.centre.y() + b.radius);
   out.first_row = clamped(std::ceil(top), area.y0, area.y1);
@@ -65,33 +65,71 @@ Outline outline(const Capsule& capsule, const PixelRect& area) {
   return out;
 }
 
+// Rows are worked on in blocks, so that all that is known about them has a fixed size and stays in
+// the nearest cache.
+constexpr int kBlockRows = 64;
+
 struct Interval {
   int begin, end;  // columns counted from the area's left, end excluded
 };
 
-// Columns of row y whose centres lie inside the outline. Every piece of the outline lies in the
-// convex hull, so the outermost of those that meet the row bound it.
-Interval row_interval(const Outline& shape, const PixelRect& area, int row) {
-  const double y = row;
-  double left = std::numeric_limits<double>::max(), right = -left;
-  for (const int i : {0, 1}) {
-    const double dy = y - shape.centre[i].y(), square = shape.radius2[i] - dy * dy;
-    if (square < 0) continue;
-    const double half = std::sqrt(square), x = shape.centre[i].x();
-    left = std::min(left, x - half);
-    right = std::max(right, x + half);
+// Columns of consecutive rows whose centres lie inside one outline.
+struct Columns {
+  int first_row, count;
+  double left[kBlockRows], right[kBlockRows];  // px, while they are found
+  Interval at[kBlockRows];
+};
+
+// The rows first..last of a piece of the outline that are among the block's, counted from its
+// first.
+struct RowRange {
+  int begin, end;
+};
+
+RowRange rows_between(double first, double last, const Columns& columns) {
+  const double begin = std::ceil(first) - columns.first_row;
+  const double end = std::floor(last) - columns.first_row + 1;
+  return {clamped(begin, 0, columns.count), clamped(end, 0, columns.count)};
+}
+
+void widen_by_disc(const Vector2d& centre, double radius, Columns& columns) {
+  const RowRange rows = rows_between(centre.y() - radius, centre.y() + radius, columns);
+  const double x = centre.x(), square = radius * radius, top = columns.first_row - centre.y();
+  for (int k = rows.begin; k < rows.end; ++k) {
+    const double dy = top + k;
+    const double half = std::sqrt(std::max(0.0, square - dy * dy));
+    columns.left[k] = std::min(columns.left[k], x - half);
+    columns.right[k] = std::max(columns.right[k], x + half);
   }
-  for (const Edge& edge : shape.edges) {
-    if (y < edge.first || y > edge.last) continue;
-    const double x = edge.x_at_0 + edge.slope * y;
-    left = std::min(left, x);
-    right = std::max(right, x);
+}
+
+void widen_by_edge(const Edge& edge, Columns& columns) {
+  const RowRange rows = rows_between(edge.first, edge.last, columns);
+  const double x0 = edge.x_at_0 + edge.slope * columns.first_row;
+  for (int k = rows.begin; k < rows.end; ++k) {
+    const double x = x0 + edge.slope * k;
+    columns.left[k] = std::min(columns.left[k], x);
+    columns.right[k] = std::max(columns.right[k], x);
   }
-  const double width = area.width();
-  const double from = std::clamp(left - area.x0, 0.0, width);
-  const double to = std::clamp(right - area.x0 + 1, 0.0, width);
-  const int truncated = static_cast<int>(from);
-  return {truncated + (truncated < from ? 1 : 0), static_cast<int>(to)};
+}
+
+// Every piece of the outline lies in the convex hull, so the outermost of those that meet a row
+// bound it there.
+void find_columns(const Outline& shape, const PixelRect& area, int first_row, int end_row,
+                  Columns& columns) {
+  columns.first_row = first_row;
+  columns.count = end_row - first_row;
+  std::fill_n(columns.left, columns.count, std::numeric_limits<double>::max());
+  std::fill_n(columns.right, columns.count, std::numeric_limits<double>::lowest());
+  for (const int i : {0, 1}) widen_by_disc(shape.centre[i], shape.radius[i], columns);
+  for (const Edge& edge : shape.edges) widen_by_edge(edge, columns);
+  const double x0 = area.x0, width = area.width();
+  for (int k = 0; k < columns.count; ++k) {
+    const double from = std::min(width, std::max(0.0, columns.left[k] - x0));
+    const double to = std::min(width, std::max(0.0, columns.right[k] - x0 + 1));
+    const int truncated = static_cast<int>(from);
+    columns.at[k] = {truncated + (truncated < from ? 1 : 0), static_cast<int>(to)};
+  }
 }
 
 // The columns of one row that are taken: disjoint intervals from left to right.
@@ -125,9 +163,6 @@ void paint(Cover& cover, Interval fresh, Visit&& visit) {
   taken[from] = merged;
 }
 
-// Rows are painted in blocks, so that the covers have a fixed size and stay in the nearest cache.
-constexpr int kBlockRows = 64;
-
 // Calls visit(row, begin, end, capsule) for every visible run, columns counted from area.x0.
 template <typename Visit>
 void paint_all(const PixelRect& area, const CapsuleList& capsules, Visit&& visit) {
@@ -140,14 +175,18 @@ void paint_all(const PixelRect& area, const CapsuleList& capsules, Visit&& visit
     last = std::max(last, shapes[i].last_row);
   }
   std::array<Cover, kBlockRows> covers;
+  Columns columns;
   for (int block = first; block <= last; block += kBlockRows) {
     for (Cover& cover : covers) cover.count = 0;
     for (size_t i = 0; i < capsules.size(); ++i) {
+      const int begin = std::max(shapes[i].first_row, block);
       const int end = std::min(shapes[i].last_row + 1, block + kBlockRows);
-      for (int row = std::max(shapes[i].first_row, block); row < end; ++row) {
-        const Interval columns = row_interval(shapes[i], area, row);
-        if (columns.begin >= columns.end) continue;
-        paint(covers[static_cast<size_t>(row - block)], columns,
+      if (begin >= end) continue;
+      find_columns(shapes[i], area, begin, end, columns);
+      for (int row = begin; row < end; ++row) {
+        const Interval& fresh = columns.at[row - begin];
+        if (fresh.begin >= fresh.end) continue;
+        paint(covers[static_cast<size_t>(row - block)], fresh,
               [&](int x0, int x1) { visit(row, x0, x1, i); });
       }
     }

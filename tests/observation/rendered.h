@@ -2,6 +2,7 @@
 // frames, true joints, and the parts of our body laid over them.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -84,7 +85,7 @@ inline Eigen::Matrix3d axes_up(const Eigen::Vector3d& up, const Eigen::Vector3d&
 }
 
 // A skeleton whose segments point along the given joints, whatever the body's lengths.
-inline Skeleton skeleton_from_joints(const JointPositions& j) {
+inline Skeleton skeleton_from_joints(const Body& body, const JointPositions& j) {
   Skeleton s;
   s.joints = j;
   const Eigen::Vector3d left = (j[Joint::kLeftHip] - j[Joint::kRightHip]).normalized();
@@ -105,8 +106,13 @@ inline Skeleton skeleton_from_joints(const JointPositions& j) {
     set(l ? Segment::kLeftUpperArm : Segment::kRightUpperArm,
         axes_up(j[shoulder] - j[elbow], left));
     set(l ? Segment::kLeftForearm : Segment::kRightForearm, axes_up(j[elbow] - j[wrist], left));
-    const Eigen::Vector3d sole = j[toe(side)] - j[ankle(side)];
-    set(l ? Segment::kLeftFoot : Segment::kRightFoot, axes_up(sole.cross(left), left));
+    // The ball lies ahead of and below the ankle; the foot's x axis lies along the sole.
+    const BodyLengths& lengths = body.lengths;
+    const double drop =
+        std::atan2(lengths.ankle_height - lengths.ball_height, lengths.ball_forward);
+    const Eigen::Vector3d to_ball = j[toe(side)] - j[ankle(side)];
+    set(l ? Segment::kLeftFoot : Segment::kRightFoot,
+        axes_up(Eigen::AngleAxisd(-drop, left) * to_ball.cross(left), left));
   }
   return s;
 }

@@ -1,0 +1,228 @@
+#include "observation/background.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "core/conventions.h"
+#include "core/errors.h"
+#include "core/rng.h"
+#include "observation/appearance.h"
+
+namespace walktrack {
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64;
+
+// A smooth coloured scene; `noise` is a standard deviation of every channel.
+cv::Mat scene(Rng& rng, double noise, double gain = 1) {
+  cv::Mat image(kHeight, kWidth, CV_8UC3);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double base[] = {90 + 0.5 * x, 120 + 0.4 * y, 140 - 0.3 * x};
+      for (int c = 0; c < 3; ++c)
+        image.at<cv::Vec3b>(y, x)[c] =
+            cv::saturate_cast<uint8_t>(gain * base[c] + noise * rng.normal());
+    }
+  }
+  return image;
+}
+
+void scale(cv::Mat& image, const cv::Rect& where, double factor) {
+  image(where).convertTo(image(where), -1, factor);
+}
+
+BackgroundModel model_of(const std::vector<cv::Mat>& frames, const BackgroundConfig& config = {}) {
+  BackgroundSampler sampler(config, 1);
+  for (const cv::Mat& frame : frames) sampler.add(frame);
+  return sampler.model();
+}
+
+// Log-ratios of "any colour" against the background over a whole frame.
+std::vector<double> log_ratios(const BackgroundModel& model, const cv::Mat& frame) {
+  const ColourBins bins;
+  const ColourTable broad = broad_table(bins);
+  const PixelRect all{0, 0, frame.cols, frame.rows};
+  ColourPatch patch;
+  read_colours(frame, all, patch);
+  const double gain = light_gain(model, frame);
+  std::vector<float> row(static_cast<size_t>(frame.cols));
+  std::vector<double> out;
+  for (int y = 0; y < frame.rows; ++y) {
+    background_log_density(model, {}, patch, all, y, gain, row);
+    for (int x = 0; x < frame.cols; ++x) {
+      const size_t i = patch.index(x, y);
+      const float fore = broad[bins.bin(patch.luma[i], patch.orange[i], patch.green[i])];
+      out.push_back(static_cast<double>(fore - row[static_cast<size_t>(x)]));
+    }
+  }
+  return out;
+}
+
+// Share of the pixels of a rectangle that look more like foreground than background.
+double foreground_share(const std::vector<double>& ratios, const cv::Rect& where) {
+  int count = 0;
+  for (int y = where.y; y < where.y + where.height; ++y)
+    for (int x = where.x; x < where.x + where.width; ++x)
+      count += ratios[static_cast<size_t>(y * kWidth + x)] > 0;
+  return count / static_cast<double>(where.area());
+}
+
+const cv::Rect kEverywhere(0, 0, kWidth, kHeight), kBox(30, 20, 20, 24);
+
+TEST(Background, EmptySceneIsBackground) {
+  Rng rng(1, Purpose::kTest);
+  const BackgroundModel one = model_of({scene(rng, 2)});
+  std::vector<cv::Mat> frames;
+  for (int i = 0; i < 12; ++i) frames.push_back(scene(rng, 2));
+  const BackgroundModel many = model_of(frames);
+  for (const BackgroundModel& model : {one, many})
+    EXPECT_LT(foreground_share(log_ratios(model, scene(rng, 2)), kEverywhere), 0.002);
+}
+
+TEST(Background, ThingsStandOutAndShadowsDoNot) {
+  Rng rng(2, Purpose::kTest);
+  const BackgroundModel model = model_of({scene(rng, 2)});
+  cv::Mat frame = scene(rng, 2);
+  frame(kBox) = cv::Scalar(60, 70, 150);
+  EXPECT_GT(foreground_share(log_ratios(model, frame), kBox), 0.98);
+  for (const double strength : {0.9, 0.75, 0.6, 0.5}) {
+    frame = scene(rng, 2);
+    scale(frame, kBox, strength);
+    const std::vector<double> ratios = log_ratios(model, frame);
+    // Without its edge, which is as sharp here as no real shadow's.
+    const cv::Rect inside(kBox.x + 1, kBox.y + 1, kBox.width - 2, kBox.height - 2);
+    EXPECT_LT(foreground_share(ratios, inside), 0.01) << strength;
+  }
+  frame = scene(rng, 2);
+  scale(frame, kBox, 0.2);  // far too dark for a shadow: dark clothes
+  EXPECT_GT(foreground_share(log_ratios(model, frame), kBox), 0.9);
+}
+
+TEST(Background, FlickerIsCompensated) {
+  Rng rng(3, Purpose::kTest);
+  const BackgroundModel model = model_of({scene(rng, 1)});
+  for (const double gain : {0.8, 0.93, 1.07, 1.2}) {
+    cv::Mat frame = scene(rng, 1, gain);
+    frame(kBox) = cv::Scalar(60, 70, 150);
+    EXPECT_NEAR(light_gain(model, frame), gain, 0.01);
+    const std::vector<double> ratios = log_ratios(model, frame);
+    EXPECT_GT(foreground_share(ratios, kBox), 0.98) << gain;
+    EXPECT_LT(foreground_share(ratios, {0, 0, 28, kHeight}), 0.01) << gain;
+  }
+}
+
+TEST(Background, IsFoundBehindAWalkerWhoCoversItHalfTheTime) {
+  Rng rng(4, Purpose::kTest);
+  std::vector<cv::Mat> frames;
+  for (int i = 0; i < 24; ++i) {
+    frames.push_back(scene(rng, 2, 1 + 0.04 * std::sin(i)));
+    // Five frames in ten the box is covered, by clothes of changing folds.
+    if (i % 2 == 0) frames.back()(kBox) = cv::Scalar(60, 70, 150) + cv::Scalar::all(3 * (i % 8));
+  }
+  const BackgroundModel model = model_of(frames);
+  const cv::Mat truth = scene(rng, 0);
+  double worst = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const cv::Vec3b& c = truth.at<cv::Vec3b>(y, x);
+      const double luma = 0.25 * (c[0] + 2 * c[1] + c[2]);
+      worst = std::max(
+          worst,
+          std::abs(static_cast<double>(model.luma[static_cast<size_t>(y * kWidth + x)]) - luma));
+    }
+  }
+  // Twelve samples with a deviation of 2, and the frames' gains within 1 %: five sigma.
+  EXPECT_LT(worst, 5 * 2 / std::sqrt(12.0) + 0.01 * 140);
+  EXPECT_LT(foreground_share(log_ratios(model, scene(rng, 2)), kEverywhere), 0.01);
+}
+
+TEST(Background, MemoryIsBounded) {
+  BackgroundConfig config;
+  config.samples = 8;
+  BackgroundSampler sampler(config, 2);
+  Rng rng(5, Purpose::kTest);
+  const cv::Mat frame = scene(rng, 2);
+  for (int i = 0; i < 100; ++i) {
+    sampler.add(frame);
+    EXPECT_LE(sampler.frames(), 8);
+    EXPECT_GE(sampler.frames(), std::min(i + 1, 4));
+  }
+  EXPECT_EQ(sampler.model().width, kWidth / 2);
+  EXPECT_THROW(BackgroundSampler(config, 1).model(), InputError);
+}
+
+TEST(Background, DriftIsFollowedAndBodiesAreNot) {
+  Rng rng(6, Purpose::kTest);
+  BackgroundModel model = model_of({scene(rng, 0)});
+  const BackgroundModel before = model;
+  cv::Mat frame = scene(rng, 0) + cv::Scalar(4, 0, 0);  // bluer, within three deviations
+  frame(kBox) = cv::Scalar(60, 70, 150);
+  for (int i = 0; i < 400; ++i) follow_drift(model, {}, frame, 1, i % 8, 8);
+  const auto at = [](int x, int y) { return static_cast<size_t>(y * kWidth + x); };
+  EXPECT_NEAR(static_cast<double>(model.orange[at(5, 5)]),
+              static_cast<double>(before.orange[at(5, 5)]) - 4, 0.1);
+  EXPECT_EQ(model.orange[at(40, 30)], before.orange[at(40, 30)]);
+}
+
+// The density of the header, in doubles and with library logarithms.
+double reference(const BackgroundModel& m, const BackgroundConfig& c, const ColourPatch& p, int x,
+                 int y) {
+  const auto at = [&](const std::vector<float>& channel, int i, int j) {
+    const int column = std::clamp(i, 0, kWidth - 1), row = std::clamp(j, 0, kHeight - 1);
+    return static_cast<double>(channel[static_cast<size_t>(row * kWidth + column)]);
+  };
+  const auto slope = [&](const std::vector<float>& channel) -> Eigen::Vector2d {
+    return Eigen::Vector2d(at(channel, x + 1, y) - at(channel, x - 1, y),
+                           at(channel, x, y + 1) - at(channel, x, y - 1)) /
+           2;
+  };
+  const auto normal = [](double squared, double variance) {
+    return std::exp(-0.5 * squared / variance) / std::sqrt(2 * kPi * variance);
+  };
+  const double vl = 1 / at(m.luma_precision, x, y), vc = 1 / at(m.chroma_precision, x, y);
+  const double mu = at(m.luma, x, y), luma = at(p.luma, x, y);
+  const auto gradient = [&](double a) {
+    const double miss = (slope(p.luma) - a * slope(m.luma)).squaredNorm();
+    const double fore = 4 / (2 * kPi * std::pow(16 + slope(p.luma).squaredNorm(), 1.5));
+    const double back = std::exp(-0.5 * miss / (vl / 2)) / (2 * kPi * vl / 2);
+    return std::pow(std::max(back / fore, std::exp(-3.0)), c.gradient_weight);
+  };
+  const auto chroma = [&](double a, double variance) {
+    return normal(std::pow(at(p.orange, x, y) - a * at(m.orange, x, y), 2), variance) *
+           normal(std::pow(at(p.green, x, y) - a * at(m.green, x, y), 2), variance);
+  };
+  const double plain = (1 - c.shadow_share - c.unknown_share) * normal(std::pow(luma - mu, 2), vl) *
+                       chroma(1, vc) * gradient(1);
+  const double a = std::clamp(luma / mu, c.shadow_darkest, 1.0);
+  const double tint = vc + std::pow(c.shadow_tint, 2) + std::pow(c.shadow_sky * (1 - a) * mu, 2);
+  const double shadow = c.shadow_share / (1 - c.shadow_darkest) / mu *
+                        std::exp(-0.5 * std::pow(luma - a * mu, 2) / vl) * chroma(a, tint) *
+                        gradient(a);
+  return std::log(std::max({plain, shadow, c.unknown_share / std::pow(256, 3)}));
+}
+
+TEST(Background, DensityIsThatOfTheHeader) {
+  Rng rng(7, Purpose::kTest);
+  const BackgroundConfig config;
+  const BackgroundModel model = model_of({scene(rng, 6)});
+  cv::Mat frame = scene(rng, 4);
+  scale(frame, kBox, 0.6);
+  ColourPatch patch;
+  const PixelRect all{0, 0, kWidth, kHeight};
+  read_colours(frame, all, patch);
+  std::vector<float> row(kWidth);
+  for (int y = 0; y < kHeight; ++y) {
+    background_log_density(model, config, patch, all, y, 1, row);
+    for (int x = 1; x < kWidth - 1; ++x) {
+      // Single precision at log-densities of -20 and sums of squares of up to 50.
+      EXPECT_NEAR(static_cast<double>(row[static_cast<size_t>(x)]),
+                  reference(model, config, patch, x, y), 2e-3)
+          << x << ", " << y;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace walktrack

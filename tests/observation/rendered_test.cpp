@@ -1,0 +1,120 @@
+// The likelihood on walks rendered by an independent program, whose bodies are not ours.
+#include "tests/observation/rendered.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "observation/likelihood.h"
+
+namespace walktrack {
+namespace {
+
+using Change = std::function<void(JointPositions&)>;
+
+void turn(JointPositions& j, std::initializer_list<Joint> which, Joint about, double angle) {
+  const Eigen::Vector3d axis = (j[Joint::kLeftHip] - j[Joint::kRightHip]).normalized();
+  const Eigen::AngleAxisd rotation(angle, axis);
+  const Eigen::Vector3d centre = j[about];
+  for (const Joint joint : which) j[joint] = centre + rotation * (j[joint] - centre);
+}
+
+Change shifted(const Eigen::Vector3d& by) {
+  return [by](JointPositions& j) {
+    for (Eigen::Vector3d& p : j.at) p += by;
+  };
+}
+
+// The pose moved by 4 cm, or one limb turned by 10 degrees (7 cm at the end of a thigh).
+std::vector<Change> changes() {
+  std::vector<Change> out;
+  for (const double s : {-1.0, 1.0}) {
+    const double a = s * 0.17;
+    out.push_back(shifted({0.04 * s, 0, 0}));
+    out.push_back(shifted({0, 0, 0.04 * s}));
+    out.push_back([a](JointPositions& j) {
+      turn(j, {Joint::kNeck, Joint::kHead}, Joint::kPelvis, a);
+    });
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      out.push_back([a, side](JointPositions& j) {
+        turn(j, {knee(side), ankle(side), toe(side)}, hip(side), a);
+      });
+      out.push_back([a, side](JointPositions& j) {
+        turn(j, {ankle(side), toe(side)}, knee(side), a);
+      });
+    }
+  }
+  return out;
+}
+
+struct Share {
+  int won = 0, asked = 0;
+  double value() const { return won / static_cast<double>(asked); }
+};
+
+// How often the true pose beats a changed one, over the frames 6, 14, 22 ... of a side view.
+Share true_pose_wins(const std::filesystem::path& folder, const ObservationConfig& config) {
+  const Camera camera = read_camera(folder / "cam0.yaml");
+  const std::vector<JointPositions> truth = read_truth(folder / "truth.csv");
+  const Body body = make_body({1.71, 70, {}}, {});
+  BackgroundSampler sampler(config.background, 1);
+  for (const cv::Mat& frame : read_frames(folder / "cam0_background.mp4", 8)) sampler.add(frame);
+  Observer observer(config, {camera, 1, appearances_of(body), sampler.model(), {}});
+  const auto capsules = [&](const JointPositions& joints) {
+    std::vector<PosedPart> parts;
+    pose_parts(body, skeleton_from_joints(body, joints), parts);
+    return project_parts(observer.camera(), parts);
+  };
+  const std::vector<cv::Mat> frames = read_frames(folder / "cam0.mp4", 46);
+  CameraEvidence evidence;
+  Share share;
+  for (size_t f = 0; f < frames.size(); ++f) {
+    const Eigen::Vector2d place = truth[f][Joint::kPelvis].head<2>();
+    observer.observe(frames[f], person_region(observer.camera(), place, 1.75, 0.7), evidence);
+    const CapsuleList now = capsules(truth[f]);
+    if (f % 8 == 6) {
+      const CapsuleList before = capsules(truth[f - 1]);
+      const double best = log_likelihood(config, evidence, now, &before);
+      for (const Change& change : changes()) {
+        JointPositions other = truth[f];
+        change(other);
+        share.won += log_likelihood(config, evidence, capsules(other), &before) < best;
+        ++share.asked;
+      }
+    }
+    observer.learn(evidence, now);
+  }
+  return share;
+}
+
+class Rendered : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(folder_ / "truth.csv"))
+      GTEST_SKIP() << "needs " << folder_ << ", which is not here";
+  }
+  std::filesystem::path folder_ = shared_data() / "rendered/cmu_02_01";
+};
+
+// Shares are those measured, less a margin for small changes of the models.
+TEST_F(Rendered, TruePoseBeatsPerturbedPosesForEachTermAndTogether) {
+  ObservationConfig all, foreground, background, flow;
+  foreground.background.enabled = foreground.flow.enabled = false;
+  background.foreground.enabled = background.flow.enabled = false;
+  flow.foreground.enabled = flow.background.enabled = false;
+  const double together = true_pose_wins(folder_, all).value();
+  const double by_foreground = true_pose_wins(folder_, foreground).value();
+  const double by_background = true_pose_wins(folder_, background).value();
+  const double by_flow = true_pose_wins(folder_, flow).value();
+  RecordProperty("together", std::to_string(together));
+  RecordProperty("foreground", std::to_string(by_foreground));
+  RecordProperty("background", std::to_string(by_background));
+  RecordProperty("flow", std::to_string(by_flow));
+  EXPECT_GT(together, 0.98);
+  EXPECT_GT(by_foreground, 0.9);
+  EXPECT_GT(by_background, 0.9);
+  EXPECT_GT(by_flow, 0.9);
+}
+
+}  // namespace
+}  // namespace walktrack
