@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds with warnings as errors and runs every test that is not slow.
+# Installs what is missing, builds with warnings as errors and runs every test that is not
+# slow, and clang-tidy.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh
 cmake --preset ci
 cmake --build --preset ci
 ctest --preset ci
+scripts/check_tidy.py build/ci

@@ -142,7 +142,7 @@ class Builder {
     if (from_centre(n) == 0) return continue_cycle(seed_gait(), kSeedTarget, to);
     for (const Index& parent : parents(n)) {
       if (!solved_[at(parent)]) continue;
-      const auto guess = continue_cycle(prior_.nodes[at(parent)].gait, target(parent), to);
+      auto guess = continue_cycle(prior_.nodes[at(parent)].gait, target(parent), to);
       if (guess) return guess;
     }
     return std::nullopt;

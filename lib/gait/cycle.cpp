@@ -32,7 +32,7 @@ std::optional<Trial> improved(const KneedModel& model, const Trial& from, const 
                               const GaitTarget& target) {
   double share = 1;
   for (int i = 0; i < kMaxHalvings; ++i, share /= 2) {
-    const auto next = trial_of(model, from.gait + share * step, target);
+    auto next = trial_of(model, from.gait + share * step, target);
     if (next && next->residual.norm() < from.residual.norm()) return next;
   }
   return std::nullopt;

@@ -29,7 +29,7 @@ Eigen::Vector3d vector3(const YamlValue& value) { return Eigen::Vector3d(value.n
 
 // A path that must exist, unless it is a pattern.
 fs::path existing_path(const YamlValue& value, const fs::path& folder) {
-  const fs::path path = resolved(folder, value.text());
+  fs::path path = resolved(folder, value.text());
   std::error_code ignored;
   if (!is_frame_pattern(path) && !fs::exists(path, ignored)) {
     value.fail(fmt::format("'{}'", value.text()),
@@ -40,7 +40,7 @@ fs::path existing_path(const YamlValue& value, const fs::path& folder) {
 
 // Names become parts of file names and of pages.
 std::string checked_name(const YamlValue& value) {
-  const std::string name = value.text();
+  std::string name = value.text();
   const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
     const auto byte = static_cast<unsigned char>(c);
     return byte < 0x20 || byte == 0x7f || c == '/' || c == '\\';
@@ -100,7 +100,7 @@ WorldFrame read_ground(const YamlValue& root) {
 Eigen::Vector3d read_gravity(const YamlValue& root, const WorldFrame& world) {
   if (!root.has("gravity")) return Scene{}.gravity;
   const YamlValue value = root.at("gravity");
-  const Eigen::Vector3d gravity = world.rotation * vector3(value);
+  Eigen::Vector3d gravity = world.rotation * vector3(value);
   const double strength = gravity.norm();
   if (!(strength >= kWeakestGravity && strength <= kStrongestGravity)) {
     value.fail(fmt::format("{:g} m/s^2", strength),

@@ -129,7 +129,7 @@ std::vector<double> YamlValue::numbers() const {
 std::vector<double> YamlValue::numbers(size_t count) const {
   const std::string allowed = fmt::format("a list of {} numbers", count);
   if (!is_list()) fail(describe_found(), allowed);
-  const std::vector<double> found = numbers();
+  std::vector<double> found = numbers();
   if (found.size() != count) fail(fmt::format("{} numbers", found.size()), allowed);
   return found;
 }

@@ -116,7 +116,8 @@ void add_events(const Motion& motion, const Run& run, const std::vector<Vector2d
   std::vector<double> ankle_ahead, toe_behind;
   for (size_t i = run.begin; i < run.end; ++i) {
     const JointPositions& joints = motion.joints[i];
-    const Vector2d pelvis = ground(joints[Joint::kPelvis]), way = direction[i - run.begin];
+    const Vector2d pelvis = ground(joints[Joint::kPelvis]);
+    const Vector2d& way = direction[i - run.begin];
     ankle_ahead.push_back(way.dot(ground(joints[ankle(side)]) - pelvis));
     toe_behind.push_back(-way.dot(ground(joints[toe(side)]) - pelvis));
   }

@@ -44,9 +44,11 @@ Ray ray_at(const View& view, int x, int y, double dx, double dy) {
 // Offsets of the sub-pixel rays.
 std::array<Vector2d, kSubRays * kSubRays> sub_rays() {
   std::array<Vector2d, kSubRays * kSubRays> out;
-  for (int i = 0; i < kSubRays * kSubRays; ++i)
+  for (int i = 0; i < kSubRays * kSubRays; ++i) {
+    const int column = i % kSubRays, row = i / kSubRays;
     out[static_cast<size_t>(i)] =
-        Vector2d(i % kSubRays + 0.5, i / kSubRays + 0.5) / kSubRays - Vector2d::Constant(0.5);
+        Vector2d(column + 0.5, row + 0.5) / kSubRays - Vector2d::Constant(0.5);
+  }
   return out;
 }
 

@@ -60,7 +60,7 @@ std::optional<Iterate> damped_step(const ReturnMap& map, const Iterate& now, con
     const auto tangent = evaluated(map, now.x + s * N * d);
     if (!tangent) continue;
     const VectorXd miss = tangent->image - tangent->x;
-    const auto next = evaluated(map, tangent->x + miss - N * (N.transpose() * miss));
+    auto next = evaluated(map, tangent->x + miss - N * (N.transpose() * miss));
     // Far away a step may raise the residual a little on its way to the basin.
     if (next && next->residual() < 1.5 * now.residual()) return next;
   }

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Runs clang-tidy (checks: .clang-tidy) over lib/ and apps/, as many files at a time as there are
+processors. Fails when it finds anything. A file that was clean is looked at again only when it, a
+header that it includes, its command line, the checks or clang-tidy have changed.
+
+usage: check_tidy.py [BUILD_FOLDER]   (build/ci), configured with Ninja and built
+"""
+import concurrent.futures
+import hashlib
+import json
+import os
+import pathlib
+import resource
+import shlex
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+# The command lines are those of g++: its warnings are its own business.
+OPTIONS = ["--quiet", "--extra-arg=-w", f"--config-file={ROOT}/.clang-tidy"]
+
+
+def output_of(*command):
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+def headers_of_objects(build):
+    """Object file -> the files it was compiled from, as Ninja noted them."""
+    headers, current = {}, None
+    for line in output_of("ninja", "-C", str(build), "-t", "deps").splitlines():
+        if line.startswith("    "):
+            headers[current].append((build / line.strip()).resolve())
+        elif ": #deps" in line:
+            current = line.split(": #deps")[0]
+            headers[current] = []
+    return headers
+
+
+def object_of(entry):
+    words = shlex.split(entry["command"])
+    return words[words.index("-o") + 1]
+
+
+def key_of(entry, headers, common):
+    """Changes when the outcome may change. Files of the system count by name only."""
+    digest = hashlib.sha256((common + entry["command"]).encode())
+    for path in sorted(headers[object_of(entry)]):
+        digest.update(str(path).encode())
+        if path.is_relative_to(ROOT) and path.is_file():
+            digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def look_at(entry, build, stamp):
+    done = subprocess.run(["clang-tidy", "-p", str(build), *OPTIONS, entry["file"]],
+                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    if done.returncode == 0:
+        stamp.touch()
+    return done.returncode, done.stdout
+
+
+def main():
+    build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/ci").resolve()
+    stamps = build / "tidy"
+    stamps.mkdir(exist_ok=True)
+    common = output_of("clang-tidy", "--version") + (ROOT / ".clang-tidy").read_text() + str(OPTIONS)
+    headers = headers_of_objects(build)
+    due = {}
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        path = pathlib.Path(entry["file"])
+        if not any(path.is_relative_to(ROOT / folder) for folder in ("lib", "apps")):
+            continue
+        if object_of(entry) not in headers:
+            sys.exit(f"{path} is not built")
+        stamp = stamps / key_of(entry, headers, common)
+        if not stamp.exists():
+            due[stamp] = entry
+    found, begin = 0, time.monotonic()
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        looks = {pool.submit(look_at, entry, build, stamp): entry for stamp, entry in due.items()}
+        for look in concurrent.futures.as_completed(looks):
+            code, text = look.result()
+            if code:
+                found += 1
+                print(text or f"{looks[look]['file']}: clang-tidy ended with {code}", flush=True)
+    processor = resource.getrusage(resource.RUSAGE_CHILDREN)
+    print(f"clang-tidy: {len(due)} files in {time.monotonic() - begin:.0f} s, "
+          f"{processor.ru_utime + processor.ru_stime:.0f} s of processor time, "
+          f"{found} with findings")
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()
