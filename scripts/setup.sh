@@ -10,6 +10,7 @@ packages=(
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
   libopencv-video-dev libopencv-videoio-dev libopencv-calib3d-dev libopencv-ml-dev
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang-format clang-tidy
+  clang libclang-rt-dev  # for fuzzing
   libsimbody-dev  # independent engine behind some tests
 )
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds with warnings as errors and runs every test that is not
-# slow, and clang-tidy.
+# slow, clang-tidy and, where there is clang, a little fuzzing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh
@@ -8,3 +8,4 @@ cmake --preset ci
 cmake --build --preset ci
 ctest --preset ci
 scripts/check_tidy.py build/ci
+FUZZ_SEED=1 scripts/fuzz.sh --runs 2000

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 
@@ -46,7 +47,7 @@ class Words {
     const auto text = word();
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
       fail(fmt::format("'{}'", text), "a number");
     return value;
   }
@@ -69,7 +70,9 @@ std::vector<double> parse_axis(Words& words, std::string_view name) {
   const auto found = words.word();
   if (found != name) words.fail(fmt::format("'{}'", found), fmt::format("'{}'", name));
   const double size = words.number();
-  if (!(size >= 1 && size <= 1000)) words.fail(fmt::format("{}", size), "1 to 1000 values");
+  if (!(size >= 1 && size <= 1000 && size == std::floor(size))) {
+    words.fail(fmt::format("{}", size), "1 to 1000 values");
+  }
   std::vector<double> axis(static_cast<size_t>(size));
   for (double& value : axis) value = words.number();
   return axis;
@@ -125,6 +128,7 @@ GaitPrior parse_gait_prior(std::string_view text, const std::string& name) {
   prior.ratios = parse_axis(words, "ratios");
   prior.slopes = parse_axis(words, "slopes");
   const size_t size = prior.speeds.size() * prior.ratios.size() * prior.slopes.size();
+  if (size > text.size()) words.fail(fmt::format("{} nodes", size), "a line for each node");
   prior.nodes.reserve(size);
   for (size_t i = 0; i < size; ++i) prior.nodes.push_back(parse_node(words));
   const std::string expected =

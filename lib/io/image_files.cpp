@@ -3,8 +3,11 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "core/errors.h"
+#include "io/files.h"
+#include "io/image_size.h"
 #include "io/scene.h"
 #include "io/video.h"
 
@@ -13,6 +16,8 @@ namespace walktrack {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr size_t kMostImageBytes = size_t{1} << 30;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -109,6 +114,25 @@ std::vector<fs::path> images_of_pattern(const fs::path& path) {
 }
 
 }  // namespace
+
+std::string read_image_file(const fs::path& path, cv::Mat& image) {
+  const std::string content = read_text_file(path, kMostImageBytes);
+  const auto* bytes = reinterpret_cast<const unsigned char*>(content.data());
+  const auto size = image_size_from_header({bytes, content.size()});
+  if (!size) return "no PNG, JPEG, TIFF, BMP, PNM or WebP image";
+  if (std::max(size->width, size->height) > kMostPixelsAlongASide) {
+    return fmt::format("{}x{} px, up to {} px are allowed", size->width, size->height,
+                       kMostPixelsAlongASide);
+  }
+  const cv::Mat encoded(1, static_cast<int>(content.size()), CV_8U,
+                        const_cast<unsigned char*>(bytes));  // only read
+  try {
+    image = cv::imdecode(encoded, cv::IMREAD_COLOR);
+  } catch (const cv::Exception&) {
+    image.release();  // how some decoders say that the content is broken
+  }
+  return image.empty() ? "an image that cannot be decoded" : "";
+}
 
 bool natural_less(const std::string& a, const std::string& b) {
   size_t i = 0, j = 0;

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "core/errors.h"
@@ -16,7 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMostPixelsAlongASide = 16'384;
 constexpr double kFastestBelievableRate = 10'000;  // Hz
 
 // Containers count frames by duration, or keep a last one that no decoder returns.
@@ -90,8 +88,9 @@ void FrameSource::open_video(std::optional<cv::Size> expected_px) {
 }
 
 void FrameSource::open_images() {
-  const cv::Mat first = cv::imread(images_.front().string(), cv::IMREAD_COLOR);
-  if (first.empty()) fail(images_.front(), "no image that can be decoded", "");
+  cv::Mat first;
+  const std::string reason = read_image_file(images_.front(), first);
+  if (!reason.empty()) fail(images_.front(), reason, "");
   facts_.width_px = first.cols;
   facts_.height_px = first.rows;
   facts_.frame_count = static_cast<int>(images_.size());
@@ -131,9 +130,9 @@ double FrameSource::time() const {
 bool FrameSource::read_image(cv::Mat& frame) {
   if (next_frame_ >= facts_.frame_count) return false;
   const fs::path& file = images_[static_cast<size_t>(next_frame_)];
-  frame = cv::imread(file.string(), cv::IMREAD_COLOR);
-  if (frame.empty()) {
-    trouble_ = fmt::format("{}: frame {} cannot be decoded", file.string(), next_frame_);
+  const std::string reason = read_image_file(file, frame);
+  if (!reason.empty()) {
+    trouble_ = fmt::format("{}: frame {}: {}", file.string(), next_frame_, reason);
     return false;
   }
   if (frame.cols != facts_.width_px || frame.rows != facts_.height_px) {

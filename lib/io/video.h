@@ -66,6 +66,12 @@ class FrameSource {
 // one image. InputError if there is none, or if a number of a pattern is missing.
 std::vector<std::filesystem::path> image_files(const std::filesystem::path& path);
 
+// Decodes one image file into 8-bit BGR, turned as its EXIF data asks. Says why it cannot be; empty
+// if it was. A header that asks for more than kMostPixelsAlongASide is refused before decoding.
+std::string read_image_file(const std::filesystem::path& path, cv::Mat& image);
+
+inline constexpr int kMostPixelsAlongASide = 16'384;
+
 // "frame2" before "frame10": runs of digits compare as numbers.
 bool natural_less(const std::string& a, const std::string& b);
 

@@ -108,7 +108,7 @@ TEST(FrameSource, SaysWhatItCannotRead) {
   EXPECT_THAT(message_for(folder / "missing.mp4"), HasSubstr("missing.mp4: found no file"));
   EXPECT_THAT(message_for(folder / "text.mp4"), HasSubstr("no video that FFmpeg can decode"));
   EXPECT_THAT(message_for(folder / "empty.mp4"), HasSubstr("no video that FFmpeg can decode"));
-  EXPECT_THAT(message_for(folder / "text.png"), HasSubstr("no image that can be decoded"));
+  EXPECT_THAT(message_for(folder / "text.png"), HasSubstr("text.png: found no PNG, JPEG"));
   EXPECT_THAT(message_for(folder / "none"), HasSubstr("none: found no image"));
   EXPECT_THAT(message_for(folder / "gap/frame%d.png"), HasSubstr("frame 3 missing before 4"));
   EXPECT_THAT(message_for(folder / "gap/frame%s.png"), HasSubstr("a pattern of another kind"));
@@ -126,7 +126,7 @@ TEST(FrameSource, NamesTheFrameThatBreaks) {
   cv::Mat frame;
   EXPECT_TRUE(source.read(frame));
   EXPECT_FALSE(source.read(frame));
-  EXPECT_THAT(source.trouble(), HasSubstr("frame1.png: frame 1 cannot be decoded"));
+  EXPECT_THAT(source.trouble(), HasSubstr("frame1.png: frame 1: no PNG, JPEG"));
   EXPECT_FALSE(source.read(frame));
 }
 
