@@ -26,6 +26,7 @@ constexpr std::array kCommands{
     Command{"evaluate", "measure estimates against a truth", run_evaluate},
     Command{"prior", "build or show the table of gaits", run_prior},
     Command{"render", "render a motion as synthetic video with its truth", run_render},
+    Command{"selftest", "try extremes on this program and say how they end", run_selftest},
     Command{"simulate", "simulate a walker: tables, pictures, an animation", run_simulate},
     Command{"track", "track the walker of one scene", run_track},
 };

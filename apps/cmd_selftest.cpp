@@ -1,0 +1,53 @@
+// walktrack selftest: extremes on the installed program.
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "core/parallel_for.h"
+#include "jobs/selftest.h"
+#include "terminal.h"
+
+namespace walktrack {
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+
+int run_selftest(const Arguments& arguments) {
+  bool stress = false;
+  std::string trial;
+  CommandLine line({.name = "selftest",
+                    .operands = "",
+                    .about = "Tries extreme walks, pictures, bodies and settings on this very "
+                             "program and prints how each\nends: tracked, degraded (with what is "
+                             "lacking) or reported (refused with a reason).\nAnything else is a "
+                             "failure, exit code 1. Takes less than a minute.",
+                    .example = "walktrack selftest"});
+  line.options().add_options()("stress", po::bool_switch(&stress),
+                               "add the trials that take minutes")(
+      "trial", po::value(&trial)->value_name("NAME"), "only this one, in the folder --output");
+  if (!line.parse(arguments)) return kDone;
+  if (!trial.empty()) {
+    fmt::print("{}\n", trial_line(run_trial(trial, line.required_output())));
+    return kDone;
+  }
+  SelftestJob job;
+  job.command = {fs::read_symlink("/proc/self/exe").string(), "selftest", "--trial"};
+  job.folder = line.common().output.empty()
+                   ? fs::temp_directory_path() / fmt::format("walktrack_selftest_{}", getpid())
+                   : fs::path(line.common().output);
+  job.stress = stress;
+  job.jobs = hardware_threads();
+  Terminal terminal(line.common());
+  const std::vector<TrialResult> results = run_selftest(job, terminal.control());
+  fmt::print("{}", selftest_table(results));
+  std::error_code ignored;
+  fs::remove(job.folder, ignored);  // where it is empty
+  for (const TrialResult& result : results) {
+    if (result.end == TrialEnd::kFailed) return kFailed;
+  }
+  return kDone;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,58 @@
+// `walktrack selftest`: extremes that recordings and configurations can hold, each tried on the
+// installed program with films made on the spot. Every trial has to end as
+//   tracked    the walker was followed, within kTrackedWithin of the truth where there is one
+//   degraded   there is a result that says itself what it lacks (exit 4 of `track`), or whose
+//              figures are stated here
+//   reported   the input was refused with a message for the user
+// Anything else is a failure: a number that is not finite, a crash, a hang, memory without bound.
+// Each trial is a process of its own, so that the table tells of crashes and hangs too.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/job_control.h"
+
+namespace walktrack {
+
+enum class TrialEnd { kTracked, kDegraded, kReported, kFailed };
+std::string_view trial_end_name(TrialEnd end);
+
+inline constexpr double kTrackedWithin = 0.3;  // m, median of the pelvis
+
+struct TrialResult {
+  std::string name{};
+  TrialEnd end = TrialEnd::kFailed;
+  std::string what{};      // figures, or the reason
+  double seconds = 0;      // wall time of its process
+  double peak_memory = 0;  // of its process, MB; 0 = not known
+};
+
+// In the order of the table; `stress` adds the long ones.
+std::vector<std::string> trial_names(bool stress);
+
+// One trial in this process; films and results go to `folder`, which it makes. UsageError for an
+// unknown name; what the trial itself throws beyond errors for the user comes through.
+TrialResult run_trial(const std::string& name, const std::filesystem::path& folder);
+
+// One line that a trial's process prints last, and back; kFailed for other lines.
+std::string trial_line(const TrialResult& result);
+TrialResult trial_from_line(const std::string& name, const std::string& line);
+
+struct SelftestJob {
+  // A program and options that run one trial and print its line; "NAME -o FOLDER" is appended.
+  std::vector<std::string> command;
+  std::filesystem::path folder;  // for films and results; what trials leave there is removed
+  bool stress = false;
+  int jobs = 1;  // trials at a time
+};
+
+// All trials, in the order of the table. Stops early when asked to: fewer results.
+std::vector<TrialResult> run_selftest(const SelftestJob& job, const JobControl& control);
+
+// The table for a terminal, with a last line that counts how trials ended.
+std::string selftest_table(const std::vector<TrialResult>& results);
+
+}  // namespace walktrack
