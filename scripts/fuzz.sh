@@ -4,7 +4,8 @@
 #   scripts/fuzz.sh                       3 s each
 #   scripts/fuzz.sh --runs 1000000        so many executions each
 #   scripts/fuzz.sh --seconds 60 scene    one target
-# FUZZ_SEED=1 makes a run repeatable. What is new in coverage stays in build/fuzz/corpus for the next run.
+# FUZZ_SEED=1 makes a run repeatable. What is new in coverage stays in build/fuzz/corpus for the next
+# run.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
