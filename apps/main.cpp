@@ -82,7 +82,8 @@ int run(const Arguments& words) {
 }
 
 int complain(const std::exception& error, ExitCode code) {
-  fmt::print(stderr, "walktrack: {}\n", error.what());
+  // Not fmt::print, which throws where stderr is a file on a full disk.
+  std::fputs(fmt::format("walktrack: {}\n", error.what()).c_str(), stderr);
   return code;
 }
 

@@ -53,7 +53,7 @@ JobControl Terminal::control() {
 
 void Terminal::say(std::string_view text) {
   finish_line();
-  fmt::print(stderr, "walktrack: {}\n", text);
+  std::fputs(fmt::format("walktrack: {}\n", text).c_str(), stderr);
 }
 
 void Terminal::draw(const Progress& progress) {
@@ -67,7 +67,7 @@ void Terminal::draw(const Progress& progress) {
     return;
   }
   drawn_ = now;
-  fmt::print(stderr, "\r\033[K{}", line(progress));
+  std::fputs(fmt::format("\r\033[K{}", line(progress)).c_str(), stderr);
   line_open_ = true;
   if (complete) finish_line();
 }
@@ -85,7 +85,7 @@ std::string Terminal::line(const Progress& progress) const {
 }
 
 void Terminal::finish_line() {
-  if (line_open_) fmt::print(stderr, "\n");
+  if (line_open_) std::fputs("\n", stderr);
   line_open_ = false;
 }
 

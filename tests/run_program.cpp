@@ -1,6 +1,8 @@
 #include "tests/run_program.h"
 
+#include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,9 +19,11 @@ namespace walktrack {
 
 namespace fs = std::filesystem;
 
-ProgramResult run_program(const std::string& path, const std::vector<std::string>& arguments) {
-  const TemporaryFolder folder;
-  const std::string out = folder / "stdout", err = folder / "stderr";
+namespace {
+
+// Starts it with what it says going to two files.
+pid_t start(const std::string& path, const std::vector<std::string>& arguments,
+            const std::string& out, const std::string& err) {
   std::vector<std::string> words{path};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -35,10 +39,39 @@ ProgramResult run_program(const std::string& path, const std::vector<std::string
   const int failed = posix_spawn(&child, path.c_str(), &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) throw std::runtime_error("cannot start " + path);
+  return child;
+}
+
+int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
+
+}  // namespace
+
+ProgramResult run_program(const std::string& path, const std::vector<std::string>& arguments) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "stdout", err = folder / "stderr";
   int status = 0;
-  waitpid(child, &status, 0);
-  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {code, read_file(out), read_file(err)};
+  waitpid(start(path, arguments, out, err), &status, 0);
+  return {code_of(status), read_file(out), read_file(err)};
+}
+
+StartedProgram::StartedProgram(const std::string& path, const std::vector<std::string>& arguments)
+    : pid_(start(path, arguments, "/dev/null", "/dev/null")) {}
+
+StartedProgram::~StartedProgram() {
+  if (pid_ < 0) return;
+  send(SIGKILL);
+  wait();
+}
+
+void StartedProgram::send(int signal) const { kill(pid_, signal); }
+
+int StartedProgram::wait() {
+  int status = 0;
+  rusage usage{};
+  wait4(pid_, &status, 0, &usage);
+  pid_ = -1;
+  peak_memory_ = static_cast<double>(usage.ru_maxrss) / 1024;  // from kB
+  return code_of(status);
 }
 
 ProgramResult run_walktrack(const std::vector<std::string>& arguments) {

@@ -14,6 +14,25 @@ struct ProgramResult {
 
 ProgramResult run_program(const std::string& path, const std::vector<std::string>& arguments);
 
+// A program that runs while the test goes on; killed at the end of the scope. It says nothing.
+class StartedProgram {
+ public:
+  StartedProgram(const std::string& path, const std::vector<std::string>& arguments);
+  ~StartedProgram();
+  StartedProgram(const StartedProgram&) = delete;
+  StartedProgram& operator=(const StartedProgram&) = delete;
+
+  void send(int signal) const;
+  // Waits for its end; the exit code, 128 + signal when killed by one.
+  int wait();
+  // Most memory that it, or a process of its own, ever had; known after wait(). MB.
+  double peak_memory() const { return peak_memory_; }
+
+ private:
+  int pid_ = -1;  // -1 = ended
+  double peak_memory_ = 0;
+};
+
 // The walktrack of this build.
 ProgramResult run_walktrack(const std::vector<std::string>& arguments);
 

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <random>
 #include <stdexcept>
 #include <system_error>
 
@@ -43,6 +44,18 @@ class Descriptor {
  private:
   int fd_;
 };
+
+// "path.<number>.tmp". Writers in other threads, and on other machines that share the folder,
+// choose other numbers; where they do not, O_EXCL makes one of them fail rather than mix with the
+// other.
+fs::path unused_name(const fs::path& path) {
+  std::random_device random;  // names only: no result depends on it
+  fs::path name;
+  do {
+    name = path.string() + fmt::format(".{}{:010}.tmp", ::getpid(), random());
+  } while (fs::exists(name));
+  return name;
+}
 
 void flush_to_disk(const fs::path& path, int flags) {
   const Descriptor file(path, flags);
@@ -105,9 +118,9 @@ void refuse_existing(const fs::path& path, bool overwrite) {
 }
 
 void write_file_atomically(const fs::path& path, std::string_view content) {
-  const fs::path temporary = path.string() + fmt::format(".{}.tmp", ::getpid());
+  const fs::path temporary = unused_name(path);
   {
-    const Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+    const Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
     while (!content.empty()) {
       const ssize_t written = ::write(file.get(), content.data(), content.size());
       if (written < 0 && errno == EINTR) continue;

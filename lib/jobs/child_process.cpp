@@ -21,7 +21,7 @@ namespace {
 constexpr int kCannotStart = 127;
 
 // Runs between fork and exec: only calls that are safe there.
-[[noreturn]] void become(char* const* argv, const char* log, rlim_t memory_bytes) {
+[[noreturn]] void become(char* const* argv, const char* log, rlim_t memory_bytes, pid_t parent) {
   const int in = ::open("/dev/null", O_RDONLY);
   const int out = ::open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
   ::dup2(in, STDIN_FILENO);
@@ -34,6 +34,7 @@ constexpr int kCannotStart = 127;
   // Signals of the terminal are the parent's to pass on, and nobody outlives the parent.
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(kCannotStart);  // it died before it was watched
   ::execv(argv[0], argv);
   ::_exit(kCannotStart);
 }
@@ -50,8 +51,9 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::fil
   argv.push_back(nullptr);
   const rlim_t memory_bytes = rlim_t{limits.memory_mb} << 20;
   const std::string log_file = log.string();
+  const pid_t parent = ::getpid();
   pid_ = ::fork();
-  if (pid_ == 0) become(argv.data(), log_file.c_str(), memory_bytes);
+  if (pid_ == 0) become(argv.data(), log_file.c_str(), memory_bytes, parent);
   if (pid_ < 0) {
     throw std::runtime_error(
         fmt::format("cannot start a child process: {}", std::generic_category().message(errno)));

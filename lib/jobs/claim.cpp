@@ -1,17 +1,23 @@
 #include "jobs/claim.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
+#include <fstream>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "io/files.h"
 
 namespace walktrack {
 
@@ -21,11 +27,46 @@ namespace {
 
 constexpr const char* kName = "claim";
 
-// "host.pid", which tells workers apart.
-std::string worker_name() {
+// "host.boot.namespace": workers of one place can see whether the other's process lives.
+std::string place_name() {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
-  return fmt::format("{}.{}", host.data(), ::getpid());
+  std::ifstream boot_file("/proc/sys/kernel/random/boot_id");
+  std::string boot;
+  boot_file >> boot;
+  std::error_code unknown;
+  const fs::path processes = fs::read_symlink("/proc/self/ns/pid", unknown);
+  return fmt::format("{}.{}.{}.", host.data(), boot, processes.string());
+}
+
+// The place, then the process: tells workers apart.
+std::string worker_name() { return place_name() + std::to_string(::getpid()); }
+
+// Whether the claim says who holds it, that it is from here, and that there is no such process.
+bool holder_is_dead(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string holder;
+  std::getline(stream, holder);
+  const std::string place = place_name();
+  if (!holder.starts_with(place)) return false;
+  const auto process = number_from_text(std::string_view(holder).substr(place.size()));
+  return process && *process > 0 && ::kill(static_cast<pid_t>(*process), 0) != 0 && errno == ESRCH;
+}
+
+// What tells a file from its successor of the same name.
+std::pair<ino_t, int64_t> identity(const fs::path& file) {
+  struct stat facts {};
+  if (::stat(file.c_str(), &facts) != 0) return {};
+  return {facts.st_ino, int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + facts.st_mtim.tv_nsec};
+}
+
+// What workers that were killed in the middle of a takeover left.
+void remove_leftovers(const fs::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("probe.") || name.starts_with("stale.")) fs::remove(entry, ignored);
+  }
 }
 
 bool create_exclusively(const fs::path& file) {
@@ -58,15 +99,21 @@ double age_seconds(const fs::path& file) {
 
 std::optional<Claim> Claim::try_take(const fs::path& folder, double stale_seconds) {
   const fs::path file = folder / kName;
-  if (create_exclusively(file)) return Claim(file);
-  if (age_seconds(file) <= stale_seconds) return std::nullopt;
-  // Of several workers that find it stale, the rename succeeds for one.
-  const fs::path stale = folder / fmt::format("stale.{}", worker_name());
-  std::error_code lost;
-  fs::rename(file, stale, lost);
-  if (lost) return std::nullopt;
-  fs::remove(stale);
-  if (!create_exclusively(file)) return std::nullopt;
+  if (!create_exclusively(file)) {
+    const auto judged = identity(file);
+    if (!holder_is_dead(file) && age_seconds(file) <= stale_seconds) return std::nullopt;
+    // Of several workers that find it stale, the rename succeeds for one.
+    const fs::path stale = folder / fmt::format("stale.{}", worker_name());
+    std::error_code lost;
+    fs::rename(file, stale, lost);
+    if (lost) return std::nullopt;
+    const bool was_judged = identity(stale) == judged;
+    // Another one was quicker and this is its new claim: it gets it back.
+    if (!was_judged) fs::create_hard_link(stale, file, lost);
+    fs::remove(stale, lost);
+    if (!was_judged || !create_exclusively(file)) return std::nullopt;
+  }
+  remove_leftovers(folder);
   return Claim(file);
 }
 

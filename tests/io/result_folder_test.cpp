@@ -30,6 +30,17 @@ TEST(ResultFolder, RefusesACompleteResultUnlessTold) {
   EXPECT_FALSE(is_complete_result(folder.path()));
 }
 
+TEST(ResultFolder, ClearsWhatAKilledRunLeftAndNothingElse) {
+  const TemporaryFolder folder;
+  for (const char* name : {"joints.csv", "run.json.71.tmp", "overlay_a.part.mp4"}) {
+    folder.write(name, "half");
+  }
+  for (const char* name : {"notes.tmp", "a..tmp", "mine.csv"}) folder.write(name, "kept");
+  const ResultFolder again(folder.path(), false);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 3);
+  EXPECT_TRUE(fs::exists(folder / "notes.tmp"));
+}
+
 TEST(ResultFolder, APartialResultMayBeDoneAgain) {
   const TemporaryFolder folder;
   ResultFolder(folder.path(), false).finish_partial("{}");

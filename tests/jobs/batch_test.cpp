@@ -1,6 +1,9 @@
 // The batch with a small script in the place of `walktrack track`.
 #include "jobs/batch.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <fstream>
 #include <thread>
@@ -204,6 +207,19 @@ TEST(Claim, OfADeadWorkerIsTakenOver) {
   fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::seconds(100));
   EXPECT_FALSE(Claim::try_take(folder.path(), 200));
   EXPECT_TRUE(Claim::try_take(folder.path(), 60));
+}
+
+TEST(Claim, OfAKilledProcessOfThisMachineIsTakenOverAtOnce) {
+  const TemporaryFolder folder;
+  folder.write("stale.elsewhere.1", "");  // of one that was killed in the middle of a takeover
+  const pid_t worker = fork();
+  if (worker == 0) _exit(Claim::try_take(folder.path()) ? 0 : 1);  // and gives nothing back
+  int status = 0;
+  ASSERT_EQ(waitpid(worker, &status, 0), worker);
+  ASSERT_EQ(status, 0);
+  EXPECT_TRUE(fs::exists(folder / "claim"));
+  EXPECT_TRUE(Claim::try_take(folder.path()));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST(ChildProcess, LimitsMemory) {
