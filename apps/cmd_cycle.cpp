@@ -48,6 +48,10 @@ int run_cycle(const Arguments& arguments) {
                          "write the model with the cycle as its start");
   if (!line.parse(arguments)) return kDone;
   options.require_positive({{"--max-time", job.options.max_time}});
+  if (job.settling_steps < 0) {
+    throw UsageError(describe({"", 0, "--settle"}, fmt::format("{}", job.settling_steps),
+                              "a number of steps, 0 or more"));
+  }
   job.model = options.model(line);
   job.options.simulation = options.simulation();
   set_follow(follow, job);

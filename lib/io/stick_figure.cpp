@@ -58,6 +58,14 @@ double tallest(const std::vector<StickFigure>& figures) {
   return height;
 }
 
+// Metres between marks on the ground: the half metre, or the first of 5, 50, 500 ... that keeps
+// them 20 pixels apart.
+double mark_spacing(double scale) {
+  double spacing = 0.5;
+  while (spacing * scale < 20) spacing *= 10;
+  return spacing;
+}
+
 void add_figure(const StickFigure& figure, const View& view, std::vector<Drawn>& drawn) {
   for (const StickLine& line : figure.lines) {
     drawn.push_back({view(line.from), view(line.to), colour_of(line.group), 3});
@@ -150,16 +158,15 @@ cv::Mat strip_as_image(const std::vector<StickFigure>& figures, double slope) {
 void write_animation(const std::filesystem::path& path, const std::vector<StickFigure>& figures,
                      double slope, double frame_rate) {
   constexpr int kWidth = 640, kHeight = 360;
-  constexpr double kMark = 0.5;  // m
   const double scale = kFigurePx / tallest(figures);
-  const double half = kWidth / scale;
+  const double half = kWidth / scale, mark_every = mark_spacing(scale);
   VideoWriter writer(path, {kWidth, kHeight}, frame_rate);
   for (const StickFigure& figure : figures) {
     cv::Mat image(kHeight, kWidth, CV_8UC3, cv::Scalar::all(255));
     const View view(figure.x, slope, scale, {kWidth / 2.0, kMarginPx + kFigurePx});
     std::vector<Drawn> drawn{{view({figure.x - half, 0}), view({figure.x + half, 0}), kGround, 2}};
-    for (double mark = std::ceil((figure.x - half) / kMark) * kMark; mark < figure.x + half;
-         mark += kMark) {
+    const double first = std::ceil((figure.x - half) / mark_every) * mark_every;
+    for (double mark = first; mark < figure.x + half; mark += mark_every) {
       drawn.push_back({view({mark, 0}), view({mark, -10 / scale}), kGround, 2});
     }
     add_figure(figure, view, drawn);

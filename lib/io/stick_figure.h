@@ -26,7 +26,8 @@ struct StickFigure {
 std::string strip_as_svg(const std::vector<StickFigure>& figures, double slope);
 cv::Mat strip_as_image(const std::vector<StickFigure>& figures, double slope);
 
-// One frame a figure, the view moving with it over a ground with marks every half metre.
+// One frame a figure, the view moving with it over a ground with marks every half metre (giants: 5,
+// 50, ... m).
 void write_animation(const std::filesystem::path& path, const std::vector<StickFigure>& figures,
                      double slope, double frame_rate);
 

@@ -55,21 +55,6 @@ VectorXd settled_guess(const Walker& walker, VectorXd x, const CycleJob& job) {
   return x;
 }
 
-std::optional<LimitCycle> found_or_followed(const CycleJob& job, const VectorXd& guess) {
-  if (job.follow_key.empty()) {
-    const auto walker = make_walker(job.model);
-    return find_limit_cycle(step_map(*walker, job.options), section_rows(*walker), guess,
-                            job.options.cycle);
-  }
-  const auto walker_at = [&](double value) {
-    return std::shared_ptr<const Walker>(make_walker(with_value(job.model, job.follow_key, value)));
-  };
-  const MapFamily family{[&](double value) { return owned_map(walker_at(value), job.options); },
-                         [&](double value) { return owned_rows(walker_at(value)); }};
-  return follow_limit_cycle(family, guess, value_of(job.model, job.follow_key), job.follow_to,
-                            job.options.cycle);
-}
-
 // What happens to the guess itself, for the message when nothing was found.
 std::string fate_of(const Walker& walker, const VectorXd& guess, const GaitOptions& options) {
   const Eigen::Index n = guess.size() / 2;
@@ -80,6 +65,35 @@ std::string fate_of(const Walker& walker, const VectorXd& guess, const GaitOptio
   }
   if (state.health == Health::kFallen) return fmt::format("it falls after {:.3f} s", state.time);
   return state.health == Health::kDiverged ? "it diverges" : "it takes no step in time";
+}
+
+std::runtime_error no_cycle(const Walker& walker, const VectorXd& guess,
+                            const GaitOptions& options) {
+  return std::runtime_error("no limit cycle was reached from the guess: " +
+                            fate_of(walker, guess, options));
+}
+
+// The cycle of the model with the followed parameter at its goal. Throws where it is lost, saying
+// how far it came.
+LimitCycle followed(const CycleJob& job, const VectorXd& guess) {
+  const auto model_at = [&](double value) { return with_value(job.model, job.follow_key, value); };
+  const auto walker_at = [&](double value) {
+    return std::shared_ptr<const Walker>(make_walker(model_at(value)));
+  };
+  const auto onto = [&](double value, const VectorXd& x) -> std::optional<VectorXd> {
+    return at_energy(model_at(value), x);
+  };
+  const MapFamily family{[&](double value) { return owned_map(walker_at(value), job.options); },
+                         [&](double value) { return owned_rows(walker_at(value)); }, onto};
+  const double from = value_of(job.model, job.follow_key);
+  const FollowedCycle result =
+      follow_limit_cycle(family, guess, from, job.follow_to, job.options.cycle);
+  if (result.arrived) return *result.cycle;
+  if (!result.cycle) throw no_cycle(*make_walker(job.model), guess, job.options);
+  throw std::runtime_error(fmt::format(
+      "the limit cycle was lost on the way: the last one, at {} = {:.6g}, has a largest multiplier "
+      "of {:.3f}",
+      job.follow_key, result.reached, result.cycle->largest_multiplier()));
 }
 
 double largest_angular_momentum(const Walker& walker, WalkerState state,
@@ -101,21 +115,23 @@ FoundCycle find_cycle(const CycleJob& job) {
   found.model = job.model;
   auto walker = make_walker(job.model);
   const VectorXd guess = settled_guess(*walker, start_point(job.model, *walker), job);
-  const auto cycle = found_or_followed(job, guess);
-  if (!cycle) {
-    throw std::runtime_error("no limit cycle was reached from the guess: " +
-                             fate_of(*walker, guess, job.options));
-  }
-  if (!job.follow_key.empty()) {
+  LimitCycle cycle;
+  if (job.follow_key.empty()) {
+    const auto reached = find_limit_cycle(step_map(*walker, job.options), section_rows(*walker),
+                                          guess, job.options.cycle);
+    if (!reached) throw no_cycle(*walker, guess, job.options);
+    cycle = *reached;
+  } else {
+    cycle = followed(job, guess);
     found.model = with_value(job.model, job.follow_key, job.follow_to);
     walker = make_walker(found.model);
   }
-  const auto gait = describe_cycle(*walker, *cycle, job.options);
+  const auto gait = describe_cycle(*walker, cycle, job.options);
   if (!gait) throw std::runtime_error("the limit cycle that was found cannot be walked");
   found.gait = *gait;
-  const Eigen::Index n = cycle->point.size() / 2;
-  found.model.start.q.assign(cycle->point.begin(), cycle->point.begin() + n);
-  found.model.start.qd.assign(cycle->point.begin() + n, cycle->point.end());
+  const Eigen::Index n = cycle.point.size() / 2;
+  found.model.start.q.assign(cycle.point.begin(), cycle.point.begin() + n);
+  found.model.start.qd.assign(cycle.point.begin() + n, cycle.point.end());
   found.model.start.energy = 0;
   found.weight = walker->weight();
   found.angular_momentum = largest_angular_momentum(*walker, gait->start, job.options);

@@ -53,10 +53,9 @@ std::optional<Iterate> evaluated(const ReturnMap& map, const VectorXd& x) {
 
 // x + s N d, with the part off the tangent space taken from the image.
 std::optional<Iterate> damped_step(const ReturnMap& map, const Iterate& now, const MatrixXd& N,
-                                   const VectorXd& d) {
-  constexpr int kHalvings = 12;
+                                   const VectorXd& d, int halvings) {
   double s = 1;
-  for (int i = 0; i < kHalvings; ++i, s /= 2) {
+  for (int i = 0; i < halvings; ++i, s /= 2) {
     const auto tangent = evaluated(map, now.x + s * N * d);
     if (!tangent) continue;
     const VectorXd miss = tangent->image - tangent->x;
@@ -96,7 +95,7 @@ std::optional<LimitCycle> find_limit_cycle(const ReturnMap& map, const SectionRo
     const VectorXd d = (MatrixXd::Identity(N.cols(), N.cols()) - *A)
                            .fullPivLu()
                            .solve(N.transpose() * (now->image - now->x));
-    const auto next = damped_step(map, *now, N, d);
+    const auto next = damped_step(map, *now, N, d, options.max_halvings);
     if (!next && close) {
       return LimitCycle{now->x, now->residual(), N, *A, sorted_eigenvalues(*A), i};
     }
@@ -105,31 +104,39 @@ std::optional<LimitCycle> find_limit_cycle(const ReturnMap& map, const SectionRo
   return std::nullopt;
 }
 
-std::optional<LimitCycle> follow_limit_cycle(const MapFamily& family, const VectorXd& guess,
-                                             double from, double to, const CycleOptions& options) {
+FollowedCycle follow_limit_cycle(const MapFamily& family, const VectorXd& guess, double from,
+                                 double to, const CycleOptions& options) {
   constexpr double kFirstShare = 0.25, kSmallestShare = 2e-3;  // of the way
-  constexpr int kFewIterations = 12;                           // a good predictor needs no more
   const auto at = [&](double share) { return from + share * (to - from); };
-  auto cycle = find_limit_cycle(family.map(from), family.rows(from), guess, options);
-  CycleOptions near = options;
-  near.max_iterations = std::min(options.max_iterations, kFewIterations);
+  FollowedCycle followed{find_limit_cycle(family.map(from), family.rows(from), guess, options)};
+  followed.reached = from;
+  CycleOptions near = options;  // a good predictor needs few iterations, a bad one a shorter step
+  near.max_iterations = std::min(options.max_iterations, 8);
+  near.max_halvings = std::min(options.max_halvings, 3);
   double done = 0, step = kFirstShare;
+  bool grows = true;  // not right after a failure: another would follow
   VectorXd slope = VectorXd::Zero(guess.size());
-  while (cycle && done < 1) {
+  while (followed.cycle && done < 1 && step >= kSmallestShare) {
     const double next = std::min(1.0, done + step);
-    const auto found = find_limit_cycle(family.map(at(next)), family.rows(at(next)),
-                                        cycle->point + (next - done) * slope, near);
+    const VectorXd predicted = followed.cycle->point + (next - done) * slope;
+    const auto start = family.onto ? family.onto(at(next), predicted) : predicted;
+    const auto found =
+        start ? find_limit_cycle(family.map(at(next)), family.rows(at(next)), *start, near)
+              : std::nullopt;
     if (!found) {
       step /= 2;
-      if (step < kSmallestShare) return std::nullopt;
+      grows = false;
       continue;
     }
-    slope = (found->point - cycle->point) / (next - done);
-    cycle = found;
+    slope = (found->point - followed.cycle->point) / (next - done);
+    followed.cycle = found;
     done = next;
-    step = std::min(2 * step, 1.0);
+    followed.reached = at(done);
+    step = grows ? std::min(2 * step, 1.0) : step;
+    grows = true;
   }
-  return cycle;
+  followed.arrived = followed.cycle && done == 1;
+  return followed;
 }
 
 }  // namespace walktrack

@@ -21,6 +21,7 @@ using SectionRows = std::function<Eigen::MatrixXd(const Eigen::VectorXd&)>;
 
 struct CycleOptions {
   int max_iterations = 40;
+  int max_halvings = 12;          // of a Newton step that leads too far
   double tolerance = 1e-10;       // of |P(x) - x|
   double difference_step = 1e-5;  // maps located to 1e-12 leave 1e-7 in a multiplier
 };
@@ -48,12 +49,20 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows, Eigen::Index n);
 struct MapFamily {
   std::function<ReturnMap(double)> map;
   std::function<SectionRows(double)> rows;
+  // Moves a predicted point onto the section of another parameter, e.g. to a prescribed energy;
+  // nullopt where it cannot be. Empty: every section holds all points.
+  std::function<std::optional<Eigen::VectorXd>(double, const Eigen::VectorXd&)> onto = {};
+};
+
+struct FollowedCycle {
+  std::optional<LimitCycle> cycle;  // the last one found; none: the guess leads to none
+  double reached = 0;               // its parameter
+  bool arrived = false;             // reached == to; else a fold, or the walker falls
 };
 
 // The cycle at `to`, followed from the one near `guess` at `from` by a secant predictor whose step
-// is halved where Newton fails. nullopt: it was lost (a fold, or the walker falls).
-std::optional<LimitCycle> follow_limit_cycle(const MapFamily& family, const Eigen::VectorXd& guess,
-                                             double from, double to,
-                                             const CycleOptions& options = {});
+// is halved where Newton fails.
+FollowedCycle follow_limit_cycle(const MapFamily& family, const Eigen::VectorXd& guess, double from,
+                                 double to, const CycleOptions& options = {});
 
 }  // namespace walktrack

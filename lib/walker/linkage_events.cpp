@@ -147,79 +147,96 @@ WalkerState LinkageWalker::taken_off(const WalkerState& state, double& work) con
   flying.qd.conservativeResize(n_ + 2);
   flying.q.tail<2>() = hip;
   flying.qd.tail<2>() = hip_rate;
-  const PlanarPoint& foot = in_flight_.stance_foot;
-  const Vector2d towards = (position(in_flight_.hip, flying.q) - position(foot, flying.q));
-  if (linkage_.toe_off_impulse > 0 && towards.norm() > 0) {
-    const Vector2d impulse = linkage_.toe_off_impulse * towards.normalized();
-    const MatrixXd lever = jacobian(foot, flying.q);
-    const Vector2d before = lever * flying.qd;
+  if (linkage_.toe_off_impulse > 0) {
+    const ToeOff push = toe_off(in_flight_, in_flight_.stance_foot, flying.q);
+    const Vector2d before = push.lever * flying.qd;
     const TmtSystem now = assemble(in_flight_.parts, linkage_.gravity, flying.q, flying.qd);
-    flying.qd = solve_limited(now.mass, now.mass * flying.qd + lever.transpose() * impulse,
-                              limits_for(flying), acting_roles(flying))
+    flying.qd = solve_limited(now.mass, now.mass * flying.qd + push.generalised, limits_for(flying),
+                              acting_roles(flying))
                     .rate;
-    work = impulse.dot(before + lever * flying.qd) / 2;
+    work = push.impulse.dot(before + push.lever * flying.qd) / 2;
   }
   return settled(flying);
 }
 
-Transition LinkageWalker::strike(const WalkerState& state, bool swing) const {
+// The direction comes from the foot relative to the hip, and its generalised impulse before any
+// rounding of its length: along a straight leg the products cancel exactly, which light legs need.
+LinkageWalker::ToeOff LinkageWalker::toe_off(const Placed& placed, const PlanarPoint& foot,
+                                             const VectorXd& q) const {
+  ToeOff push;
+  push.lever = jacobian(foot, q);
+  const Vector2d towards = position(placed.hip - foot, q);
+  const double distance = towards.norm();
+  const double scale = distance > 0 ? linkage_.toe_off_impulse / distance : 0.0;
+  push.impulse = scale * towards;
+  push.generalised = push.lever.transpose() * towards;
+  push.generalised *= scale;
+  return push;
+}
+
+// The rates at a strike, legs still under their old names, and the impulses that change them.
+void LinkageWalker::transfer_support(const WalkerState& state, bool swing, WalkerState& stance,
+                                     Transition& transition) const {
   const Placed& before = frame(state);
   const Placed& after = swing ? on_swing_foot_ : on_stance_foot_;
-  const VectorXd angles = state.q.head(n_);
   const VectorXd masses = part_masses(before.parts);
   const VectorXd v = part_jacobian(before.parts, state.q) * state.qd;
-  const MatrixXd T = part_jacobian(after.parts, angles);
-  const PlanarPoint& old_foot = swing ? after.stance_foot : after.swing_foot;
-  const MatrixXd lever = jacobian(old_foot, angles);
-
-  Vector2d toe_off = Vector2d::Zero();
-  const Vector2d towards = position(after.hip, angles) - position(old_foot, angles);
-  if (swing && state.phase == kStance && towards.norm() > 0) {
-    toe_off = linkage_.toe_off_impulse * towards.normalized();
+  const MatrixXd T = part_jacobian(after.parts, stance.q);
+  ToeOff push = toe_off(after, swing ? after.stance_foot : after.swing_foot, stance.q);
+  if (!swing || state.phase == kFlight) {  // nothing pushes: the old foot is in the air
+    push.impulse.setZero();
+    push.generalised.setZero();
   }
-  WalkerState stance = state;
-  stance.phase = kStance;
-  stance.q = angles;
   std::vector<LimitRole> roles(linkage_.limits.size(), LimitRole::kFree);
   for (size_t i = 0; i < roles.size(); ++i) {
     if (is_latched(state, i)) roles[i] = LimitRole::kLatched;
   }
   stance.qd = solve_limited(T.transpose() * masses.asDiagonal() * T,
-                            T.transpose() * masses.cwiseProduct(v) + lever.transpose() * toe_off,
+                            T.transpose() * masses.cwiseProduct(v) + push.generalised,
                             limits_for(stance), roles)
                   .rate;
 
-  Transition transition;
-  transition.index = swing ? 1 : 0;
   const VectorXd jump = masses.cwiseProduct(T * stance.qd - v);
   for (Index i = 0; i < jump.size(); i += 3) transition.impulse += jump.segment<2>(i);
-  transition.impulse -= toe_off;
-  const Vector2d old_before =
-      jacobian(swing ? before.stance_foot : before.swing_foot, state.q) * state.qd;
-  const Vector2d old_after = lever * stance.qd;
-  transition.actuator_work = toe_off.dot(old_before + old_after) / 2;
+  transition.impulse -= push.impulse;
+  const PlanarPoint& old_foot = swing ? before.stance_foot : before.swing_foot;
+  const Vector2d old_before = jacobian(old_foot, state.q) * state.qd;
+  const Vector2d old_after = push.lever * stance.qd;
+  transition.actuator_work = push.impulse.dot(old_before + old_after) / 2;
   transition.old_foot_lifts = state.phase == kFlight || old_after.y() >= 0;
+}
+
+// The swing leg takes the stance leg's name and place.
+void LinkageWalker::exchange_legs(WalkerState& stance) const {
+  VectorXd q(n_), qd(n_);
+  for (Index i = 0; i < n_; ++i) {
+    const Index from = linkage_.exchange[static_cast<size_t>(i)];
+    q(i) = stance.q(from) + linkage_.shift(i);
+    qd(i) = stance.qd(from);
+  }
+  stance.q = q;
+  stance.qd = qd;
+  stance.active = linkage_.latched ? 1u : 0u;
+}
+
+Transition LinkageWalker::strike(const WalkerState& state, bool swing) const {
+  Transition transition;
+  transition.index = swing ? 1 : 0;
+  WalkerState stance = state;
+  stance.phase = kStance;
+  stance.q = state.q.head(n_);
+  transfer_support(state, swing, stance, transition);
 
   const double origin = state.phase == kStance ? state.contacts[0] : 0.0;
-  const PlanarPoint& landing = swing ? before.swing_foot : before.stance_foot;
+  const PlanarPoint& landing = swing ? frame(state).swing_foot : frame(state).stance_foot;
   const double centre = origin + position(landing, state.q).x();
-  const Index foot_angle = swing ? linkage_.swing_angle : linkage_.stance_angle;
   if (swing) {
     transition.advance = centre - state.contacts[1];
     transition.feet_apart = swing_lead(state);
     transition.completes_step = true;
-    VectorXd q(n_), qd(n_);
-    for (Index i = 0; i < n_; ++i) {
-      const Index from = linkage_.exchange[static_cast<size_t>(i)];
-      q(i) = stance.q(from) + linkage_.shift(i);
-      qd(i) = stance.qd(from);
-    }
-    stance.q = q;
-    stance.qd = qd;
-    stance.active = linkage_.latched ? 1u : 0u;
+    exchange_legs(stance);
   }
-  const double rolled =
-      linkage_.foot_radius * (swing ? stance.q(linkage_.stance_angle) : stance.q(foot_angle));
+  const double rolled = linkage_.foot_radius * stance.q(linkage_.stance_angle);
   stance.contacts = {centre - rolled, swing ? centre : state.contacts[1]};
   transition.after = settled(stance);
   return transition;

@@ -66,6 +66,17 @@ class LinkageWalker : public Walker {
   double normal_force(const WalkerState& state) const;
   WalkerState with_plastic_stops(WalkerState state) const;
   WalkerState taken_off(const WalkerState& state, double& work) const;
+  // The toe-off impulse at the arc centre `foot`: as a force impulse (N s), along the coordinates,
+  // and the Jacobian of that point.
+  struct ToeOff {
+    Eigen::Vector2d impulse;
+    Eigen::VectorXd generalised;
+    Eigen::MatrixXd lever;
+  };
+  ToeOff toe_off(const Placed& placed, const PlanarPoint& foot, const Eigen::VectorXd& q) const;
+  void transfer_support(const WalkerState& state, bool swing, WalkerState& stance,
+                        Transition& transition) const;
+  void exchange_legs(WalkerState& stance) const;
   Transition stopped(const WalkerState& state, size_t limit) const;
 
   Linkage linkage_;

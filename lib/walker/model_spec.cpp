@@ -220,13 +220,17 @@ VectorXd start_point(const ModelSpec& spec, const Walker& walker) {
   VectorXd x(2 * static_cast<Eigen::Index>(n));
   std::copy(spec.start.q.begin(), spec.start.q.end(), x.begin());
   std::copy(spec.start.qd.begin(), spec.start.qd.end(), x.begin() + static_cast<Eigen::Index>(n));
-  if (spec.model != "monopode" || spec.start.energy == 0) return x;
-  const auto apex = Monopode(spec.monopode).apex(x(1), x(0), spec.start.energy);
+  const auto apex = at_energy(spec, x);
   if (!apex) {
     throw UsageError(describe({"", 0, "start.energy"}, std::to_string(spec.start.energy) + " J",
                               "more than the energy of standing at start.q"));
   }
   return *apex;
+}
+
+std::optional<VectorXd> at_energy(const ModelSpec& spec, const VectorXd& x) {
+  if (spec.model != "monopode" || spec.start.energy == 0) return x;
+  return Monopode(spec.monopode).apex(x(1), x(0), spec.start.energy);
 }
 
 }  // namespace walktrack

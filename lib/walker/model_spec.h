@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,5 +51,9 @@ std::unique_ptr<Walker> make_walker(const ModelSpec& spec);
 
 // (q, qd) of the start. UsageError where an energy does not suffice.
 Eigen::VectorXd start_point(const ModelSpec& spec, const Walker& walker);
+
+// x with the forward rate that gives start.energy where the model states one; else x itself.
+// nullopt where the energy does not suffice.
+std::optional<Eigen::VectorXd> at_energy(const ModelSpec& spec, const Eigen::VectorXd& x);
 
 }  // namespace walktrack

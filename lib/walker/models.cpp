@@ -1,6 +1,9 @@
 #include "walker/models.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "core/conventions.h"
 
 namespace walktrack {
 namespace {
@@ -11,6 +14,8 @@ using Eigen::VectorXd;
 
 // A hip lower than this share of the standing height has fallen: people walk above .85 of it.
 constexpr double kFallenShare = 0.6;
+
+constexpr int kMostSpokes = 60;  // more cannot be told apart in a picture
 
 Vector2d gravity_vector(double gravity, double slope) {
   return gravity * Vector2d(std::sin(slope), -std::cos(slope));
@@ -49,6 +54,12 @@ Linkage rimless_wheel(const RimlessWheelParameters& p) {
   linkage.may_scuff = true;
   linkage.lowest_hip = 0.5 * p.spoke * std::cos(p.half_angle);
   linkage.lines = {{linkage.stance_foot, origin(1), 1}, {origin(1), linkage.swing_foot, 2}};
+  const int spokes = std::min(kMostSpokes, static_cast<int>(std::lround(kPi / p.half_angle)));
+  for (int i = 2; i < spokes; ++i) {
+    const double angle = 2 * i * p.half_angle;
+    const PlanarPoint tip = bar(1, 0, -p.spoke * std::cos(angle), p.spoke * std::sin(angle));
+    linkage.lines.push_back({origin(1), tip, 0});
+  }
   return linkage;
 }
 

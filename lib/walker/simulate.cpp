@@ -154,53 +154,86 @@ Firing first_firing(const Walker& walker, const WalkerState& state,
 
 bool is_finite(const WalkerState& state) { return state.q.allFinite() && state.qd.allFinite(); }
 
+// A walker on its way through time.
+class Run {
+ public:
+  Run(const Walker& walker, WalkerState& state, const SimulationOptions& options,
+      std::vector<WalkerEvent>& events, const StateObserver& observe)
+      : walker_(walker),
+        state_(state),
+        options_(options),
+        events_(events),
+        observe_(observe),
+        guards_(walker.guards(state)) {}
+
+  // One smooth step towards the time `end`, or the part of it before an event, which is handled.
+  // True when the event completed a step of the walker.
+  bool step(double end) {
+    const double left = end - state_.time;
+    const double h = std::min(options_.max_step, left);
+    const auto next = smooth_step(walker_, state_, h, options_);
+    if (!next) return fail();
+    const std::vector<Guard> after = walker_.guards(*next);
+    const Firing firing = first_firing(walker_, state_, guards_, after, h, options_, refused_);
+    if (firing.id >= 0) return meet(firing);
+    state_ = *next;
+    if (h == left) state_.time = end;
+    guards_ = after;
+    refused_.clear();
+    report();
+    return false;
+  }
+
+ private:
+  bool fail() {
+    state_.health = Health::kDiverged;
+    return false;
+  }
+
+  void report() const {
+    if (observe_) observe_(state_);
+  }
+
+  bool meet(const Firing& firing) {
+    const auto at_event = smooth_step(walker_, state_, firing.time, options_);
+    if (!at_event || ++count_ > options_.max_events) return fail();
+    if (firing.time > 0) refused_.clear();
+    state_ = *at_event;
+    auto transition = walker_.event(firing.id, state_);
+    if (!transition) {
+      refused_.push_back(firing.id);
+      guards_ = walker_.guards(state_);
+      return false;
+    }
+    report();
+    if (!is_finite(transition->after)) return fail();
+    state_ = transition->after;
+    report();
+    guards_ = walker_.guards(state_);
+    const bool complete = transition->completes_step;
+    events_.push_back({state_.time, std::move(*transition)});
+    return complete;
+  }
+
+  const Walker& walker_;
+  WalkerState& state_;
+  const SimulationOptions& options_;
+  std::vector<WalkerEvent>& events_;
+  const StateObserver& observe_;
+  std::vector<Guard> guards_;
+  std::vector<int> refused_;  // guards that meant nothing at this instant
+  int count_ = 0;
+};
+
 }  // namespace
 
 bool advance(const Walker& walker, WalkerState& state, double duration,
              const SimulationOptions& options, std::vector<WalkerEvent>& events,
              const StateObserver& observe) {
   const double end = state.time + duration;
-  std::vector<int> refused;  // guards that meant nothing at this instant
-  int count = 0;
-  std::vector<Guard> before = walker.guards(state);
-  const auto fail = [&](Health health) {
-    state.health = health;
-    return false;
-  };
-  while (state.health == Health::kSound) {
-    const double left = end - state.time;
-    if (left <= 0) return false;
-    const double h = std::min(options.max_step, left);
-    const auto next = smooth_step(walker, state, h, options);
-    if (!next) return fail(Health::kDiverged);
-    const std::vector<Guard> after = walker.guards(*next);
-    const Firing firing = first_firing(walker, state, before, after, h, options, refused);
-    if (firing.id < 0) {
-      state = *next;
-      before = after;
-      if (h == left) state.time = end;
-      refused.clear();
-      if (observe) observe(state);
-      continue;
-    }
-    const auto at_event = smooth_step(walker, state, firing.time, options);
-    if (!at_event || ++count > options.max_events) return fail(Health::kDiverged);
-    if (firing.time > 0) refused.clear();
-    state = *at_event;
-    auto transition = walker.event(firing.id, state);
-    if (!transition) {
-      refused.push_back(firing.id);
-      before = walker.guards(state);
-      continue;
-    }
-    if (observe) observe(state);
-    if (!is_finite(transition->after)) return fail(Health::kDiverged);
-    state = transition->after;
-    if (observe) observe(state);
-    before = walker.guards(state);
-    const bool complete = transition->completes_step;
-    events.push_back({state.time, std::move(*transition)});
-    if (complete) return state.health == Health::kSound;
+  Run run(walker, state, options, events, observe);
+  while (state.health == Health::kSound && state.time < end) {
+    if (run.step(end)) return state.health == Health::kSound;
   }
   return false;
 }

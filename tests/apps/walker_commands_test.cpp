@@ -31,6 +31,7 @@ TEST(WalkerCommands, UsageErrors) {
   EXPECT_EQ(run_walktrack({"cycle", "--model", "kneed", "--step", "0"}).exit_code, 2);
   EXPECT_EQ(run_walktrack({"cycle", "--model", "kneed", "--integrator", "rk5"}).exit_code, 2);
   EXPECT_EQ(run_walktrack({"cycle", "--model", "kneed", "--follow", "slope"}).exit_code, 2);
+  EXPECT_EQ(run_walktrack({"cycle", "--model", "kneed", "--settle", "-1"}).exit_code, 2);
   EXPECT_EQ(run_walktrack({"cycle", "--config", "no_such_file.yaml"}).exit_code, 3);
 }
 
@@ -42,6 +43,18 @@ TEST(SimulateCommand, WritesAFolderAndRefusesToOverwriteIt) {
   EXPECT_EQ(run_walktrack(arguments).exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(folder + "/run.json"));
   EXPECT_EQ(run_walktrack(arguments).exit_code, 2);
+}
+
+// The picture's scale follows the figure; a foot of a thousand kilometres once took forever to
+// draw.
+TEST(SimulateCommand, DrawsGiants) {
+  const TemporaryFolder temporary;
+  const std::string folder = temporary / "giant";
+  const ProgramResult result =
+      run_walktrack({"simulate", "--model", "kneed", "--set", "parameters.foot_radius=1e6",
+                     "--duration", "0.2", "-o", folder});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(folder + "/animation.mp4"));
 }
 
 }  // namespace

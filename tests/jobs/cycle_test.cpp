@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/conventions.h"
 #include "core/errors.h"
 #include "io/model_file.h"
 
@@ -38,6 +39,38 @@ TEST(CycleJob, FollowsAParameter) {
   EXPECT_NEAR(found.gait.start.q(1), .153389565, 2e-7);
   EXPECT_EQ(found.model.anthropomorphic.slope, .004);
   EXPECT_NEAR(found.model.start.q[1], .153389565, 2e-7);
+}
+
+// A monopode that is given an energy keeps it on the way, whatever its springs become.
+TEST(CycleJob, FollowsAtTheEnergyOfTheModel) {
+  CycleJob job;
+  job.model = read_model(
+      "", std::string(WALKTRACK_SOURCE_DIR) + "/configs/models/monopode_walking.yaml", {});
+  job.follow_key = "stiffness";
+  job.follow_to = 15000;
+  const FoundCycle followed = find_cycle(job);
+  const auto walker = make_walker(followed.model);
+  // RK4 drifts by 1e-8 of the energy in a step of the walker, Newton takes a few dozen.
+  EXPECT_NEAR(walker->energy(followed.gait.start).total(), 816.192, 1e-6 * 816);
+  CycleJob direct = job;
+  direct.follow_key.clear();
+  direct.model.monopode.stiffness = 15000;
+  EXPECT_LT((find_cycle(direct).gait.start.q - followed.gait.start.q).norm(), 1e-5);
+}
+
+// Steeper runners have no cycle at this energy: two meet between 66 and 67 degrees.
+TEST(CycleJob, SaysHowFarItFollowed) {
+  CycleJob job;
+  job.model = default_model("monopode");
+  job.follow_key = "parameters.attack";
+  job.follow_to = rad_from_deg(64);
+  try {
+    find_cycle(job);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("parameters.attack = 1.15"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(CycleJob, SaysWhatHappensWhereThereIsNoCycle) {

@@ -71,10 +71,17 @@ TEST(LimitCycle, FollowsAFamilyAndStopsAtItsFold) {
   const MapFamily family{[](double a) { return henon(a, 0.3); }, [](double) { return no_rows(2); }};
   const double x = henon_fixed_point(0.2, 0.3);
   const auto there = follow_limit_cycle(family, Vector2d(x, 0.3 * x), 0.2, 1.4);
-  ASSERT_TRUE(there);
-  EXPECT_NEAR(there->point(0), henon_fixed_point(1.4, 0.3), 1e-11);
-  // The fixed points meet at a = -(1 - b)^2 / 4 = -.1225.
-  EXPECT_FALSE(follow_limit_cycle(family, Vector2d(x, 0.3 * x), 0.2, -0.2));
+  ASSERT_TRUE(there.arrived);
+  EXPECT_EQ(there.reached, 1.4);
+  EXPECT_NEAR(there.cycle->point(0), henon_fixed_point(1.4, 0.3), 1e-11);
+  // The fixed points meet at a = -(1 - b)^2 / 4 = -.1225, where a multiplier is 1. The last share
+  // of the way that is tried is 1/512 of .4.
+  const auto lost = follow_limit_cycle(family, Vector2d(x, 0.3 * x), 0.2, -0.2);
+  EXPECT_FALSE(lost.arrived);
+  ASSERT_TRUE(lost.cycle);
+  EXPECT_NEAR(lost.reached, -.1225, 1e-3);
+  EXPECT_NEAR(lost.cycle->largest_multiplier(), 1, .1);
+  EXPECT_FALSE(follow_limit_cycle(family, Vector2d(50, 50), -3, 1).cycle);
 }
 
 TEST(LimitCycle, NullSpaceIsOrthonormal) {

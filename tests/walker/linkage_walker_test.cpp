@@ -165,6 +165,39 @@ TEST(LinkageWalker, ReproducesThePoweredCycles) {
   EXPECT_EQ(released, 2);
 }
 
+// The two cycles whose stance stop lets go: their source noticed it only at the end of a 1 ms step.
+class LateRelease : public LinkageWalker {
+ public:
+  using LinkageWalker::LinkageWalker;
+  std::vector<Guard> guards(const WalkerState& state) const override {
+    std::vector<Guard> all = LinkageWalker::guards(state);
+    std::erase_if(all, [](const Guard& guard) { return !guard.rate; });  // a stop's force
+    return all;
+  }
+};
+
+TEST(LinkageWalker, ReleasingLateReproducesTheRemainingCycles) {
+  const CycleFile file = read_kneed_cycles();
+  for (const size_t i : {6u, 7u}) {  // 1.6 and 1.8 m/s
+    const ReferenceCycle& row = file.cycles[i];
+    SCOPED_TRACE(row.speed);
+    const LateRelease walker(kneed(file.parameters, row.controls, {.may_fly = false}));
+    const WalkerState start = walker.section_state(row.start.q, row.start.qd);
+    WalkerState state = start;
+    std::vector<WalkerEvent> events;
+    double step_end = 1e-3;
+    while (!advance(walker, state, step_end - state.time, {}, events)) {
+      ASSERT_EQ(state.health, Health::kSound);
+      state = walker.settled(state);
+      // Its steps began anew at every event.
+      const double anew = events.empty() ? 0 : events.back().time;
+      step_end = anew + 1e-3 * (std::floor((state.time - anew) / 1e-3 + 1e-6) + 1);
+    }
+    EXPECT_LT((state.q - start.q).norm(), 1e-7);
+    EXPECT_LT((state.qd - start.qd).norm(), 1e-7);
+  }
+}
+
 // Newton from a disturbed start finds the cycle again, with the file's multipliers.
 TEST(LinkageWalker, FindsAPoweredCycleAndItsMultipliers) {
   const CycleFile file = read_kneed_cycles();
@@ -312,6 +345,30 @@ TEST(LinkageWalker, StepImpulseActsAlongAStraightLegWithoutTorque) {
       (extra - (with.impulse - without.impulse) - 0.1 * Vector2d(std::sin(0.3), std::cos(0.3)))
           .norm(),
       1e-14);
+}
+
+// Kuo's closed form for massless legs: rate+ = cos 2a rate + P sin 2a, and the new swing leg keeps
+// rate+ cos 2a. Legs of 1e-10 err by as much; rounding of the impulse on them would be 1e3 times
+// as large.
+TEST(LinkageWalker, ToeOffLeavesLightLegsTheirDigits) {
+  const StraightLeggedParameters p{.hip_mass = 1,
+                                   .leg_mass = 1e-10,
+                                   .leg_inertia = 0,
+                                   .hip_to_arc = 1,
+                                   .com_below_hip = 1,
+                                   .foot_radius = 0,
+                                   .toe_off_impulse = .2};
+  const LinkageWalker walker(straight_legged(p));
+  Rng rng(66, Purpose::kTest);
+  for (int i = 0; i < 50; ++i) {
+    const double a = .1 + .4 * rng.uniform(), rate = .2 + .6 * rng.uniform();
+    const WalkerState state =
+        walker.section_state(Vector2d(a, -a), Vector2d(rate, 2 * rng.uniform() - 1));
+    const VectorXd after = walker.strike(state, true).after.qd;
+    const double expected = std::cos(2 * a) * rate + .2 * std::sin(2 * a);
+    EXPECT_NEAR(after(0), expected, 1e-9);
+    EXPECT_NEAR(after(1), expected * std::cos(2 * a), 1e-9);
+  }
 }
 
 // Limits by degeneration: latched knees, shank mass to zero and the thigh's mass at the leg's
