@@ -48,12 +48,24 @@ int list(const BatchJob& job) {
   return kDone;
 }
 
+// What the whole output folder holds by now, whoever did it.
+int report(const BatchJob& job) {
+  const std::vector<Sequence> all = sequences_of(job);
+  write_batch_reports(all, job.output);
+  bool all_well = true;
+  for (const Sequence& sequence : all) {
+    const SequenceState state = result_of(sequence).state;
+    all_well = all_well && state == SequenceState::kComplete;
+  }
+  return all_well ? kDone : kFailed;
+}
+
 }  // namespace
 
 int run_batch(const Arguments& arguments) {
   BatchJob job;
   std::string folder, scene_template, shard = "1/1";
-  bool list_only = false;
+  bool list_only = false, report_only = false;
   CommandLine line({.name = "batch",
                     .operands = "FOLDER",
                     .about = "Tracks every scene below FOLDER, each in a process of its own; goes "
@@ -67,7 +79,8 @@ int run_batch(const Arguments& arguments) {
       "time-limit", po::value(&job.limits.seconds)->value_name("S"), "seconds for one sequence")(
       "memory-limit", po::value(&job.limits.memory_mb)->value_name("MB"), "for one sequence")(
       "list", po::bool_switch(&list_only), "print the sequences and their state, do nothing")(
-      "dry-run", po::bool_switch(&list_only), "the same");
+      "dry-run", po::bool_switch(&list_only), "the same")(
+      "report", po::bool_switch(&report_only), "do nothing but the summary of what there is");
   line.operand("FOLDER", &folder);
   if (!line.parse(arguments)) return kDone;
   if (job.jobs < 1) throw UsageError("--jobs: found less than 1, allowed: from 1");
@@ -77,6 +90,7 @@ int run_batch(const Arguments& arguments) {
   job.output = line.required_output();
   job.overwrite = line.common().overwrite;
   if (list_only) return list(job);
+  if (report_only) return report(job);
   line.config();  // a mistake in it would fail every sequence
   job.command = track_command(line.common(), job.jobs);
   Terminal terminal(line.common());

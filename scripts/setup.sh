@@ -14,6 +14,9 @@ packages=(
   libsimbody-dev  # independent engine behind some tests
 )
 
+# Not needed; tests of scripts/cluster are skipped without them: slurmctld slurmd slurm-client munge
+# parallel
+
 missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
