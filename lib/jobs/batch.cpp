@@ -56,7 +56,12 @@ std::string failure_reason(const BatchJob& job, const ChildEnd& end, const fs::p
 
 // Nobody else's and not complete: clears what an earlier try left, and starts.
 std::optional<Running> start(const BatchJob& job, const Sequence& sequence) {
-  if (!job.overwrite && is_complete_result(sequence.output)) return std::nullopt;
+  if (!job.overwrite && is_complete_result(sequence.output)) {
+    // Its worker may have been killed after the last file; a claim taken here is given back at
+    // once.
+    if (fs::exists(sequence.output / Claim::kFile)) Claim::try_take(sequence.output);
+    return std::nullopt;
+  }
   fs::create_directories(sequence.output);
   std::optional<Claim> claim = Claim::try_take(sequence.output);
   // Another worker may have finished it between the look and the claim.

@@ -25,8 +25,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kName = "claim";
-
 // "host.boot.namespace": workers of one place can see whether the other's process lives.
 std::string place_name() {
   std::array<char, 256> host{};
@@ -98,7 +96,7 @@ double age_seconds(const fs::path& file) {
 }  // namespace
 
 std::optional<Claim> Claim::try_take(const fs::path& folder, double stale_seconds) {
-  const fs::path file = folder / kName;
+  const fs::path file = folder / kFile;
   if (!create_exclusively(file)) {
     const auto judged = identity(file);
     if (!holder_is_dead(file) && age_seconds(file) <= stale_seconds) return std::nullopt;

@@ -171,6 +171,18 @@ TEST_F(BatchTest, LeavesClaimedSequencesAlone) {
   EXPECT_EQ(outcome.waiting, 1);
 }
 
+TEST_F(BatchTest, ClearsTheClaimOfAWorkerKilledAfterItsLastFile) {
+  add("done", "ok");
+  run_batch(job_, {});
+  const fs::path claim = job_.output / "done" / Claim::kFile;
+  std::ofstream(claim) << "elsewhere.1";
+  EXPECT_EQ(run_batch(job_, {}).complete, 1);
+  EXPECT_TRUE(fs::exists(claim));  // it may be alive
+  fs::last_write_time(claim, fs::file_time_type::clock::now() - std::chrono::seconds(100));
+  EXPECT_EQ(run_batch(job_, {}).complete, 1);
+  EXPECT_FALSE(fs::exists(claim));
+}
+
 TEST_F(BatchTest, MakesAScenePerVideoFromATemplate) {
   folder_.write("in/a/walk2.mp4", "");
   folder_.write("in/a/walk10.mp4", "");
