@@ -1,11 +1,17 @@
 // walktrack simulate: a walker through time, as tables, pictures and an animation.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "core/errors.h"
 #include "core/parallel_for.h"
 #include "io/files.h"
 #include "io/model_file.h"
 #include "jobs/articulated.h"
+#include "jobs/prior_walk.h"
 #include "jobs/simulate.h"
 #include "jobs/stability.h"
 #include "model_options.h"
@@ -42,22 +48,79 @@ std::string simulate_articulated(const CommandLine& line, const SimulateJob& sha
                                    command_line);
 }
 
+// Options of a walk out of the table of gaits.
+class PriorOptions {
+ public:
+  void declare(CommandLine& line) {
+    namespace po = boost::program_options;
+    line.options().add_options()("prior", po::bool_switch(&wanted_),
+                                 "kneed: start and controls of every step from the table of gaits")(
+        "speed", po::value(&speed_), "m/s, with --prior; 1.3 unless given")(
+        "speed-at", po::value(&changes_),
+        "T:V, with --prior: from T s on towards V m/s; may be repeated")(
+        "step-length", po::value(&walk_.step_length)->default_value(0),
+        "m, with --prior; 0: what people prefer at the speed")(
+        "feedback", po::value(&walk_.feedback)->default_value(1),
+        "strength of the feedback at support transfer, with --prior; 0: none");
+  }
+
+  void apply(SimulateJob& job) {
+    if (!wanted_) {
+      if (changes_.empty() && std::isnan(speed_)) return;
+      throw UsageError(
+          describe({"", 0, "--speed, --speed-at"}, "no --prior", "together with --prior"));
+    }
+    if (!std::isnan(speed_)) walk_.speed = speed_;
+    for (const std::string& text : changes_) walk_.changes.push_back(change_from(text));
+    std::stable_sort(walk_.changes.begin(), walk_.changes.end(),
+                     [](const auto& a, const auto& b) { return a.time < b.time; });
+    const bool sane = walk_.speed > 0 && walk_.step_length >= 0 && walk_.feedback >= 0 &&
+                      std::isfinite(walk_.speed + walk_.step_length + walk_.feedback);
+    if (!sane) {
+      throw UsageError(
+          describe({"", 0, "--speed, --step-length, --feedback"},
+                   fmt::format("{}, {}, {}", walk_.speed, walk_.step_length, walk_.feedback),
+                   "a speed above 0, the others 0 or more"));
+    }
+    job = with_prior(std::move(job), walk_);
+  }
+
+ private:
+  static SpeedChange change_from(const std::string& text) {
+    const size_t colon = std::min(text.find(':'), text.size());
+    const auto time = number_from_text(text.substr(0, colon));
+    const auto speed =
+        colon < text.size() ? number_from_text(text.substr(colon + 1)) : std::nullopt;
+    if (time && speed && *time >= 0 && *speed > 0) return {*time, *speed};
+    throw UsageError(describe({"", 0, "--speed-at"}, fmt::format("'{}'", text),
+                              "SECONDS:METRES_PER_SECOND, such as 5:1.6"));
+  }
+
+  bool wanted_ = false;
+  double speed_ = std::numeric_limits<double>::quiet_NaN();  // not given
+  PriorWalk walk_;
+  std::vector<std::string> changes_;
+};
+
 }  // namespace
 
 int run_simulate(const Arguments& arguments) {
   namespace po = boost::program_options;
   SimulateJob job;
   ModelOptions options;
+  PriorOptions prior;
   bool no_pictures = false, extremes = false;
-  CommandLine line({.name = "simulate",
-                    .operands = "",
-                    .about = "Simulates a walker. --config names a model file, --set changes one "
-                             "value of the model.\nWrites states.csv, events.csv, model.yaml, "
-                             "strip.svg, strip.png, animation.mp4 and run.json.",
-                    .example = "walktrack simulate --model kneed --duration 3 -o gait"});
+  CommandLine line(
+      {.name = "simulate",
+       .operands = "",
+       .about = "Simulates a walker. --config names a model file, --set changes one "
+                "value of the model.\nWrites states.csv, events.csv, model.yaml, "
+                "strip.svg, strip.png, animation.mp4 and run.json.",
+       .example = "walktrack simulate --model kneed --prior --speed 1.3 --speed-at 5:1.6 -o gait"});
   options.declare(line);
   line.options().add_options()("duration", po::value(&job.duration)->default_value(job.duration),
-                               "s of simulated time")(
+                               "s of simulated time")("seconds", po::value(&job.duration),
+                                                      "the same as --duration")(
       "steps", po::value(&job.steps)->default_value(0), "stop after so many steps; 0: no limit")(
       "sample", po::value(&job.sample_interval)->default_value(job.sample_interval),
       "s between rows of states.csv")("slow",
@@ -66,6 +129,7 @@ int run_simulate(const Arguments& arguments) {
       "no-pictures", po::bool_switch(&no_pictures), "tables only")(
       "extremes", po::bool_switch(&extremes),
       "instead: a table of how each integrator fares at the extremes (minutes)");
+  prior.declare(line);
   if (!line.parse(arguments)) return kDone;
   if (extremes) {
     write_extremes(line);
@@ -84,6 +148,7 @@ int run_simulate(const Arguments& arguments) {
     return kDone;
   }
   job.model = options.model(line);
+  prior.apply(job);
   control.say(
       simulate_into(line.required_output(), line.common().overwrite, job, command_line, control));
   return kDone;

@@ -146,13 +146,19 @@ Recording record(const Walker& walker, const SimulateJob& job, const JobControl&
     }
     last = now;
   };
+  const Walker* now = &walker;
   while (state.health == Health::kSound && state.time < job.duration && !control.stopping()) {
-    if (!advance(walker, state, job.duration - state.time, job.simulation, recording.events,
+    if (!advance(*now, state, job.duration - state.time, job.simulation, recording.events,
                  observe)) {
       break;
     }
     ++recording.steps;
     if (job.steps > 0 && recording.steps >= job.steps) break;
+    if (job.next_walker) {
+      recording.changes.push_back({recording.states.size() - 1, job.next_walker(state)});
+      now = recording.changes.back().walker.get();
+      state = last = recording.states.back() = now->settled(state);
+    }
     control.progress("simulating", static_cast<size_t>(1000 * state.time),
                      static_cast<size_t>(1000 * job.duration));
   }
@@ -168,7 +174,12 @@ std::string states_csv(const Walker& walker, const Recording& recording) {
   csv +=
       ",kinetic,gravity,elastic,energy,ground_x,ground_z,com_x,com_z,"
       "angular_momentum\n";
-  for (const WalkerState& state : recording.states) add_state(walker, state, names.size(), csv);
+  const Walker* now = &walker;
+  auto change = recording.changes.begin();
+  for (size_t i = 0; i < recording.states.size(); ++i) {
+    if (change != recording.changes.end() && change->from == i) now = (change++)->walker.get();
+    add_state(*now, recording.states[i], names.size(), csv);
+  }
   return csv;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,9 @@
 #include "walker/simulate.h"
 
 namespace walktrack {
+
+// The walker that takes over after a step that ended in this state; it may have other controls.
+using NextWalker = std::function<std::unique_ptr<Walker>(const WalkerState&)>;
 
 struct SimulateJob {
   ModelSpec model;
@@ -20,6 +25,7 @@ struct SimulateJob {
   double frame_rate = 30;         // Hz, of the animation
   double slow_motion = 1;         // times slower than life
   bool pictures = true;           // strip.svg, strip.png, animation.mp4
+  NextWalker next_walker;         // empty: the same walker all the way
 };
 
 // What was recorded: a state at every sample, and on both sides of every event.
@@ -28,6 +34,11 @@ struct Recording {
   std::vector<WalkerEvent> events;
   WalkerState end;
   int steps = 0;
+  struct Change {
+    size_t from;  // index of its first state
+    std::unique_ptr<Walker> walker;
+  };
+  std::vector<Change> changes;  // of the walker, where the job has a next one
 };
 Recording record(const Walker& walker, const SimulateJob& job, const JobControl& control);
 

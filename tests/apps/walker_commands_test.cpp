@@ -45,6 +45,24 @@ TEST(SimulateCommand, WritesAFolderAndRefusesToOverwriteIt) {
   EXPECT_EQ(run_walktrack(arguments).exit_code, 2);
 }
 
+TEST(SimulateCommand, WalksOutOfTheTableOfGaits) {
+  const TemporaryFolder temporary;
+  const std::string folder = temporary / "walk";
+  const ProgramResult result =
+      run_walktrack({"simulate", "--model", "kneed", "--prior", "--speed", "1.3", "--speed-at",
+                     "1:1.5", "--seconds", "3", "--no-pictures", "-o", folder});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("3.000 s, sound"));
+  const std::vector<std::vector<std::string>> wrong{
+      {"--speed-at", "5"}, {"--speed-at", "5:-1"}, {"--speed", "0"}, {"--feedback", "-1"}};
+  for (std::vector<std::string> words : wrong) {
+    words.insert(words.begin(), {"simulate", "--model", "kneed", "--prior", "-o", folder + "2"});
+    EXPECT_EQ(run_walktrack(words).exit_code, 2) << words.back();
+  }
+  EXPECT_EQ(run_walktrack({"simulate", "--model", "monopode", "--prior", "-o", folder}).exit_code,
+            2);
+}
+
 // The picture's scale follows the figure; a foot of a thousand kilometres once took forever to
 // draw.
 TEST(SimulateCommand, DrawsGiants) {

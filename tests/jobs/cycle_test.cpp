@@ -58,6 +58,29 @@ TEST(CycleJob, FollowsAtTheEnergyOfTheModel) {
   EXPECT_LT((find_cycle(direct).gait.start.q - followed.gait.start.q).norm(), 1e-5);
 }
 
+// Gaits with a flight phase: on the other foot (running) and on the same one first (leaping). The
+// ground never pulls.
+TEST(CycleJob, KneedWalkersRunAndLeap) {
+  const auto flies = [](const std::string& name, size_t strikes, double multiplier) {
+    CycleJob job;
+    job.model = read_model(
+        "", std::string(WALKTRACK_SOURCE_DIR) + "/configs/models/kneed_" + name + ".yaml", {});
+    const FoundCycle found = find_cycle(job);
+    EXPECT_LT(found.gait.cycle.residual, 1e-10);
+    EXPECT_NEAR(found.gait.cycle.largest_multiplier(), multiplier, 2e-3);
+    EXPECT_GT(found.gait.step.lowest_normal, -1e-6 * found.weight);
+    size_t landed = 0, left = 0;
+    for (const WalkerEvent& event : found.gait.step.events) {
+      landed += event.transition.kind == EventKind::kStrike ? 1 : 0;
+      left += event.transition.kind == EventKind::kTakeOff ? 1 : 0;
+    }
+    EXPECT_EQ(left, 1u) << name;
+    EXPECT_EQ(landed, strikes) << name;
+  };
+  flies("running", 1, 1.1365);
+  flies("leaping", 2, .9236);
+}
+
 // Steeper runners have no cycle at this energy: two meet between 66 and 67 degrees.
 TEST(CycleJob, SaysHowFarItFollowed) {
   CycleJob job;
