@@ -91,7 +91,9 @@ TrialResult try_rate(double rate, const fs::path& folder) {
 TrialResult try_many_particles(const char* count, const fs::path& folder) {
   Film film = film_of_walk();
   film.options.duration = 0.2;
-  film.settings = {fmt::format("filter.particles={}", count), "filter.max_layers=2"};
+  // Hypotheses of the start are small filters; the large one is to work from the first frame on.
+  film.settings = {fmt::format("filter.particles={}", count), "filter.max_layers=2",
+                   "start.seconds=0"};
   return try_film(film, folder);
 }
 
@@ -161,8 +163,8 @@ constexpr std::array kTrials{
           [](const fs::path& f) {
             return try_settings({"filter.particles=1", "start.particles=1"}, f);
           }},
-    Trial{"100,000 particles", false,
-          [](const fs::path& f) { return try_many_particles("100000", f); }},
+    Trial{"10,000 particles", false,
+          [](const fs::path& f) { return try_many_particles("10000", f); }},
     Trial{"1,000,000 particles", true,
           [](const fs::path& f) { return try_many_particles("1000000", f); }},
     Trial{"no noise at all", false,
