@@ -67,17 +67,40 @@ void remove_leftovers(const fs::path& folder) {
   }
 }
 
-bool create_exclusively(const fs::path& file) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+[[noreturn]] void fail(const fs::path& file, int error) {
+  throw std::runtime_error(
+      fmt::format("{}: {}", file.string(), std::generic_category().message(error)));
+}
+
+// False where the file exists and O_EXCL is among the flags.
+bool write_name(const fs::path& file, int flags) {
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0666);
   if (descriptor < 0) {
     if (errno == EEXIST) return false;
-    throw std::runtime_error(
-        fmt::format("{}: {}", file.string(), std::generic_category().message(errno)));
+    fail(file, errno);
   }
   const std::string name = worker_name();
   const bool written = ::write(descriptor, name.data(), name.size()) >= 0;
   ::close(descriptor);
   return written;
+}
+
+// The file appears with its holder's name or not at all, so that a worker killed here leaves no
+// claim of nobody. Where the file system has no links, the name comes a moment later.
+bool create_exclusively(const fs::path& file) {
+  const fs::path own =
+      file.parent_path() / fmt::format("probe.{}.{}.new", worker_name(), ::gettid());
+  write_name(own, O_TRUNC);
+  struct stat facts {};
+  const bool linked = ::link(own.c_str(), file.c_str()) == 0;
+  const int error = linked ? 0 : errno;
+  // NFS may have lost its reply: the count of links is what is true.
+  const bool created = linked || (::stat(own.c_str(), &facts) == 0 && facts.st_nlink == 2);
+  ::unlink(own.c_str());
+  // ENOENT: whoever holds the folder has cleared it of leftovers.
+  if (created || error == EEXIST || error == ENOENT) return created;
+  if (error != EPERM && error != EOPNOTSUPP && error != ENOSYS) fail(file, error);
+  return write_name(file, O_EXCL);
 }
 
 // Age by the clock of the file system's last writer here: a probe file's time minus the claim's, so
