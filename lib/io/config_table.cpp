@@ -82,8 +82,9 @@ void add_motion(ParameterTable& table) {
   m.number("swing_knee_torque", &M::swing_knee_torque, 0, 10, "torque noise, M g L per sqrt(s)");
   m.number("ankle_torque", &M::ankle_torque, 0, 10, "torque noise, M g L per sqrt(s)");
   m.number("torque_noise_scale", &M::torque_noise_scale, 0, 1000, "multiplies all five torques");
-  m.number("planar_misfit_deg", &M::planar_misfit_deg, 0, 90,
-           "how far angles stray from the walker's, degrees per sqrt(s)");
+  m.number("clock", &M::clock, 0, 1, "how far the phase strays from the walker's, s per sqrt(s)");
+  m.number("turning", &M::turning, 0, 100, "the usual rate of turning, rad/s");
+  m.number("misfit", &M::misfit, 0, 10, "multiplies how far angles stray from the walker's");
   m.number("ball_drift", &M::ball_drift, 0, 1, "of a standing foot, m per sqrt(s)");
   m.number("landing", &M::landing, 0, 1, "uncertainty of where a foot comes down, m");
   m.number("settling", &M::settling, 1e-3, 10, "in which that dies away, s");

@@ -40,7 +40,7 @@ struct FlowConfig {
   double error_share = .15;  // and of the motion itself
   double noise = 4;          // of the grey values that texture has to exceed
   double dof = 3;            // of the Student-t: the smaller, the more outliers are expected
-  double weight = 1;         // against the silhouettes, both per independent area
+  double weight = .1;        // against the silhouettes, both per independent area
 };
 
 struct ObservationConfig {
@@ -53,7 +53,7 @@ struct ObservationConfig {
   // Neighbouring pixels err together (a body is not quite our body's shape, clothes fold), so a
   // patch of this side counts as one independent pixel. On the body, hence in metres: a figure
   // twice as large in the image has not four times the evidence.
-  double independent_m = .05;
+  double independent_m = .1;
 };
 
 }  // namespace walktrack

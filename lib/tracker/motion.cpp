@@ -41,8 +41,8 @@ void predict_extras(const MotionContext& context, WalkerParticle& particle) {
     const auto extra = static_cast<Extra>(k);
     const size_t i = static_cast<size_t>(k);
     const MarkovConstants c = markov_constants(extra);
-    const double a = std::exp(-context.dt / c.memory);
-    const double b = c.settling > 0 ? 1 - std::exp(-context.dt / c.settling) : 0;
+    const double r = std::exp(-context.dt / c.time);
+    const double a = k == kHeading ? r : r * r, b = k == kHeading ? 0 : (1 - r) * (1 - r);
     const double now = particle.extra[i];
     const double next =
         now + a * (now - particle.extra_before[i]) + b * (rest_of(extra, c, particle) - now);
@@ -76,17 +76,18 @@ void change_support(const MotionContext& context, WalkerParticle& particle, Rng&
   const Side landed = other(particle.stance);
   // The transfer has exchanged the names of the legs already: pose them by their new roles on the
   // old place, which is where the leg that now swings still stands.
-  Pose pose = particle.pose;
   particle.stance = landed;
-  pose.tilt = particle.walker.q[kTorso];
+  Pose pose = particle.pose;
+  const KneedState shown = shown_state(particle.walker, landed, particle.extra);
+  pose.tilt = shown.q[kTorso];
   const auto set = [&](Side side, int thigh, int shank) {
     LegPose& leg = pose.legs[index(side)];
-    leg.hip_flexion = pose.tilt - particle.walker.q[thigh];
-    leg.knee_flexion = particle.walker.q[shank] - particle.walker.q[thigh];
+    leg.hip_flexion = pose.tilt - shown.q[thigh];
+    leg.knee_flexion = shown.q[shank] - shown.q[thigh];
   };
   set(landed, kStanceThigh, kStanceShank);
   set(other(landed), kSwingThigh, kSwingShank);
-  const double old_ankle = kneed_posture(context.model.walker, particle.walker).swing_ankle.y();
+  const double old_ankle = kneed_posture(context.model.walker, shown).swing_ankle.y();
   stand_on(context.model.body, other(landed),
            Eigen::Vector3d(particle.ball.x(), particle.ball.y(), 0),
            sole_pitch(context.model.body.lengths, old_ankle), pose);
@@ -100,7 +101,8 @@ Outcome simulate(const MotionContext& context, WalkerParticle& particle, Rng& rn
       sloped ? in_plane(context.model, particle.extra[kHeading]) : KneedModel{};
   const KneedModel& model = sloped ? tilted : context.model.walker;
   settle_knee_stops(model, particle.controls, Vector5::Zero(), particle.walker);
-  double left = context.dt;
+  const double stray = context.config.clock * std::sqrt(context.dt) * rng.truncated_normal(3);
+  double left = std::max(0.0, context.dt * std::exp(particle.extra_before[kPace]) + stray);
   while (left > 0) {
     const KneedAdvance done =
         kneed_advance(model, particle.controls, Vector5::Zero(), particle.walker, left);
@@ -138,30 +140,40 @@ MarkovConstants markov_constants(Extra extra) {
   const auto deg = [](double angle) { return rad_from_deg(angle); };
   switch (extra) {
     case kHeading:
-      return {0, 0.5, 0, 0.2, -1e9, 1e9};
+      return {0, 0.5, 0.3, -1e9, 1e9};
     case kList:
-      return {0, 0.15, 0.3, 1.2, deg(-15), deg(15)};
+      return {0, 0.15, deg(3), deg(-15), deg(15)};
     case kAbduction:
     case kAbductionRight:
-      return {deg(-2.5), 0.15, 0.4, 1.6, deg(-20), deg(30)};
+      return {deg(-2.5), 0.15, deg(3.5), deg(-20), deg(30)};
     case kRotation:
     case kRotationRight:
-      return {deg(-5), 0.1, 0.3, 2.0, deg(-40), deg(40)};
+      return {deg(-5), 0.2, deg(6), deg(-40), deg(40)};
     case kAnkle:
     case kAnkleRight:
-      return {deg(-3), 0.05, 0.12, 8.0, deg(-45), deg(30)};
+      return {deg(-3), 0.08, deg(12), deg(-45), deg(30)};
+    case kPace:
+      return {0, 0.5, 0.12, -0.4, 0.4};
+    case kTilt:
+      return {0, 0.5, deg(6), deg(-20), deg(20)};
+    case kThigh:
+    case kThighRight:
+      return {0, 0.15, deg(6), deg(-30), deg(30)};
+    case kShank:
+    case kShankRight:
+      return {0, 0.12, deg(8), deg(-40), deg(40)};
     case kShoulder:
     case kShoulderRight:
-      return {0, 0.15, 0.25, 5.0, deg(-60), deg(120)};
+      return {0, 0.2, deg(15), deg(-60), deg(120)};
     case kShoulderAbduction:
     case kShoulderAbductionRight:
-      return {deg(6), 0.1, 0.3, 2.5, deg(-10), deg(60)};
+      return {deg(6), 0.2, deg(6), deg(-10), deg(60)};
     case kElbow:
     case kElbowRight:
     case kExtraCount:
       break;
   }
-  return {deg(22), 0.1, 0.3, 5.0, 0, deg(130)};
+  return {deg(22), 0.2, deg(15), 0, deg(130)};
 }
 
 NoiseScale noise_scale(const MotionConfig& config, const BodyModel& model, double dt) {
@@ -175,9 +187,15 @@ NoiseScale noise_scale(const MotionConfig& config, const BodyModel& model, doubl
                                      config.ankle_torque};
   for (size_t k = 0; k < 5; ++k) scale.impulse[k] = shares[k] * unit * root;
   scale.elapsed = dt;
-  scale.planar = rad_from_deg(config.planar_misfit_deg) * root;
-  for (int k = 0; k < kExtraCount; ++k)
-    scale.extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).sigma * dt * root;
+  for (int k = 0; k < kExtraCount; ++k) {
+    const MarkovConstants c = markov_constants(static_cast<Extra>(k));
+    const double r = std::exp(-dt / c.time), rr = r * r;
+    const bool strays = k >= kTilt && k <= kShankRight;
+    scale.extra[static_cast<size_t>(k)] =
+        k == kHeading ? config.turning * dt * std::sqrt(1 - rr)
+                      : (strays ? config.misfit : 1) * c.spread *
+                            std::sqrt((1 - rr) * (1 - rr) * (1 - rr) / (1 + rr));
+  }
   return scale;
 }
 

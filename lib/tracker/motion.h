@@ -2,8 +2,10 @@
 // at every support transfer, and Markov processes for what the walker does not drive.
 //
 //   k_t = k_(t-1) + a (k_(t-1) - k_(t-2)) + b (k0 - k_(t-1)) + noise,
-//   a = exp(-dt / memory), b = 1 - exp(-dt / settling), noise ~ N(0, (sigma dt^1.5)^2)
-// so that the process does not depend on the frame rate; truncated at anatomical limits.
+//   r = exp(-dt / time), a = r^2, b = (1 - r)^2: critically damped,
+//   noise ~ N(0, s^2 (1 - r^2)^3 / (1 + r^2)): s is the process's own standard deviation
+// so that the process does not depend on the frame rate; truncated at anatomical limits. The
+// heading has no rest: b = 0, and its rate has the standard deviation s.
 #pragma once
 
 #include "gait/gait_prior.h"
@@ -20,11 +22,13 @@ struct MotionConfig {
   double stance_knee_torque = 0.008;
   double swing_knee_torque = 0.004;
   double ankle_torque = 0.040;
-  double planar_misfit_deg = 4.0;  // per sqrt(s): how far people's angles stray from the walker's
+  double clock = 0.05;          // s per sqrt(s): how far people's phase strays from the walker's
+  double turning = 0.08;        // rad/s: the usual rate of turning
+  double misfit = 0.7;          // multiplies how far people's angles stray from the walker's
   double ball_drift = 0.03;     // m per sqrt(s): the drawn foot does not roll as the walker's does
-  double landing = 0.04;        // m, along and across: where a foot comes down
+  double landing = 0.02;        // m, along and across: where a foot comes down
   double settling = 0.05;       // s after the strike in which that uncertainty dies away
-  double arrival = 0.10;        // m, the same when a walker is first seen
+  double arrival = 0.15;        // m, the same when a walker is first seen
   double control_noise = 0.05;  // relative, per step (gait/gait_prior.h)
   double feedback = 1;          // strength of the correction of controls at a support transfer
   double aim_drift = 0.06;      // relative, per step, of the speed and the step length aimed at
@@ -33,8 +37,8 @@ struct MotionConfig {
 
 // Constants of the Markov process of one extra coordinate.
 struct MarkovConstants {
-  double rest, memory, settling, sigma;  // rad, s, s (0: never settles), rad/s^1.5
-  double lowest, highest;                // rad
+  double rest, time, spread;  // rad, s, rad (the heading: rad/s)
+  double lowest, highest;     // rad
 };
 MarkovConstants markov_constants(Extra extra);
 

@@ -17,6 +17,9 @@ void keep_knees(KneedState& s) {
   s.q[kSwingShank] = std::max(s.q[kSwingShank], s.q[kSwingThigh]);
 }
 
+// A normal number made heavy-tailed: people mostly walk straight on, but when they turn, they turn.
+double heavy_tailed(double normal) { return std::sinh(normal); }
+
 void set_leg(const KneedState& s, bool stance, const Extras& extra, Side side, Pose& pose) {
   const double thigh = s.q[stance ? kStanceThigh : kSwingThigh];
   const double shank = s.q[stance ? kStanceShank : kSwingShank];
@@ -27,17 +30,30 @@ void set_leg(const KneedState& s, bool stance, const Extras& extra, Side side, P
 
 }  // namespace
 
+KneedState shown_state(const KneedState& walker, Side stance, const Extras& extra) {
+  const size_t standing = index(stance), swinging = 1 - standing;
+  KneedState shown = walker;
+  shown.q[kTorso] += extra[kTilt];
+  shown.q[kStanceThigh] += extra[kThigh + standing];
+  shown.q[kStanceShank] += extra[kShank + standing];
+  shown.q[kSwingThigh] += extra[kThigh + swinging];
+  shown.q[kSwingShank] += extra[kShank + swinging];
+  keep_knees(shown);
+  return shown;
+}
+
 Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance,
              const Eigen::Vector2d& ball, const Extras& extra) {
+  const KneedState shown = shown_state(walker, stance, extra);
   Pose pose;
   pose.heading = extra[kHeading];
   pose.list = extra[kList];
-  pose.tilt = walker.q[kTorso];
-  set_leg(walker, true, extra, stance, pose);
-  set_leg(walker, false, extra, other(stance), pose);
+  pose.tilt = shown.q[kTorso];
+  set_leg(shown, true, extra, stance, pose);
+  set_leg(shown, false, extra, other(stance), pose);
   for (size_t i = 0; model.body.groups.arms && i < 2; ++i)
     pose.arms[i] = {extra[kShoulder + i], extra[kShoulderAbduction + i], extra[kElbow + i]};
-  const double ankle_height = kneed_posture(model.walker, walker).stance_ankle.y();
+  const double ankle_height = kneed_posture(model.walker, shown).stance_ankle.y();
   const double pitch = sole_pitch(model.body.lengths, ankle_height);
   stand_on(model.body, stance, Eigen::Vector3d(ball.x(), ball.y(), 0), pitch, pose);
   return pose;
@@ -52,12 +68,13 @@ void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& pa
   KneedState& walker = particle.walker;
   walker = particle.predicted;
   walker.qd += kick;
-  for (int k = 0; k < 5; ++k)
-    walker.q[k] += 0.5 * scale.elapsed * kick[k] + scale.planar * z[size_t(kPlanarNoise + k)];
+  walker.q += 0.5 * scale.elapsed * kick;
   keep_knees(walker);
   for (int k = 0; k < extra_count(model.body); ++k) {
     const size_t i = size_t(k);
-    particle.extra[i] = particle.predicted_extra[i] + scale.extra[i] * z[size_t(kExtraNoise) + i];
+    const double noise = z[size_t(kExtraNoise) + i];
+    particle.extra[i] = particle.predicted_extra[i] +
+                        scale.extra[i] * (i == kHeading ? heavy_tailed(noise) : noise);
   }
   if (particle.arriving) particle.extra_before = particle.extra;
   const double heading = particle.extra[kHeading];

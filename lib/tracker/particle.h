@@ -17,8 +17,10 @@
 
 namespace walktrack {
 
-// The coordinates that follow a damped second-order Markov process, in this order. The arms come
-// last, so that a body without arms carries and pays for kExtraWithoutArms of them.
+// The coordinates that follow a damped second-order Markov process, in this order: those that the
+// walker does not drive, and how far those that it drives stray from it. The walker itself never
+// feels them: its gait stays the stable one that the prior knows. The arms come last, so that a
+// body without arms carries and pays for kExtraWithoutArms of them.
 enum Extra {
   kHeading,
   kList,
@@ -28,6 +30,12 @@ enum Extra {
   kRotationRight,
   kAnkle,  // dorsiflexion; a standing foot's follows from its sole instead
   kAnkleRight,
+  kPace,  // logarithm of how much faster the person walks than the walker
+  kTilt,  // from here to the shanks: how far a person's angles stray from the walker's
+  kThigh,
+  kThighRight,
+  kShank,
+  kShankRight,
   kShoulder,  // flexion
   kShoulderRight,
   kShoulderAbduction,
@@ -45,9 +53,8 @@ inline constexpr int extra_count(const Body& body) {
 
 // Where the noise of a frame acts.
 enum NoiseIndex {
-  kTorqueNoise,                     // 5: torso, hip, stance knee, swing knee, stance ankle
-  kPlanarNoise = kTorqueNoise + 5,  // 5: misfit of the planar angles, in the order of q
-  kBallNoise = kPlanarNoise + 5,    // 2: the standing foot's place, along and across
+  kTorqueNoise,                   // 5: torso, hip, stance knee, swing knee, stance ankle
+  kBallNoise = kTorqueNoise + 5,  // 2: the standing foot's place, along and across
   kExtraNoise = kBallNoise + 2,
   kNoiseCount = kExtraNoise + kExtraCount
 };
@@ -56,7 +63,6 @@ enum NoiseIndex {
 struct NoiseScale {
   std::array<double, 5> impulse{};  // N m s
   double elapsed = 0;               // s, the frame's length
-  double planar = 0;                // rad
   Extras extra{};                   // rad
 };
 
@@ -97,7 +103,10 @@ struct BodyModel {
 // Sets the realised part (walker, ball, extra, pose) from the predicted part and the noise.
 void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle);
 
-// The pose of a planar state whose standing foot has its ball at `ball`.
+// The walker's state as the person shows it, strayed by the extras.
+KneedState shown_state(const KneedState& walker, Side stance, const Extras& extra);
+
+// The pose of a walker whose standing foot has its ball at `ball`.
 Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance,
              const Eigen::Vector2d& ball, const Extras& extra);
 

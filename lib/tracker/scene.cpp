@@ -1,9 +1,11 @@
 #include "tracker/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "body/kinematics.h"
+#include "tracker/motion.h"
 
 namespace walktrack {
 
@@ -36,13 +38,35 @@ double log_likelihood(const TrackerScene& scene, const SceneEvidence& evidence,
   return sum;
 }
 
+std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior) {
+  constexpr double kSpeed = 1.25;  // m/s
+  constexpr int kFigures = 6;
+  const double leg = leg_length(model.body.lengths);
+  const double unit_speed = std::sqrt(model.walker.parameters.gravity * leg);
+  const PriorGait gait = gait_at(prior, model.walker.parameters, kSpeed,
+                                 leg * preferred_step_length(kSpeed / unit_speed));
+  Extras extra{};
+  for (int k = 0; k < extra_count(model.body); ++k)
+    extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).rest;
+  std::vector<Pose> figures;
+  for (int k = 0; k < kFigures; ++k) {
+    const KneedState state = state_at_phase(model.walker, gait, double(k) / kFigures);
+    figures.push_back(pose_of(model, state, Side::kLeft, Eigen::Vector2d::Zero(), extra));
+    figures.back().root.head<2>().setZero();
+  }
+  return figures;
+}
+
 double place_score(const TrackerScene& scene, const SceneEvidence& evidence,
-                   const Eigen::Vector2d& position, double heading) {
+                   std::span<const Pose> figures, const Eigen::Vector2d& position, double heading) {
   double best = -std::numeric_limits<double>::infinity();
-  for (const auto& figure : upright_figures(scene.model.body, position, heading)) {
+  for (Pose pose : figures) {
+    pose.root.head<2>() = position;
+    pose.heading = heading;
+    const std::vector<PosedPart> parts = parts_of(scene.model.body, pose);
     double sum = 0;
     for (size_t c = 0; c < evidence.size(); ++c)
-      sum += log_likelihood(scene.observation, evidence[c], project_parts(scene.cameras[c], figure),
+      sum += log_likelihood(scene.observation, evidence[c], project_parts(scene.cameras[c], parts),
                             nullptr);
     best = std::max(best, sum);
   }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "camera/camera.h"
+#include "gait/gait_prior.h"
 #include "observation/likelihood.h"
 #include "observation/observer.h"
 #include "tracker/particle.h"
@@ -30,8 +32,12 @@ using SceneEvidence = std::vector<CameraEvidence>;
 double log_likelihood(const TrackerScene& scene, const SceneEvidence& evidence,
                       const WalkerParticle& particle, bool with_motion);
 
-// The same of the upright figure over a ground point that resembles the walker most.
+// A walker's poses through a step of the usual gait, root above the origin, heading 0: one of them
+// resembles any walker in any frame, whichever foot stands.
+std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior);
+
+// The log-likelihood of the figure that fits best, its root above `position`.
 double place_score(const TrackerScene& scene, const SceneEvidence& evidence,
-                   const Eigen::Vector2d& position, double heading);
+                   std::span<const Pose> figures, const Eigen::Vector2d& position, double heading);
 
 }  // namespace walktrack

@@ -16,6 +16,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kLeastHeight_px = 24;  // a smaller figure shows no gait
+constexpr size_t kScored = 12;          // frames that a climb looks at
 constexpr double kApart = 0.5;          // m, between figures that count as two
 
 struct Outline {
@@ -47,32 +48,59 @@ bool visible_everywhere(std::span<const Camera> cameras, const Vector2d& positio
   return true;
 }
 
-// A straight walk and how much better it explains a frame than standing still does, nats.
+// A straight walk and how well it explains a frame in the mean, nats.
 struct Walk {
   Sighting line;
   double score;
 };
 
-// Mean score of the worst third of the frames: a line counts by where it fails, so that two things
-// that stand still do not make a walk between them.
-double worst_score(const WindowScore& score, const Sighting& line, size_t frames, size_t stride,
-                   double dt) {
+// The figure's scores along a line, in every `stride`-th frame.
+std::vector<double> scores_along(const WindowScore& score, const Sighting& line, double heading,
+                                 size_t frames, size_t stride, double dt) {
   std::vector<double> scores;
   for (size_t f = 0; f < frames; f += stride)
-    scores.push_back(score(f, line.position + dt * double(f) * line.velocity));
+    scores.push_back(score(f, line.position + dt * double(f) * line.velocity, heading));
+  return scores;
+}
+
+double heading_of(const Sighting& line) { return std::atan2(line.velocity.y(), line.velocity.x()); }
+
+// Frames closer in time than this err together.
+constexpr double kIndependent_s = 0.15;
+
+// How fast people walk, where nothing else is known: 1.25 +- .35 m/s. It matters along the viewing
+// rays, where images say little and a line may otherwise run off.
+double log_prior(const Sighting& line) {
+  const double strange = (line.velocity.norm() - 1.25) / 0.35;
+  return -0.5 * strange * strange;
+}
+
+// Log-posterior of a line, by frame: every frame counts alike, for where a line lies, above all how
+// far away, is a matter of all of them.
+double line_score(const WindowScore& score, const Sighting& line, size_t frames, size_t stride,
+                  double dt) {
+  const std::vector<double> scores =
+      scores_along(score, line, heading_of(line), frames, stride, dt);
+  const double looks = std::max(1.0, dt * double(frames) / kIndependent_s);
+  return std::accumulate(scores.begin(), scores.end(), 0.0) / double(scores.size()) +
+         log_prior(line) / looks;
+}
+
+double mean_of_worst_third(std::vector<double> scores) {
   const size_t third = (scores.size() + 2) / 3;
   std::nth_element(scores.begin(), scores.begin() + long(third - 1), scores.end());
   return std::accumulate(scores.begin(), scores.begin() + long(third), 0.0) / double(third);
 }
 
-// The line's score less that of standing in its middle: somebody who stands there, or a thing
-// that is always there, makes no walk.
-double walking_score(const WindowScore& score, const Sighting& line, size_t frames, size_t stride,
-                     double dt) {
+// Whether the line explains the frames where it fails better than standing in its middle explains
+// those where that fails: neither somebody who stands there, nor two things that are always there,
+// make a walk.
+bool moves(const WindowScore& score, const Sighting& line, size_t frames, double dt) {
   const Sighting still{line.position + 0.5 * dt * double(frames - 1) * line.velocity,
                        Vector2d::Zero()};
-  return worst_score(score, line, frames, stride, dt) -
-         std::max(0.0, worst_score(score, still, frames, stride, dt));
+  const double heading = heading_of(line);
+  return mean_of_worst_third(scores_along(score, line, heading, frames, 1, dt)) >
+         std::max(0.0, mean_of_worst_third(scores_along(score, still, heading, frames, 1, dt)));
 }
 
 // Lines through a candidate of an early and one of a late frame, at a walking speed.
@@ -91,19 +119,37 @@ std::vector<Walk> proposed_walks(std::span<const std::vector<Place>> candidates,
   return walks;
 }
 
-// Climbs by a shrinking pattern of shifts of the line's two ends, down to a centimetre.
-Walk refined(Walk walk, const WindowScore& score, size_t frames, double dt) {
+// The pattern of a climb: shifts of the line's two ends, metres. The score is a ridge along the
+// viewing rays, so the pattern lies along and across them.
+struct Shift {
+  Vector2d begin, end;
+};
+
+std::vector<Shift> shifts(const Vector2d& ray) {
+  const Vector2d across(-ray.y(), ray.x()), none = Vector2d::Zero();
+  std::vector<Shift> out;
+  for (const Vector2d& axis : {ray, across}) {
+    for (const double sign : {1.0, -1.0}) {
+      const Vector2d shift = sign * axis;
+      out.insert(out.end(), {{shift, shift}, {shift, none}, {none, shift}, {shift, -shift}});
+    }
+  }
+  return out;
+}
+
+// Climbs by a shrinking pattern, down to a centimetre.
+Walk refined(Walk walk, const WindowScore& score, size_t frames, double dt, const Vector2d& eye) {
   const double time = dt * double(frames - 1);
+  const size_t stride = std::max<size_t>(1, frames / kScored);
+  walk.score = line_score(score, walk.line, frames, stride, dt);
+  const std::vector<Shift> pattern = shifts((walk.line.position - eye).normalized());
   for (double step = 0.24; step > 0.01; step *= 0.5) {
     for (bool better = true; better;) {
       better = false;
-      for (int direction = 0; direction < 8; ++direction) {
-        const Vector2d shift = (direction % 2 == 0 ? step : -step) *
-                               (direction / 2 % 2 == 0 ? Vector2d::UnitX() : Vector2d::UnitY());
-        Sighting line = walk.line;
-        if (direction < 4) line.position += shift;
-        line.velocity += (direction < 4 ? -shift : shift) / time;
-        const double value = walking_score(score, line, frames, 1, dt);
+      for (const Shift& shift : pattern) {
+        const Sighting line{walk.line.position + step * shift.begin,
+                            walk.line.velocity + step / time * (shift.end - shift.begin)};
+        const double value = line_score(score, line, frames, stride, dt);
         if (value <= walk.score) continue;
         walk = {line, value};
         better = true;
@@ -116,12 +162,17 @@ Walk refined(Walk walk, const WindowScore& score, size_t frames, double dt) {
 // Nobody hidden or cut off: the score never falls far below its median.
 bool seen_throughout(const Walk& walk, const WindowScore& score, size_t frames, double dt,
                      const SightingConfig& config) {
-  std::vector<double> scores;
-  for (size_t f = 0; f < frames; ++f)
-    scores.push_back(score(f, walk.line.position + dt * double(f) * walk.line.velocity));
+  std::vector<double> scores = scores_along(score, walk.line, heading_of(walk.line), frames, 1, dt);
   const double least = *std::min_element(scores.begin(), scores.end());
   std::nth_element(scores.begin(), scores.begin() + long(scores.size() / 2), scores.end());
   return least >= config.least_score && least >= config.complete * scores[scores.size() / 2];
+}
+
+bool walks_on(const Walk& walk, const WindowScore& score, size_t frames, double dt,
+              const SightingConfig& config) {
+  const double speed = walk.line.velocity.norm();
+  return speed >= config.slowest && speed <= config.fastest &&
+         moves(score, walk.line, frames, dt) && seen_throughout(walk, score, frames, dt, config);
 }
 
 }  // namespace
@@ -129,23 +180,6 @@ bool seen_throughout(const Walk& walk, const WindowScore& score, size_t frames, 
 double side_on_heading(const Camera& camera, const Vector2d& position) {
   const Vector3d eye = camera_centre(camera);
   return std::atan2(position.y() - eye.y(), position.x() - eye.x()) + 0.5 * kPi;
-}
-
-std::array<std::vector<PosedPart>, 3> upright_figures(const Body& body, const Vector2d& position,
-                                                      double heading) {
-  std::array<std::vector<PosedPart>, 3> figures;
-  const double leg = body.lengths.thigh + body.lengths.shank;
-  for (size_t k = 0; k < 3; ++k) {
-    const double spread = rad_from_deg(12.0 * double(k));  // of either leg from the vertical
-    Pose pose;
-    pose.heading = heading;
-    pose.root =
-        Vector3d(position.x(), position.y(), leg * std::cos(spread) + body.lengths.ankle_height);
-    pose.legs[0].hip_flexion = spread;
-    pose.legs[1].hip_flexion = -spread;
-    pose_parts(body, forward_kinematics(body, pose), figures[k]);
-  }
-  return figures;
 }
 
 std::vector<Vector2d> standing_places(std::span<const Camera> cameras, double height,
@@ -183,27 +217,26 @@ std::vector<Place> find_figures(const PlaceScore& score, std::span<const Vector2
 }
 
 std::optional<Sighting> find_walk(std::span<const std::vector<Place>> candidates,
-                                  const WindowScore& score, double dt, const SightingConfig& config,
-                                  int threads) {
+                                  const WindowScore& score, double dt, const Vector2d& eye,
+                                  const SightingConfig& config, int threads) {
   constexpr size_t kRefined = 4, kStride = 3;
   const size_t frames = candidates.size();
   std::vector<Walk> walks = proposed_walks(candidates, dt, config);
   if (walks.empty()) return std::nullopt;
   parallel_for(walks.size(), threads, [&](size_t i) {
-    walks[i].score = walking_score(score, walks[i].line, frames, kStride, dt);
+    walks[i].score = line_score(score, walks[i].line, frames, kStride, dt);
   });
+  std::erase_if(walks, [&](const Walk& walk) { return walk.score < config.least_score; });
   std::stable_sort(walks.begin(), walks.end(),
                    [](const Walk& a, const Walk& b) { return a.score > b.score; });
   walks.resize(std::min(walks.size(), kRefined));
-  parallel_for(walks.size(), threads, [&](size_t i) {
-    walks[i].score = walking_score(score, walks[i].line, frames, 1, dt);
-    walks[i] = refined(walks[i], score, frames, dt);
-  });
+  parallel_for(walks.size(), threads,
+               [&](size_t i) { walks[i] = refined(walks[i], score, frames, dt, eye); });
+  std::erase_if(walks,
+                [&](const Walk& walk) { return !walks_on(walk, score, frames, dt, config); });
+  if (walks.empty()) return std::nullopt;
   const Walk& best = *std::max_element(
       walks.begin(), walks.end(), [](const Walk& a, const Walk& b) { return a.score < b.score; });
-  const double speed = best.line.velocity.norm();
-  if (speed < config.slowest || speed > config.fastest) return std::nullopt;
-  if (!seen_throughout(best, score, frames, dt, config)) return std::nullopt;
   return best.line;
 }
 

@@ -6,7 +6,6 @@
 // scored on all frames and refined.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -14,20 +13,18 @@
 
 #include <Eigen/Core>
 
-#include "body/body.h"
-#include "body/kinematics.h"
 #include "camera/camera.h"
 
 namespace walktrack {
 
 struct SightingConfig {
-  double window = 0.8;      // s of film that a walk is read from
-  double slowest = 0.35;    // m/s: who is slower is not walking
-  double fastest = 3.0;     // m/s
-  double complete = 0.75;   // no frame's score below this share of the window's median
-  double least_score = 25;  // nats, of the figure in any frame
-  int candidates = 10;      // places of a frame that lines are laid through
-  int grid_px = 8;          // spacing of the pixel grid at 640 px of image width
+  double window = 0.8;     // s of film that a walk is read from
+  double slowest = 0.35;   // m/s: who is slower is not walking
+  double fastest = 3.0;    // m/s
+  double complete = 0.5;   // no frame's score below this share of the window's median
+  double least_score = 6;  // nats, of the figure in any frame
+  int candidates = 10;     // places of a frame that lines are laid through
+  int grid_px = 8;         // spacing of the pixel grid at 640 px of image width
 };
 
 // Where the person was and how they moved, on the ground, metres and m/s.
@@ -41,16 +38,10 @@ struct Place {
   double score;  // nats
 };
 
-// Log-likelihood ratio of the upright figure over a ground point, all cameras together, nats.
+// Log-likelihood ratio of the walking figure over a ground point, all cameras together, nats.
 using PlaceScore = std::function<double(const Eigen::Vector2d&)>;
-// The same in one frame of a window.
-using WindowScore = std::function<double(size_t frame, const Eigen::Vector2d&)>;
-
-// Upright figures over a ground point, walking along `heading`, with the legs together, halfway and
-// fully apart: one of them resembles a walker in any frame.
-std::array<std::vector<PosedPart>, 3> upright_figures(const Body& body,
-                                                      const Eigen::Vector2d& position,
-                                                      double heading);
+// The same in one frame of a window, the figure walking along a heading, rad.
+using WindowScore = std::function<double(size_t frame, const Eigen::Vector2d&, double heading)>;
 
 // The heading that shows a figure over `position` side on to the camera.
 double side_on_heading(const Camera& camera, const Eigen::Vector2d& position);
@@ -65,9 +56,10 @@ std::vector<Place> find_figures(const PlaceScore& score, std::span<const Eigen::
                                 const SightingConfig& config, int threads);
 
 // The walk through the window's frames, dt apart, given each frame's candidates; nullopt when
-// nobody walks there, is cut off by an edge or hidden in part of the frames.
+// nobody walks there, is cut off by an edge or hidden in part of the frames. `eye`: where the
+// camera stands that sees the distance least (any, if several do).
 std::optional<Sighting> find_walk(std::span<const std::vector<Place>> candidates,
-                                  const WindowScore& score, double dt, const SightingConfig& config,
-                                  int threads);
+                                  const WindowScore& score, double dt, const Eigen::Vector2d& eye,
+                                  const SightingConfig& config, int threads);
 
 }  // namespace walktrack

@@ -75,13 +75,9 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
 
 NoiseScale start_scale(const StartConfig& config, const NoiseScale& frame) {
   NoiseScale scale = frame;
-  scale.planar = std::max(frame.planar, rad_from_deg(3));
+  for (int k = 0; k < kExtraCount; ++k)
+    scale.extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).spread;
   scale.extra[kHeading] = rad_from_deg(config.heading_deg);
-  for (const int k : {int{kList}, int{kAbduction}, kAbduction + 1, int{kRotation}, kRotation + 1,
-                      int{kAnkle}, kAnkle + 1})
-    scale.extra[static_cast<size_t>(k)] = rad_from_deg(4);
-  for (int k = kShoulder; k < kExtraCount; ++k)
-    scale.extra[static_cast<size_t>(k)] = rad_from_deg(15);
   return scale;
 }
 

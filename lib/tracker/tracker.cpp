@@ -29,6 +29,7 @@ Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig
       seed_(seed),
       threads_(threads),
       frame_scale_(noise_scale(config.motion, scene_.model, scene_.dt)),
+      figures_(walking_figures(scene_.model, prior)),
       filter_(config.filter, seed, threads) {}
 
 std::vector<FrameRecord> Tracker::push(const SceneEvidence& evidence) {
@@ -68,20 +69,20 @@ void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& ou
   }
   if (places_.empty())
     places_ = standing_places(scene_.cameras, scene_.model.body.subject.height, config_.sighting);
-  const auto heading = [&](const Eigen::Vector2d& place) {
-    return side_on_heading(scene_.cameras[0], place);
-  };
   const auto score = [&](const Eigen::Vector2d& place) {
-    return place_score(scene_, evidence, place, heading(place));
+    // Half of the figures, half a step, will do for a first look.
+    return place_score(scene_, evidence, {figures_.data(), figures_.size() / 2}, place,
+                       side_on_heading(scene_.cameras[0], place));
   };
   candidates_.push_back(find_figures(score, places_, config_.sighting, threads_));
   window_.push_back(evidence);
   if (static_cast<int>(window_.size()) < frames_in(config_.sighting.window, scene_.dt)) return;
-  const auto window_score = [&](size_t frame, const Eigen::Vector2d& place) {
-    return place_score(scene_, window_[frame], place, heading(place));
+  const auto window_score = [&](size_t frame, const Eigen::Vector2d& place, double heading) {
+    return place_score(scene_, window_[frame], figures_, place, heading);
   };
-  const auto sighting = find_walk(std::vector(candidates_.begin(), candidates_.end()), window_score,
-                                  scene_.dt, config_.sighting, threads_);
+  const auto sighting =
+      find_walk(std::vector(candidates_.begin(), candidates_.end()), window_score, scene_.dt,
+                camera_centre(scene_.cameras[0]).head<2>(), config_.sighting, threads_);
   if (!sighting) {
     window_.pop_front();
     candidates_.pop_front();
@@ -164,7 +165,7 @@ void Tracker::settle(std::vector<FrameRecord>& out) {
 void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
   FrameRecord record = advance(filter_, evidence, seed_, false);
   ++frame_;
-  if (record.filter.all_dead || fading(record.support)) {
+  if (record.filter.all_dead || fading(record.support, figure_score(evidence, record.estimate))) {
     record.tracked = false;
     ++losses_;
     supports_.clear();
@@ -209,12 +210,20 @@ FrameRecord Tracker::advance(Filter& filter, const SceneEvidence& evidence, uint
   return record;
 }
 
-// Whether the likelihood has stayed far below its own recent median for too long.
-bool Tracker::fading(double support) {
+// What a figure out of the gait's book would score where the walker is believed to be.
+double Tracker::figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const {
+  return place_score(scene_, evidence, figures_, estimate.pose.root.head<2>(),
+                     estimate.pose.heading);
+}
+
+// Whether the likelihood has stayed for too long far below its own recent median, or below that of
+// a mere figure: then the legs are not where they are believed to be.
+bool Tracker::fading(double support, double figure) {
   std::vector<double> past(supports_.begin(), supports_.end());
   std::nth_element(past.begin(), past.begin() + static_cast<long>(past.size() / 2), past.end());
   const double median = past[past.size() / 2];
-  frames_below_ = support < config_.lost_below * median ? frames_below_ + 1 : 0;
+  const bool bad = support < std::max(config_.lost_below * median, figure);
+  frames_below_ = bad ? frames_below_ + 1 : 0;
   // Bad frames do not become the measure of good ones.
   if (frames_below_ == 0) supports_.push_back(support);
   if (static_cast<int>(supports_.size()) > frames_in(config_.recall, scene_.dt))

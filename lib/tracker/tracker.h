@@ -3,7 +3,8 @@
 //   searching: look for a walk in a sliding window of frames         (tracker/sighting.h)
 //   starting:  hypotheses over phase and side compete for a while    (tracker/start.h)
 //   tracking:  for every frame: propagate, weigh, resample, estimate (filter/particle_filter.h)
-//   lost:      the likelihood fell far below its own past; search again
+//   lost:      the likelihood fell far below its own past, or below that of a figure that merely
+//              stands in the same place; search again
 //
 // Frames before the walk was found, and while it was lost, are reported as not tracked. Searching
 // looks a window ahead, so records come out late at first and one for one afterwards.
@@ -74,7 +75,8 @@ class Tracker {
   void settle(std::vector<FrameRecord>& out);
   void track(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   FrameRecord advance(Filter& filter, const SceneEvidence& evidence, uint64_t seed, bool first);
-  bool fading(double support);
+  double figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const;
+  bool fading(double support, double figure);
 
   TrackerScene scene_;
   const GaitPrior& prior_;
@@ -85,6 +87,7 @@ class Tracker {
 
   Mode mode_ = Mode::kSearching;
   uint32_t frame_ = 0;  // of the next evidence to be worked on
+  std::vector<Pose> figures_;
   std::vector<Eigen::Vector2d> places_;
   std::deque<SceneEvidence> window_;
   std::deque<std::vector<Place>> candidates_;

@@ -36,7 +36,7 @@ struct Film {
 Film film(const std::function<double(size_t, const Eigen::Vector2d&)>& score) {
   const std::vector<Camera> cameras{side_camera()};
   const auto places = standing_places(cameras, 1.75, {});
-  Film out{{}, score};
+  Film out{{}, [=](size_t f, const Eigen::Vector2d& p, double) { return score(f, p); }};
   for (size_t f = 0; f < 24; ++f)
     out.candidates.push_back(
         find_figures([&](const Eigen::Vector2d& p) { return score(f, p); }, places, {}, 1));
@@ -61,7 +61,7 @@ TEST(FindWalk, FindsAWalkerBetweenThingsThatStandStill) {
   const Film f = film([](size_t frame, const Eigen::Vector2d& p) {
     return bell(p, walker_at(frame), 100) + bell(p, {0.8, 1.8}, 120);
   });
-  const auto walk = find_walk(f.candidates, f.score, kDt, {}, 1);
+  const auto walk = find_walk(f.candidates, f.score, kDt, {0, -6}, {}, 1);
   ASSERT_TRUE(walk);
   EXPECT_LT((walk->position - walker_at(0)).norm(), 0.03);  // the search ends at 1 cm steps
   EXPECT_NEAR(walk->velocity.x(), 1.3, 0.06);
@@ -70,23 +70,23 @@ TEST(FindWalk, FindsAWalkerBetweenThingsThatStandStill) {
 
 TEST(FindWalk, NobodyWalks) {
   const Film empty = film([](size_t, const Eigen::Vector2d&) { return -5.0; });
-  EXPECT_FALSE(find_walk(empty.candidates, empty.score, kDt, {}, 1));
+  EXPECT_FALSE(find_walk(empty.candidates, empty.score, kDt, {0, -6}, {}, 1));
   const Film still = film([](size_t, const Eigen::Vector2d& p) { return bell(p, {0, 1}, 100); });
-  EXPECT_FALSE(find_walk(still.candidates, still.score, kDt, {}, 1));
+  EXPECT_FALSE(find_walk(still.candidates, still.score, kDt, {0, -6}, {}, 1));
 }
 
 TEST(FindWalk, AWalkerHiddenInPartOfTheFramesIsNotThereYet) {
   const Film f = film([](size_t frame, const Eigen::Vector2d& p) {
     return frame < 8 ? -1.0 : bell(p, walker_at(frame), 100);
   });
-  EXPECT_FALSE(find_walk(f.candidates, f.score, kDt, {}, 1));
+  EXPECT_FALSE(find_walk(f.candidates, f.score, kDt, {0, -6}, {}, 1));
 }
 
 TEST(FindWalk, ThreadsDoNotMatter) {
   const Film f =
       film([](size_t frame, const Eigen::Vector2d& p) { return bell(p, walker_at(frame), 100); });
-  const auto one = find_walk(f.candidates, f.score, kDt, {}, 1);
-  const auto many = find_walk(f.candidates, f.score, kDt, {}, 8);
+  const auto one = find_walk(f.candidates, f.score, kDt, {0, -6}, {}, 1);
+  const auto many = find_walk(f.candidates, f.score, kDt, {0, -6}, {}, 8);
   ASSERT_TRUE(one && many);
   EXPECT_EQ(one->position, many->position);
   EXPECT_EQ(one->velocity, many->velocity);
