@@ -1,5 +1,5 @@
-// Finding a walking person before any tracking: along which straight line over the ground does an
-// upright figure of the subject's size best explain the foreground of a short stretch of film?
+// Finding a walking person before any tracking: along which straight line over the ground does a
+// walking figure of the subject's size best explain the foreground of a short stretch of film?
 //
 // One frame of one camera hardly tells how far away somebody is; a stretch of walking does, because
 // one speed and one size must fit every frame. Candidates of two frames propose lines, which are
