@@ -98,6 +98,38 @@ INSTANTIATE_TEST_SUITE_P(
         GarciaRow{.009, .193937370, -.203866927, 3.0961059, {4.00386, 0}, {.45959, 0}},
         GarciaRow{.015, .236712185, -.231546131, 3.9120039, {-.98046, 0}, {-.30420, 0}}));
 
+// Step angle grows like the cube root of the slope: .3287 on doubly logarithmic paper from .004 to
+// .012 (least squares over nine slopes; printed to four digits).
+TEST(GarciaFamily, StepAngleGrowsLikeTheCubeRootOfTheSlope) {
+  constexpr int kSlopes = 9;
+  double x = 0, y = 0, xx = 0, xy = 0, theta = .153389565, theta_rate = -.156080147;
+  for (int k = 0; k < kSlopes; ++k) {
+    const double slope = .004 + .001 * k;
+    const LinkageWalker walker(straight_legged(garcia(slope)));
+    const GaitCycle gait = gait_near(walker, garcia_guess(theta, theta_rate));
+    theta = -gait.start.q(0);
+    theta_rate = -gait.start.qd(0);
+    const double u = std::log(slope), v = std::log(theta);
+    x += u, y += v, xx += u * u, xy += u * v;
+  }
+  EXPECT_NEAR((kSlopes * xy - x * y) / (kSlopes * xx - x * x), .3287, 5e-4);
+}
+
+// Gaits of one step are stable up to .0151; there a multiplier leaves the unit circle through -1,
+// where gaits of two steps begin.
+TEST(GarciaFamily, LosesItsStabilityByPeriodDoublingAtTheSlopePrinted) {
+  const auto first_multiplier = [](double slope) {
+    const LinkageWalker walker(straight_legged(garcia(slope)));
+    return gait_near(walker, garcia_guess(.2367, -.2315)).cycle.multipliers(0);
+  };
+  for (const auto& [slope, stable] : {std::pair{.0150, true}, std::pair{.0152, false}}) {
+    const complex<double> first = first_multiplier(slope);
+    EXPECT_NEAR(first.imag(), 0, 1e-9);
+    EXPECT_LT(first.real(), 0);
+    EXPECT_EQ(std::abs(first) < 1, stable) << slope;
+  }
+}
+
 struct StraightRow {
   const char* name;
   StraightLeggedParameters parameters;
