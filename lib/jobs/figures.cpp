@@ -67,7 +67,7 @@ void add_angle_errors(const Motion& truth, const Motion& estimate, Figures& out)
 }
 
 void add_gait(const std::string& prefix, const std::string& of, const Gait& gait, Figures& out) {
-  const bool steps = gait.steps > 0;
+  const bool steps = !gait.steps.empty();
   out.add(prefix + "speed_m_s", "speed" + of + ", m/s", gait.speed, 3);
   out.add(prefix + "step_length_m", "mean step" + of + ", m", steps ? gait.mean_step_length : kNone,
           3);
@@ -75,7 +75,7 @@ void add_gait(const std::string& prefix, const std::string& of, const Gait& gait
           gait.mean_step_time > 0 ? gait.mean_step_time : kNone, 3);
   out.add(prefix + "step_width_m", "mean step width" + of + ", m",
           steps ? gait.mean_step_width : kNone, 3);
-  out.add(prefix + "steps", "steps" + of, static_cast<double>(gait.steps), 0);
+  out.add(prefix + "steps", "steps" + of, static_cast<double>(gait.steps.size()), 0);
 }
 
 void add_gait_errors(const Gait& truth, const Gait& estimate, Figures& out) {

@@ -1,8 +1,11 @@
 #include "jobs/track_results.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
+#include "io/gait_file.h"
 #include "io/motion_file.h"
 #include "io/opensim.h"
 #include "io/overlay.h"
@@ -62,6 +65,46 @@ JointUncertainty uncertainty_of(const TrackedFrames& frames) {
   return out;
 }
 
+std::vector<Motion> ensemble_of(const TrackedFrames& frames) {
+  size_t members = 0;
+  for (const FrameRecord& record : frames.records) {
+    if (record.tracked) members = record.samples.size();
+  }
+  std::vector<Motion> out(members);
+  for (size_t i = 0; i < frames.records.size(); ++i) {
+    const FrameRecord& record = frames.records[i];
+    for (size_t m = 0; m < members; ++m) {
+      out[m].time.push_back(time_of(frames, i));
+      out[m].joints.push_back(unknown_joints());
+      if (!record.tracked) continue;
+      for (size_t j = 0; j < record.estimate.joint_count; ++j)
+        out[m].joints.back().at[j] = record.samples[m].at[j];
+    }
+  }
+  return out;
+}
+
+std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames) {
+  // The transfer is dated some frames after it, when the images have told the particles apart.
+  constexpr double kHindsight = 0.1;  // s
+  const auto later = static_cast<size_t>(std::lround(kHindsight * frames.frame_rate));
+  const auto stands_left = [&](size_t i) { return frames.records[i].estimate.left_stance > 0.5; };
+  std::vector<SupportTransfer> out;
+  for (size_t i = 1; i < frames.records.size(); ++i) {
+    if (!frames.records[i].tracked || !frames.records[i - 1].tracked) continue;
+    if (stands_left(i) == stands_left(i - 1)) continue;
+    size_t at = i;
+    while (at < i + later && at + 1 < frames.records.size() && frames.records[at + 1].tracked &&
+           stands_left(at + 1) == stands_left(i))
+      ++at;
+    const Spread& since = frames.records[at].estimate.since_transfer;
+    const double now = time_of(frames, at);
+    out.push_back({stands_left(i) ? Side::kLeft : Side::kRight,
+                   {now - since.mean, now - since.p95, now - since.p05}});
+  }
+  return out;
+}
+
 std::string write_tables(const TrackedFrames& frames, const WorldFrame& world,
                          const ResultFolder& folder) {
   const Motion motion = motion_of(frames);
@@ -70,6 +113,9 @@ std::string write_tables(const TrackedFrames& frames, const WorldFrame& world,
   folder.write("joints.csv", joints);
   folder.write("uncertainty.csv", uncertainty);
   folder.write("joints.trc", trc_from_motion(motion, frames.frame_rate, "joints.trc"));
+  const GaitTable gait = gait_table(motion, ensemble_of(frames), support_transfers_of(frames));
+  folder.write("gait.json", gait_json(gait));
+  folder.write("gait.csv", gait_csv(gait));
   std::vector<double> times;
   std::vector<Pose> poses;
   for (size_t i = 0; i < frames.records.size(); ++i) {

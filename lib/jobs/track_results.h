@@ -8,6 +8,7 @@
 #include "io/result_folder.h"
 #include "jobs/track.h"
 #include "metrics/coverage.h"
+#include "metrics/gait_table.h"
 #include "tracker/tracker.h"
 
 namespace walktrack {
@@ -20,6 +21,11 @@ struct TrackedFrames {
 
 Motion motion_of(const TrackedFrames& frames);
 JointUncertainty uncertainty_of(const TrackedFrames& frames);
+// Motions that the particles hold for possible: one of each place in the order in which resampling
+// keeps families of particles together, so that a member is mostly one family's history.
+std::vector<Motion> ensemble_of(const TrackedFrames& frames);
+// When the walkers' weight changed onto a foot.
+std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames);
 
 // Writes the tables and returns the digest of joints.csv and uncertainty.csv.
 std::string write_tables(const TrackedFrames& frames, const WorldFrame& world,

@@ -190,16 +190,18 @@ void add_steps(const Motion& motion, Gait& gait) {
     const Vector2d way = direction_between(motion, 0.5 * (a.on + a.off), 0.5 * (b.on + b.off));
     if (!way.allFinite() || way.isZero()) continue;
     const Vector2d step = b.place - a.place;
-    length += way.dot(step);
-    width += std::abs(way.x() * step.y() - way.y() * step.x());
-    ++gait.steps;
+    gait.steps.push_back(
+        {i - 1, i, way.dot(step), std::abs(way.x() * step.y() - way.y() * step.x()), std::nullopt});
+    length += gait.steps.back().length;
+    width += gait.steps.back().width;
     if (!a.starts_in_motion || !b.starts_in_motion) continue;
+    gait.steps.back().time = b.on - a.on;
     time += b.on - a.on;
     ++timed;
   }
-  if (gait.steps > 0) {
-    gait.mean_step_length = length / static_cast<double>(gait.steps);
-    gait.mean_step_width = width / static_cast<double>(gait.steps);
+  if (!gait.steps.empty()) {
+    gait.mean_step_length = length / static_cast<double>(gait.steps.size());
+    gait.mean_step_width = width / static_cast<double>(gait.steps.size());
   }
   if (timed > 0) gait.mean_step_time = time / static_cast<double>(timed);
 }

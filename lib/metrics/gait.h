@@ -34,15 +34,22 @@ struct Stance {
   Eigen::Vector2d place;  // where (ankle + toe) / 2 stands: mean over the middle of the stance
 };
 
+// From a stance to the next one of the other foot; indices of Gait::stances.
+struct Step {
+  size_t from, to;
+  double length, width;        // m, along and across the direction of walking
+  std::optional<double> time;  // s, between the strikes where both are events
+};
+
 struct Gait {
   std::vector<GaitEvent> events;  // by time
   std::vector<Stance> stances;    // by time of `on`, then `off`
   double speed = 0;               // m/s, length of the smoothed path of the pelvis over its time
-  size_t steps = 0;               // pairs of successive stances of opposite feet
-  double mean_step_length = 0;    // m, along the direction of walking; 0 without steps
-  double mean_step_time = 0;      // s, between their strikes; 0 without
-  double mean_step_width = 0;     // m, across the direction of walking
-  double stance_share = 0;        // of the stride, over strides with both ends seen; 0 without
+  std::vector<Step> steps;
+  double mean_step_length = 0;  // m, along the direction of walking; 0 without steps
+  double mean_step_time = 0;    // s, between their strikes; 0 without
+  double mean_step_width = 0;   // m, across the direction of walking
+  double stance_share = 0;      // of the stride, over strides with both ends seen; 0 without
 };
 
 Gait gait_from_motion(const Motion& motion);

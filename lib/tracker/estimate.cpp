@@ -31,6 +31,26 @@ void add_pose(const Pose& pose, double weight, double reference_heading, Pose& s
   }
 }
 
+// Walkers run by their own clocks: the pace turns the walker's time into the person's.
+double since_transfer(const WalkerParticle& particle) {
+  return particle.walker.since_transfer / std::exp(particle.extra_before[kPace]);
+}
+
+// Over the particles that stand on `side`, one at least.
+Spread since_transfer(std::span<const WalkerParticle> particles, std::span<const double> weights,
+                      Side side) {
+  std::vector<double> values, shares;
+  double total = 0;
+  for (size_t i = 0; i < particles.size(); ++i) {
+    if (particles[i].stance != side || weights[i] == 0) continue;
+    values.push_back(since_transfer(particles[i]));
+    shares.push_back(weights[i]);
+    total += weights[i];
+  }
+  for (double& share : shares) share /= total;
+  return weighted_spread(values, shares);
+}
+
 }  // namespace
 
 Spread weighted_spread(std::span<const double> values, std::span<const double> weights) {
@@ -85,6 +105,8 @@ FrameEstimate estimate_frame(const BodyModel& model, std::span<const WalkerParti
     out.speed += weights[i] * moved.head<2>().norm() / dt;
   }
   out.pose.heading += reference;
+  out.since_transfer =
+      since_transfer(particles, weights, out.left_stance > 0.5 ? Side::kLeft : Side::kRight);
   return out;
 }
 

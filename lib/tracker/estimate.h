@@ -21,7 +21,9 @@ struct FrameEstimate {
   std::array<std::array<Spread, 3>, kJointCount> spread{};  // by joint and axis
   Pose pose;                                                // weighted means of the pose's numbers
   double left_stance = 0;  // probability that the left foot carries the body
-  double speed = 0;        // m/s over the ground, mean
+  // s, from when the likelier of the feet took over the body's weight until now
+  Spread since_transfer;
+  double speed = 0;  // m/s over the ground, mean
 };
 
 // Weights sum to one. Joints that the body does not model stay at zero.

@@ -68,6 +68,9 @@ TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {
   EXPECT_GT(outcome.tracked, 30);
   const Motion truth = read_motion(kDemo / "truth.csv");
   const Motion found = read_motion(folder_ / "demo/joints.csv");
+  const auto gait =
+      nlohmann::json::parse(read_text_file(folder_ / "demo/gait.json", size_t{1} << 20));
+  EXPECT_GE(gait.at("contacts").size(), 2u);  // 1.3 s are two steps
   // Two views fix the place; 60 particles still leave the limbs a hand's breadth or two off.
   EXPECT_LT(joint_errors(truth, found).by_joint[size_t(Joint::kPelvis)].median, 0.15);
 }

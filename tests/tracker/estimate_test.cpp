@@ -44,6 +44,23 @@ TEST(EstimateFrame, OfOneParticleIsItsPose) {
   EXPECT_NEAR(e.pose.heading, particles[0].pose.heading, 1e-12);
 }
 
+// Walkers on the less likely foot have no say, and a quick walker's clock is turned back.
+TEST(EstimateFrame, DatesTheTransferByThoseWhoStandOnTheLikelierFoot) {
+  const Walking walking;
+  const MotionContext context = walking.context(1.0 / 30);
+  auto particles = walkers(context, 1.2, 3);
+  const std::vector<double> since{0.10, 0.20, 0.90};
+  for (size_t i = 0; i < 3; ++i) {
+    particles[i].walker.since_transfer = since[i];
+    particles[i].stance = i < 2 ? Side::kRight : Side::kLeft;
+    particles[i].extra_before[kPace] = i == 1 ? std::log(2.0) : 0;
+  }
+  const std::vector<double> weights{0.3, 0.3, 0.4};
+  const FrameEstimate e = estimate_frame(walking.model, particles, weights, context.dt, 1);
+  EXPECT_NEAR(e.since_transfer.mean, 0.10, 1e-12);
+  EXPECT_NEAR(e.since_transfer.p95, 0.10, 1e-12);
+}
+
 TEST(EstimateFrame, ThreadsDoNotMatter) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);

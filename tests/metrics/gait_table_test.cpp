@@ -1,0 +1,116 @@
+#include "metrics/gait_table.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "test_walk.h"
+
+namespace walktrack {
+namespace {
+
+// Foot positions are smooth between frames, so strikes read off them are at most this far from the
+// made ones (gait_test.cpp measures it), and differences of strikes much less.
+constexpr double kTiming = 0.01;  // s
+
+TEST(GaitTable, RowsOfAMadeWalkAreThatWalk) {
+  const TestWalk walk;
+  const GaitTable table = gait_table(walk_motion(walk), {}, {});
+  ASSERT_GT(table.contacts.size(), 7u);
+  size_t strides = 0;
+  // At the start both feet stand already, so the first step between strikes ends in the fourth row.
+  for (size_t i = 3; i + 3 < table.contacts.size(); ++i) {
+    const auto& at = table.contacts[i].at;
+    EXPECT_NE(table.contacts[i].side, table.contacts[i - 1].side);
+    EXPECT_NEAR(at[kStepLength].value, walk.speed * walk.step_time, 1e-3);
+    EXPECT_NEAR(at[kStepWidth].value, walk.step_width, 1e-3);
+    EXPECT_NEAR(at[kStepTime].value, walk.step_time, kTiming);
+    EXPECT_NEAR(at[kStrideLength].value, 2 * walk.speed * walk.step_time, 1e-3);
+    EXPECT_NEAR(at[kStrideTime].value, 2 * walk.step_time, kTiming);
+    EXPECT_NEAR(at[kStrideSpeed].value, walk.speed, 0.02);
+    EXPECT_NEAR(at[kStanceShare].value + at[kSwingShare].value, 100, 1e-9);
+    // Both feet together stand 2 x stance of a stride, which without flight is one stride and what
+    // they share.
+    EXPECT_NEAR(at[kDoubleSupportShare].value, 2 * at[kStanceShare].value - 100, 1);
+    ++strides;
+  }
+  EXPECT_GE(strides, 3u);
+  EXPECT_NEAR(table.both[kCadence].value, 60 / walk.step_time, 2);
+  EXPECT_NEAR(table.both[kSpeed].value, walk.speed, 0.01);
+  for (const Banded& each : table.symmetry) EXPECT_NEAR(each.value, 0, 2);
+  EXPECT_NEAR(table.both[kStepLengthSd].value, 0, 1e-3);
+}
+
+TEST(GaitTable, ContactsCutByTheEndsLackWhatTheyNeed) {
+  const GaitTable table = gait_table(walk_motion({}), {}, {});
+  EXPECT_TRUE(std::isnan(table.contacts.front().at[kFootStrike].value));
+  EXPECT_TRUE(std::isnan(table.contacts.front().at[kStepLength].value));
+  EXPECT_TRUE(std::isnan(table.contacts.back().at[kStrideLength].value));
+}
+
+TEST(GaitTable, ALimpIsAnAsymmetryOfItsSide) {
+  // The right foot comes down 6 cm short: left steps are 12 cm longer than right ones.
+  const TestWalk walk;
+  const Motion limping = changed(walk_motion(walk), [](JointPositions& joints, size_t) {
+    joints[ankle(Side::kRight)].x() -= 0.06;
+    joints[toe(Side::kRight)].x() -= 0.06;
+  });
+  const GaitTable table = gait_table(limping, {}, {});
+  EXPECT_NEAR(table.left[kMeanStepLength].value - table.right[kMeanStepLength].value, 0.12, 5e-3);
+  EXPECT_NEAR(table.symmetry[kStepLengthSymmetry].value, 100 * 0.12 / (walk.speed * walk.step_time),
+              1);
+  const GaitTable mirrored = gait_table(
+      changed(limping, [](JointPositions& joints, size_t) { exchange_sides(joints); }), {}, {});
+  EXPECT_NEAR(mirrored.symmetry[kStepLengthSymmetry].value,
+              -table.symmetry[kStepLengthSymmetry].value, 1e-9);
+}
+
+// Members that differ by known amounts have bands of known widths.
+TEST(GaitTable, BandsAreTheMembersSpread) {
+  std::vector<Motion> members;
+  for (const double late : {-0.02, -0.01, 0.0, 0.01, 0.02}) {
+    members.push_back(walk_motion({}));
+    for (double& time : members.back().time) time += late;
+  }
+  const GaitTable table = gait_table(walk_motion({}), members, {});
+  const double sd = std::sqrt(2.5e-4);  // of the five numbers above
+  const auto& at = table.contacts[3].at;
+  EXPECT_NEAR(at[kFootStrike].p95 - at[kFootStrike].value, 1.6449 * sd, 1e-6);
+  EXPECT_NEAR(at[kFootStrike].value - at[kFootStrike].p05, 1.6449 * sd, 1e-6);
+  EXPECT_NEAR(at[kStepLength].p95 - at[kStepLength].p05, 0, 1e-9);
+  EXPECT_NEAR(table.both[kMeanStepTime].p95 - table.both[kMeanStepTime].p05, 0, 1e-9);
+}
+
+TEST(GaitTable, WithoutMostMembersThereIsNoBand) {
+  const Motion motion = walk_motion({});
+  std::vector<Motion> members(5, motion);
+  for (size_t m = 0; m < 3; ++m)
+    members[m] = changed(motion, [](JointPositions& joints, size_t) { joints = unknown_joints(); });
+  const GaitTable table = gait_table(motion, members, {});
+  EXPECT_TRUE(std::isfinite(table.contacts[3].at[kFootStrike].value));
+  EXPECT_TRUE(std::isnan(table.contacts[3].at[kFootStrike].p05));
+}
+
+TEST(GaitTable, TransfersGoToTheContactOfTheirFoot) {
+  const Motion motion = walk_motion({});
+  const GaitTable plain = gait_table(motion, {}, {});
+  const ContactRow& third = plain.contacts[3];
+  const double strike = third.at[kFootStrike].value;
+  const std::vector<SupportTransfer> transfers{
+      {other(third.side), {strike + 0.01, strike, strike + 0.02}},
+      {third.side, {strike + 0.05, strike + 0.04, strike + 0.06}},
+      {third.side, {strike + 0.1, strike, strike + 0.2}}};
+  const GaitTable table = gait_table(motion, {}, transfers);
+  EXPECT_EQ(table.contacts[3].at[kSupportTransfer].value, strike + 0.05);
+  EXPECT_TRUE(std::isnan(table.contacts[4].at[kSupportTransfer].value));
+}
+
+TEST(GaitTable, NobodyHasNoGait) {
+  const GaitTable table = gait_table({}, {}, {});
+  EXPECT_TRUE(table.contacts.empty());
+  EXPECT_EQ(table.steps, 0u);
+  EXPECT_TRUE(std::isnan(table.both[kSpeed].value));
+}
+
+}  // namespace
+}  // namespace walktrack
