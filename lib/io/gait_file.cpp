@@ -74,8 +74,8 @@ Json contacts_of(const GaitTable& table) {
 }
 
 constexpr std::array kNotes{
-    "foot_strike: the ankle is furthest ahead of the pelvis; toe_off: the toe is furthest behind "
-    "(Zeni et al. 2008). Strikes read so come up to 30 ms before the foot is loaded.",
+    "foot_strike: the ankle, once furthest ahead of the pelvis, has slowed to half of its speed; "
+    "toe_off: the toe is furthest behind the pelvis (after Zeni et al. 2008).",
     "support_transfer: when the walker model's weight changed onto this foot. The model has no "
     "double support, so it comes between the strike and the other foot's toe-off.",
     "p05, p95: value -/+ 1.645 standard deviations over the tracker's particles. They say how "

@@ -13,6 +13,7 @@ using Eigen::Vector2d;
 
 constexpr double kPathWindow = 0.5;      // s; about a step, so that sway and bounce average out
 constexpr double kMatchWithin = 0.25;    // s; under half of the shortest usual stride
+constexpr double kLanded = 0.5;          // of the pelvis's speed; see the header
 constexpr double kLeastProgress = 0.15;  // m/s; slower than any walk, the direction means nothing
 
 // Consecutive rows [begin, end) in which pelvis and feet are known.
@@ -111,8 +112,28 @@ std::vector<size_t> maxima(const std::vector<double>& signal) {
   return found;
 }
 
-void add_events(const Motion& motion, const Run& run, const std::vector<Vector2d>& direction,
-                Side side, std::vector<GaitEvent>& events) {
+// When the ankle, furthest ahead of the pelvis at row `i` of the run, has slowed down to kLanded of
+// the pelvis's speed; nullopt if the run ends before.
+std::optional<double> landing_time(const Motion& motion, const Run& run,
+                                   const std::vector<Vector2d>& path, Side side, size_t i) {
+  double before = 0;
+  for (size_t k = std::max<size_t>(i, 1); k + 1 < path.size(); ++k) {
+    const size_t row = run.begin + k;
+    const Vector2d pelvis = path[k + 1] - path[k - 1];
+    const Vector2d foot =
+        ground(motion.joints[row + 1][ankle(side)] - motion.joints[row - 1][ankle(side)]);
+    const double speed = foot.dot(pelvis) / pelvis.squaredNorm();
+    if (!(speed > kLanded)) {
+      const double share = before > kLanded ? (speed - kLanded) / (speed - before) : 0;
+      return motion.time[row] - share * (motion.time[row] - motion.time[row - 1]);
+    }
+    before = speed;
+  }
+  return std::nullopt;
+}
+
+void add_events(const Motion& motion, const Run& run, const std::vector<Vector2d>& path,
+                const std::vector<Vector2d>& direction, Side side, std::vector<GaitEvent>& events) {
   std::vector<double> ankle_ahead, toe_behind;
   for (size_t i = run.begin; i < run.end; ++i) {
     const JointPositions& joints = motion.joints[i];
@@ -121,8 +142,10 @@ void add_events(const Motion& motion, const Run& run, const std::vector<Vector2d
     ankle_ahead.push_back(way.dot(ground(joints[ankle(side)]) - pelvis));
     toe_behind.push_back(-way.dot(ground(joints[toe(side)]) - pelvis));
   }
-  for (const size_t i : maxima(ankle_ahead))
-    events.push_back({refined_time(motion, run, ankle_ahead, i), side, GaitEventKind::kFootStrike});
+  for (const size_t i : maxima(ankle_ahead)) {
+    const auto landed = landing_time(motion, run, path, side, i);
+    if (landed) events.push_back({*landed, side, GaitEventKind::kFootStrike});
+  }
   for (const size_t i : maxima(toe_behind))
     events.push_back({refined_time(motion, run, toe_behind, i), side, GaitEventKind::kToeOff});
 }
@@ -233,7 +256,7 @@ Gait gait_from_motion(const Motion& motion) {
     const std::vector<Vector2d> direction = directions(motion, run, path);
     std::vector<GaitEvent> events;
     for (const Side side : {Side::kLeft, Side::kRight})
-      add_events(motion, run, direction, side, events);
+      add_events(motion, run, path, direction, side, events);
     std::stable_sort(events.begin(), events.end(),
                      [](const GaitEvent& a, const GaitEvent& b) { return a.time < b.time; });
     for (const Side side : {Side::kLeft, Side::kRight})

@@ -8,9 +8,10 @@
 namespace walktrack {
 namespace {
 
-// The ankle is furthest ahead of the pelvis when the swinging foot slows down to the pelvis's
-// speed, 6 u (1 - u) (1 - stance) ^ -1 = 1, that is 7 % of the swing or 32 ms before the strike.
-constexpr double kEarly = 0.04;
+// The strike is read when the swinging foot has slowed down to half of the pelvis's speed, 6 u (1 -
+// u) / (1 - stance) = 1/2, that is 3.5 % of the swing or 15 ms before it stands; toe-offs when its
+// toe starts to gain on the pelvis, 32 ms after it left.
+constexpr double kEarly = 0.02, kLate = 0.04;
 
 TEST(Gait, ReadsTheNumbersThatTheWalkWasMadeOf) {
   for (const double heading : {0.0, 1.0, -2.5, kPi}) {
@@ -21,8 +22,8 @@ TEST(Gait, ReadsTheNumbersThatTheWalkWasMadeOf) {
     EXPECT_NEAR(gait.mean_step_length, walk.speed * walk.step_time, 1e-3);
     EXPECT_NEAR(gait.mean_step_time, walk.step_time, 1e-2);
     EXPECT_NEAR(gait.mean_step_width, walk.step_width, 1e-3);
-    // Both events of a stance come up to kEarly off, at opposite ends.
-    EXPECT_NEAR(gait.stance_share, walk.stance_share, 2 * kEarly / (2 * walk.step_time));
+    // Strikes come early and toe-offs late.
+    EXPECT_NEAR(gait.stance_share, walk.stance_share, (kEarly + kLate) / (2 * walk.step_time));
     EXPECT_GE(gait.steps.size(), 7u);
   }
 }
