@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "body/body.h"
+#include "kinetics/kinetics.h"
 #include "observation/config.h"
 #include "tracker/tracker.h"
 
@@ -31,6 +32,7 @@ struct Config {
   BodyGroups body;
   ObservationConfig observation;
   TrackerConfig tracker;
+  KineticsConfig kinetics;
   GateConfig gates;
 };
 

@@ -134,7 +134,11 @@ void add_track(ParameterTable& table) {
   t.number("lost_below", &T::lost_below, 0, 1, "share of the likelihood's median");
   t.number("lost_after", &T::lost_after, 0, 100, "time below it until the track is lost, s");
   t.number("recall", &T::recall, 0.1, 100, "past that the median is taken over, s");
-  t.integer("samples", &T::samples, 0, 1000, "particles of a frame drawn into the overlay");
+  t.integer("samples", &T::samples, 0, 1000,
+            "particles of a frame kept: the overlay's, and for bands");
+  using K = KineticsConfig;
+  ParameterGroup<K> k(table, "kinetics", "the forces behind the motion", &Config::kinetics);
+  k.number("cutoff_hz", &K::cutoff_hz, 0, 100, "joint centres are smoothed below it, Hz; 0: not");
   using G = GateConfig;
   ParameterGroup<G> g(table, "gates", "when a result is not good enough", &Config::gates);
   g.number("lost_share", &G::lost_share, 0, 1, "of the frames after the walker was found");

@@ -29,7 +29,7 @@ bool is_temporary(const std::string& name) {
 bool is_result_file(const std::string& name) {
   if (is_temporary(name)) return true;
   for (const char* known : {"joints.csv", "joints.trc", "angles.mot", "uncertainty.csv",
-                            "gait.json", "kinetics.csv", "report.html"}) {
+                            "angles.csv", "gait.json", "gait.csv", "kinetics.csv", "report.html"}) {
     if (name == known) return true;
   }
   return name.starts_with("overlay_") && name.ends_with(".mp4");

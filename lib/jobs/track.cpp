@@ -164,7 +164,7 @@ std::string_view status_word(TrackStatus status) {
   return "";
 }
 
-RunRecord record_of(const Run& run, const TrackOutcome& outcome, const std::string& digest,
+RunRecord record_of(const Run& run, const TrackOutcome& outcome, const WrittenTables& tables,
                     double seconds) {
   const TrackedFrames& frames = run.frames;
   const Counts counts = count(frames);
@@ -182,7 +182,12 @@ RunRecord record_of(const Run& run, const TrackOutcome& outcome, const std::stri
                  {"losses", double(run.tracker.losses())},
                  {"foot_changes", double(foot_changes(frames))},
                  {"fallen_particles", double(counts.fallen)},
-                 {"diverged_particles", double(counts.diverged)}};
+                 {"diverged_particles", double(counts.diverged)},
+                 {"distance_m", tables.totals.distance},
+                 {"positive_work_j", tables.totals.positive_work},
+                 {"negative_work_j", tables.totals.negative_work},
+                 {"cost_of_transport", tables.totals.cost_of_transport},
+                 {"peak_foot_load_body_weights", tables.totals.peak_load}};
   out.by_frame = {
       {"ess", by_frame(frames, [](const FrameRecord& r) { return r.filter.ess; })},
       {"log_evidence",
@@ -191,7 +196,7 @@ RunRecord record_of(const Run& run, const TrackOutcome& outcome, const std::stri
       {"left_stance",
        by_frame(frames, [](const FrameRecord& r) { return r.estimate.left_stance; })},
       {"speed", by_frame(frames, [](const FrameRecord& r) { return r.estimate.speed; })}};
-  out.digest = digest;
+  out.digest = tables.digest;
   out.command_line = run.job.command_line;
   out.threads = run.threads;
   out.stage_seconds = run.watch.stages();
@@ -243,13 +248,14 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   outcome.status = judge(run, video, control, outcome.trouble);
   outcome.tracked = count(run.frames).tracked;
   const auto writing = Clock::now();
-  const std::string digest = write_tables(run.frames, job.scene.world, folder);
+  const WrittenTables tables =
+      write_tables(run.frames, job.scene, job.config.values.kinetics, folder);
   outcome.look_at = folder.file("joints.csv");
   if (job.overlay && outcome.frames > 0)
     outcome.look_at = write_overlays(job, run.frames, folder, control);
   run.watch.add("output", writing);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  const std::string record = run_json(record_of(run, outcome, digest, seconds));
+  const std::string record = run_json(record_of(run, outcome, tables, seconds));
   const bool partial =
       outcome.status == TrackStatus::kInterrupted || outcome.status == TrackStatus::kCutShort;
   partial ? folder.finish_partial(record) : folder.finish(record);

@@ -1,5 +1,5 @@
 // `walktrack track`: one scene becomes a result folder:
-//   joints.csv, uncertainty.csv, gait.json, gait.csv, joints.trc, angles.mot,
+//   joints.csv, uncertainty.csv, gait.json, gait.csv, kinetics.csv, joints.trc, angles.mot,
 //   overlay_<camera>.mp4, run.json
 // Frames are streamed; what stays in memory is some kilobytes a frame of results.
 #pragma once

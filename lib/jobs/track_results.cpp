@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
-#include "io/gait_file.h"
 #include "io/motion_file.h"
 #include "io/opensim.h"
 #include "io/overlay.h"
@@ -105,17 +104,18 @@ std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames) {
   return out;
 }
 
-std::string write_tables(const TrackedFrames& frames, const WorldFrame& world,
-                         const ResultFolder& folder) {
+WrittenTables write_tables(const TrackedFrames& frames, const Scene& scene,
+                           const KineticsConfig& config, const ResultFolder& folder) {
   const Motion motion = motion_of(frames);
-  const std::string joints = motion_csv(motion, world);
-  const std::string uncertainty = uncertainty_csv(motion, uncertainty_of(frames), world);
+  const std::string joints = motion_csv(motion, scene.world);
+  const std::string uncertainty = uncertainty_csv(motion, uncertainty_of(frames), scene.world);
   folder.write("joints.csv", joints);
   folder.write("uncertainty.csv", uncertainty);
   folder.write("joints.trc", trc_from_motion(motion, frames.frame_rate, "joints.trc"));
-  const GaitTable gait = gait_table(motion, ensemble_of(frames), support_transfers_of(frames));
-  folder.write("gait.json", gait_json(gait));
-  folder.write("gait.csv", gait_csv(gait));
+  const KineticsTotals totals =
+      write_motion_tables({motion, ensemble_of(frames), support_transfers_of(frames), scene.subject,
+                           scene.gravity, scene.world},
+                          config, folder);
   std::vector<double> times;
   std::vector<Pose> poses;
   for (size_t i = 0; i < frames.records.size(); ++i) {
@@ -124,7 +124,7 @@ std::string write_tables(const TrackedFrames& frames, const WorldFrame& world,
     poses.push_back(frames.records[i].estimate.pose);
   }
   if (!times.empty()) folder.write("angles.mot", mot_from_poses(times, poses, "angles"));
-  return result_digest(joints, uncertainty);
+  return {result_digest(joints, uncertainty), totals};
 }
 
 std::filesystem::path write_overlays(const TrackJob& job, const TrackedFrames& frames,

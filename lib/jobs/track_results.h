@@ -6,9 +6,9 @@
 
 #include "core/job_control.h"
 #include "io/result_folder.h"
+#include "jobs/motion_tables.h"
 #include "jobs/track.h"
 #include "metrics/coverage.h"
-#include "metrics/gait_table.h"
 #include "tracker/tracker.h"
 
 namespace walktrack {
@@ -27,9 +27,12 @@ std::vector<Motion> ensemble_of(const TrackedFrames& frames);
 // When the walkers' weight changed onto a foot.
 std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames);
 
-// Writes the tables and returns the digest of joints.csv and uncertainty.csv.
-std::string write_tables(const TrackedFrames& frames, const WorldFrame& world,
-                         const ResultFolder& folder);
+struct WrittenTables {
+  std::string digest;  // of joints.csv and uncertainty.csv
+  KineticsTotals totals;
+};
+WrittenTables write_tables(const TrackedFrames& frames, const Scene& scene,
+                           const KineticsConfig& config, const ResultFolder& folder);
 
 // Reads the film again and draws the mean pose and the particles' spread into it, one video a
 // camera. Returns the path of the first.

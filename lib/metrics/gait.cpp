@@ -114,15 +114,14 @@ std::vector<size_t> maxima(const std::vector<double>& signal) {
 
 // When the ankle, furthest ahead of the pelvis at row `i` of the run, has slowed down to kLanded of
 // the pelvis's speed; nullopt if the run ends before.
-std::optional<double> landing_time(const Motion& motion, const Run& run,
-                                   const std::vector<Vector2d>& path, Side side, size_t i) {
+std::optional<double> landing_time(const Motion& motion, const Run& run, Side side, size_t i) {
+  const auto moved = [&](size_t row, Joint joint) {
+    return ground(motion.joints[row + 1][joint] - motion.joints[row - 1][joint]);
+  };
   double before = 0;
-  for (size_t k = std::max<size_t>(i, 1); k + 1 < path.size(); ++k) {
-    const size_t row = run.begin + k;
-    const Vector2d pelvis = path[k + 1] - path[k - 1];
-    const Vector2d foot =
-        ground(motion.joints[row + 1][ankle(side)] - motion.joints[row - 1][ankle(side)]);
-    const double speed = foot.dot(pelvis) / pelvis.squaredNorm();
+  for (size_t row = run.begin + std::max<size_t>(i, 1); row + 1 < run.end; ++row) {
+    const Vector2d pelvis = moved(row, Joint::kPelvis);
+    const double speed = moved(row, ankle(side)).dot(pelvis) / pelvis.squaredNorm();
     if (!(speed > kLanded)) {
       const double share = before > kLanded ? (speed - kLanded) / (speed - before) : 0;
       return motion.time[row] - share * (motion.time[row] - motion.time[row - 1]);
@@ -132,8 +131,8 @@ std::optional<double> landing_time(const Motion& motion, const Run& run,
   return std::nullopt;
 }
 
-void add_events(const Motion& motion, const Run& run, const std::vector<Vector2d>& path,
-                const std::vector<Vector2d>& direction, Side side, std::vector<GaitEvent>& events) {
+void add_events(const Motion& motion, const Run& run, const std::vector<Vector2d>& direction,
+                Side side, std::vector<GaitEvent>& events) {
   std::vector<double> ankle_ahead, toe_behind;
   for (size_t i = run.begin; i < run.end; ++i) {
     const JointPositions& joints = motion.joints[i];
@@ -143,7 +142,7 @@ void add_events(const Motion& motion, const Run& run, const std::vector<Vector2d
     toe_behind.push_back(-way.dot(ground(joints[toe(side)]) - pelvis));
   }
   for (const size_t i : maxima(ankle_ahead)) {
-    const auto landed = landing_time(motion, run, path, side, i);
+    const auto landed = landing_time(motion, run, side, i);
     if (landed) events.push_back({*landed, side, GaitEventKind::kFootStrike});
   }
   for (const size_t i : maxima(toe_behind))
@@ -256,7 +255,7 @@ Gait gait_from_motion(const Motion& motion) {
     const std::vector<Vector2d> direction = directions(motion, run, path);
     std::vector<GaitEvent> events;
     for (const Side side : {Side::kLeft, Side::kRight})
-      add_events(motion, run, path, direction, side, events);
+      add_events(motion, run, direction, side, events);
     std::stable_sort(events.begin(), events.end(),
                      [](const GaitEvent& a, const GaitEvent& b) { return a.time < b.time; });
     for (const Side side : {Side::kLeft, Side::kRight})

@@ -29,7 +29,7 @@ struct TrackerConfig {
   StartConfig start;
   double lost_below = 0.35;  // share of the likelihood's own median at which the track is lost
   double lost_after = 0.4;   // s below it
-  int samples = 12;          // particles kept of every frame to show the spread
+  int samples = 20;          // particles kept of every frame to show the spread
   double recall = 1.5;       // s of past likelihoods that the median is taken over
 };
 

@@ -1,0 +1,124 @@
+#include "io/kinetics_file.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "io/csv.h"
+
+namespace walktrack {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kBandSd = 1.6449;  // standard deviations from the mean to the 95th percentile
+
+std::vector<std::string> column_names() {
+  std::vector<std::string> out;
+  const auto vector = [&](const std::string& name, const char* unit) {
+    for (const char* axis : {"x", "y", "z"})
+      out.push_back(fmt::format("{}_{}_{}", name, axis, unit));
+  };
+  vector("com", "m");
+  for (const char* side : {"l", "r"}) {
+    vector(fmt::format("{}_grf", side), "n");
+    vector(fmt::format("{}_cop", side), "m");
+    out.push_back(fmt::format("{}_free_moment_nm", side));
+  }
+  for (const char* side : {"l", "r"})
+    for (const char* name : {"hip_flexion_nm", "hip_abduction_nm", "knee_flexion_nm",
+                             "ankle_dorsiflexion_nm", "hip_w", "knee_w", "ankle_w"})
+      out.push_back(fmt::format("{}_{}", side, name));
+  for (const char* name :
+       {"kinetic_energy_j", "potential_energy_j", "unexplained_force_n", "unexplained_moment_nm"})
+    out.emplace_back(name);
+  return out;
+}
+
+// The numbers of a frame in the order of the columns, in calibration axes.
+std::vector<double> values_of(const KineticsFrame& frame, const WorldFrame& world) {
+  std::vector<double> out;
+  const auto add = [&](const Vector3d& v) { out.insert(out.end(), v.begin(), v.end()); };
+  add(calibration_from_world(world, frame.com));
+  for (const FootLoad& foot : frame.feet) {
+    add(world.rotation.transpose() * foot.force);
+    add(calibration_from_world(world, {foot.centre.x(), foot.centre.y(), 0}));
+    out.push_back(foot.free_moment);
+  }
+  for (const LegLoads& leg : frame.legs)
+    out.insert(out.end(), {leg.hip_flexion, leg.hip_abduction, leg.knee_flexion,
+                           leg.ankle_dorsiflexion, leg.hip_power, leg.knee_power, leg.ankle_power});
+  out.insert(out.end(), {frame.kinetic_energy, frame.potential_energy, frame.unexplained_force,
+                         frame.unexplained_moment});
+  return out;
+}
+
+// Half width of the band of column `k` over the members that know it; NaN for fewer than two.
+double half_width(const std::vector<std::vector<double>>& members, size_t k) {
+  double sum = 0, squares = 0;
+  size_t count = 0;
+  for (const auto& member : members) {
+    if (std::isfinite(member[k])) sum += member[k], ++count;
+  }
+  if (count < 2 || 2 * count < members.size()) return kNone;
+  const double mean = sum / static_cast<double>(count);
+  for (const auto& member : members)
+    if (std::isfinite(member[k])) squares += (member[k] - mean) * (member[k] - mean);
+  return kBandSd * std::sqrt(squares / static_cast<double>(count - 1));
+}
+
+std::string header(const Kinetics& kinetics, const Subject& subject, const KineticsConfig& config) {
+  const KineticsTotals& t = kinetics.totals;
+  const size_t n = kinetics.time.size();
+  const double rate =
+      n > 1 ? static_cast<double>(n - 1) / (kinetics.time.back() - kinetics.time.front()) : 0;
+  return fmt::format(
+      "# Inverse dynamics of the motion. SI units as named; world axes of the calibration; {:.6g} "
+      "Hz.\n"
+      "# Subject: height {:.3f} m, mass {:.2f} kg; forces and moments are as right as this mass.\n"
+      "# Joint centres smoothed without lag below {:g} Hz; within {:.2f} s of the ends of a "
+      "tracked\n"
+      "# span values lean on its extrapolation. In double support the feet's shares are modelled.\n"
+      "# Moments: of the muscles, positive as the angle's name says (pushing off: "
+      "ankle_dorsiflexion_nm < 0).\n"
+      "# Totals: distance {:.3f} m, positive work of hips, knees and ankles {:.1f} J, negative "
+      "{:.1f} "
+      "J,\n# cost of transport {:.3f}, peak vertical load of a foot {:.2f} body weights\n",
+      rate, subject.height, subject.mass, config.cutoff_hz,
+      config.cutoff_hz > 0 ? 0.5 / config.cutoff_hz : 0, t.distance, t.positive_work,
+      t.negative_work, t.cost_of_transport, t.peak_load);
+}
+
+}  // namespace
+
+std::string kinetics_csv(const Kinetics& kinetics, std::span<const Kinetics> members,
+                         const Subject& subject, const KineticsConfig& config,
+                         const WorldFrame& world) {
+  const std::vector<std::string> names = column_names();
+  std::string text = header(kinetics, subject, config) + "t";
+  for (const std::string& name : names) text += fmt::format(",{0},{0}_p05,{0}_p95", name);
+  text += "\n";
+  for (size_t i = 0; i < kinetics.frames.size(); ++i) {
+    text += csv_number(kinetics.time[i]);
+    std::vector<std::vector<double>> others;
+    for (const Kinetics& member : members)
+      if (member.frames[i].known) others.push_back(values_of(member.frames[i], world));
+    const std::vector<double> values = kinetics.frames[i].known
+                                           ? values_of(kinetics.frames[i], world)
+                                           : std::vector<double>(names.size(), kNone);
+    for (size_t k = 0; k < names.size(); ++k) {
+      const double half = half_width(others, k);
+      for (const double value : {values[k], values[k] - half, values[k] + half})
+        append_number(text, ',', value);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,76 @@
+#include "jobs/motion_tables.h"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "io/csv.h"
+#include "io/files.h"
+#include "io/motion_file.h"
+
+namespace walktrack {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kDemo = fs::path(WALKTRACK_SOURCE_DIR) / "data/demo";
+
+TEST(FootContacts, AStanceCutByTheEndLastsAsLongAsDoubleSupportElsewhere) {
+  Gait gait;
+  gait.stances = {{Side::kLeft, 0.0, 0.7, false, true, {}},
+                  {Side::kRight, 0.55, 1.3, true, true, {}},
+                  {Side::kLeft, 1.1, 1.9, true, false, {}},
+                  {Side::kRight, 1.6, 1.9, true, false, {}}};
+  const auto contacts = foot_contacts(gait);
+  ASSERT_EQ(contacts.size(), 4u);
+  EXPECT_NEAR(contacts[2].off, 1.6 + 0.5 * (0.15 + 0.2), 1e-12);
+  EXPECT_EQ(contacts[3].off, 1.9);
+  EXPECT_EQ(contacts[0].on, 0.0);
+}
+
+TEST(FootContacts, AStanceCutByTheStartBeganBeforeTheOtherFootLeft) {
+  Gait gait;
+  gait.stances = {{Side::kLeft, 0.0, 0.3, false, true, {}},
+                  {Side::kRight, 0.0, 0.8, false, true, {}}};
+  const auto contacts = foot_contacts(gait);
+  EXPECT_NEAR(contacts[1].on, 0.3 - 0.12, 1e-12);
+  EXPECT_EQ(contacts[0].on, 0.0);
+}
+
+class MotionTables : public testing::Test {
+ protected:
+  ~MotionTables() override { fs::remove_all(folder_); }
+  const fs::path folder_ = fs::temp_directory_path() / "walktrack_motion_tables";
+};
+
+// The demo's truth: 1.25 m/s of a 70 kg subject with steps that are known by construction.
+TEST_F(MotionTables, OfTheDemoSayWhatTheDemoIs) {
+  AnalysedMotion demo;
+  demo.motion = read_motion(kDemo / "truth.csv");
+  demo.members = {demo.motion, demo.motion, demo.motion};
+  const KineticsTotals totals = write_motion_tables(demo, {}, ResultFolder(folder_, true));
+  const auto gait = nlohmann::json::parse(read_text_file(folder_ / "gait.json", size_t{1} << 20));
+  const auto& both = gait.at("summary").at("both");
+  EXPECT_NEAR(both.at("speed_m_s").at("value").get<double>(), 1.25, 0.05);
+  // Three equal members leave no doubt.
+  EXPECT_EQ(both["step_time_s"]["p05"], both["step_time_s"]["p95"]);
+  EXPECT_TRUE(fs::exists(folder_ / "gait.csv"));
+  const CsvTable table = read_csv(folder_ / "kinetics.csv");
+  EXPECT_EQ(table.rows.size(), demo.motion.time.size());
+  double load = 0, rows = 0;
+  for (const CsvTable::Row& row : table.rows) {
+    load +=
+        table.number(row, table.column("l_grf_z_n")) + table.number(row, table.column("r_grf_z_n"));
+    ++rows;
+  }
+  // Over several strides the ground carries the weight, but for what the last step is short of.
+  EXPECT_NEAR(load / rows, demo.subject.mass * 9.80665, 0.03 * demo.subject.mass * 9.80665);
+  EXPECT_GT(totals.peak_load, 1);
+  EXPECT_LT(totals.peak_load, 2);
+  EXPECT_GT(totals.cost_of_transport, 0.02);
+  EXPECT_LT(totals.cost_of_transport, 0.5);
+}
+
+}  // namespace
+}  // namespace walktrack
