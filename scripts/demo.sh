@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, tracks the shipped demo, measures it against its truth and names
-# the file to open.
+# the report to open.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh
@@ -9,4 +9,4 @@ cmake --build --preset release --target walktrack
 build/release/walktrack track data/demo/scene.yaml -o out/demo -y
 build/release/walktrack evaluate data/demo/truth.csv out/demo
 echo
-echo "Open out/demo/overlay_side.mp4 to see the track; the numbers are in out/demo/joints.csv."
+echo "Open the report: $PWD/out/demo/report.html"

@@ -1,18 +1,24 @@
 #!/usr/bin/env bash
-# Installs what building, testing and running walktrack needs, from Debian's packages alone.
-# Does nothing when everything is there.
+# Installs what building and running walktrack needs, from Debian's packages alone; with "tests" what
+# testing needs as well. Does nothing when everything is there.
+#   scripts/setup.sh [tests]
 set -euo pipefail
 
 packages=(
-  cmake ninja-build g++ ccache python3 git
+  cmake ninja-build g++ ccache git
   libeigen3-dev libboost-program-options-dev libyaml-cpp-dev libfmt-dev
   libtbb-dev libhwy-dev nlohmann-json3-dev libtomlplusplus-dev libnlopt-cxx-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
   libopencv-video-dev libopencv-videoio-dev libopencv-calib3d-dev libopencv-ml-dev
-  libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang-format clang-tidy
-  clang libclang-rt-dev  # for fuzzing
-  libsimbody-dev  # independent engine behind some tests
 )
+if [ "${1:-}" = tests ]; then
+  packages+=(
+    python3 libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang-format clang-tidy
+    clang libclang-rt-dev        # for fuzzing
+    libsimbody-dev               # independent engine behind some tests
+    chromium fonts-dejavu-core   # opens the reports
+  )
+fi
 
 # Not needed; tests of scripts/cluster are skipped without them: slurmctld slurmd slurm-client munge
 # parallel

@@ -3,7 +3,7 @@
 # slow, clang-tidy and, where there is clang, a little fuzzing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh
+scripts/setup.sh tests
 cmake --preset ci
 cmake --build --preset ci
 ctest --preset ci

@@ -22,8 +22,17 @@ namespace walktrack {
 
 // A result below these ends in exit code 4.
 struct GateConfig {
-  double lost_share = 0.1;  // of the frames after the walker was found
-  double least_steps = 1;   // foot changes seen; who makes none does not walk
+  double lost_share = 0.1;   // of the frames after the walker was found
+  double least_steps = 1;    // foot changes seen; who makes none does not walk
+  double leg_swaps = 60;     // a minute
+  double foot_slide = 0.3;   // m, mean over stances
+  double penetration = 0.3;  // m
+  double jitter = 5000;      // m/s^3
+};
+
+// The page to look at.
+struct ReportConfig {
+  double embed_mb = 24;  // of overlay films inside it; larger ones are played from beside it
 };
 
 struct Config {
@@ -34,6 +43,7 @@ struct Config {
   TrackerConfig tracker;
   KineticsConfig kinetics;
   GateConfig gates;
+  ReportConfig report;
 };
 
 // A configuration and where each value that is no default came from.

@@ -143,6 +143,16 @@ void add_track(ParameterTable& table) {
   ParameterGroup<G> g(table, "gates", "when a result is not good enough", &Config::gates);
   g.number("lost_share", &G::lost_share, 0, 1, "of the frames after the walker was found");
   g.number("least_steps", &G::least_steps, 0, 1000, "foot changes that make a walk");
+  g.number("leg_swaps", &G::leg_swaps, 0, 1e5, "legs swapped between frames, a minute");
+  g.number("foot_slide", &G::foot_slide, 0, 10, "of a standing foot, mean over stances, m");
+  g.number("penetration", &G::penetration, 0, 10, "deepest foot in the ground, m");
+  g.number("jitter", &G::jitter, 0, 1e9, "mean third derivative of the joints, m/s^3");
+}
+
+void add_report(ParameterTable& table) {
+  using R = ReportConfig;
+  ParameterGroup<R> r(table, "report", "report.html", &Config::report);
+  r.number("embed_mb", &R::embed_mb, 0, 1000, "overlay films inside it; larger ones beside it, MB");
 }
 
 ParameterTable make_table() {
@@ -154,6 +164,7 @@ ParameterTable make_table() {
   add_filter(table);
   add_search(table);
   add_track(table);
+  add_report(table);
   return table;
 }
 

@@ -11,6 +11,7 @@
 #include <random>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -117,22 +118,35 @@ void refuse_existing(const fs::path& path, bool overwrite) {
   }
 }
 
-void write_file_atomically(const fs::path& path, std::string_view content) {
-  const fs::path temporary = unused_name(path);
-  {
-    const Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
-    while (!content.empty()) {
-      const ssize_t written = ::write(file.get(), content.data(), content.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) {
-        const int error = errno;
-        ::unlink(temporary.c_str());
-        fail_writing(path, "cannot be written", error);
-      }
-      content.remove_prefix(static_cast<size_t>(written));
-    }
+AtomicFile::AtomicFile(const fs::path& path) : path_(path), temporary_(unused_name(path)) {
+  fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd_ < 0) fail_writing(temporary_, "cannot be opened", errno);
+}
+
+AtomicFile::~AtomicFile() {
+  if (fd_ < 0) return;
+  ::close(fd_);
+  ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(fd_, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail_writing(path_, "cannot be written", errno);
+    content.remove_prefix(static_cast<size_t>(written));
   }
-  publish_file(temporary, path);
+}
+
+void AtomicFile::commit() {
+  ::close(std::exchange(fd_, -1));
+  publish_file(temporary_, path_);
+}
+
+void write_file_atomically(const fs::path& path, std::string_view content) {
+  AtomicFile file(path);
+  file.write(content);
+  file.commit();
 }
 
 fs::path resolved(const fs::path& base, const fs::path& path) {

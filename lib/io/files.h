@@ -21,6 +21,23 @@ std::optional<double> number_from_text(std::string_view text);
 // The shortest text that reads back as the same double.
 std::string shortest_number(double value);
 
+// The same for what is too long to be held at once: written piece by piece, there after commit().
+// Without it, nothing is left. std::runtime_error naming the file and the reason.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write(std::string_view content);
+  void commit();
+
+ private:
+  std::filesystem::path path_, temporary_;
+  int fd_ = -1;
+};
+
 // Writes next to `path`, flushes to the disk and renames: a reader sees the old file or the new
 // one, never half of it. std::runtime_error naming the file and the reason.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);

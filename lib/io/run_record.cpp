@@ -42,6 +42,21 @@ Json origins(const ConfigWithOrigin& config) {
   return root;
 }
 
+Json quality_list(const std::vector<QualityMeasure>& quality) {
+  Json list = Json::array();
+  for (const QualityMeasure& m : quality) {
+    list.push_back({{"name", m.name},
+                    {"what", m.what},
+                    {"value", m.value},
+                    {"unit", m.unit},
+                    {"digits", m.digits},
+                    {"gate", m.gate ? Json(*m.gate) : Json()},
+                    {"at_most", m.at_most},
+                    {"passed", m.passed()}});
+  }
+  return list;
+}
+
 template <typename Pairs>
 Json object_of(const Pairs& pairs) {
   Json root = Json::object();
@@ -67,6 +82,7 @@ std::string run_json(const RunRecord& record) {
   root["config"] = nested_config(record.config);
   root["config_origin"] = origins(record.config);
   root["numbers"] = object_of(record.numbers);
+  root["quality"] = quality_list(record.quality);
   root["by_frame"] = object_of(record.by_frame);
   root["digest"] = record.digest;
   root["timing"] = {{"command_line", record.command_line},

@@ -5,6 +5,7 @@
 // block.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,18 @@
 #include "io/config.h"
 
 namespace walktrack {
+
+// One measure of a result's quality, with the gate it has to pass, if any.
+struct QualityMeasure {
+  std::string name;  // e.g. "foot_slide_mm"
+  std::string what;  // the same in words
+  double value = 0;
+  std::string unit;  // "" = a number
+  int digits = 0;    // after the point, where people read it
+  std::optional<double> gate;
+  bool at_most = true;  // or at least
+  bool passed() const { return !gate || (at_most ? value <= *gate : value >= *gate); }
+};
 
 struct RunRecord {
   std::string command;                                  // e.g. "track"
@@ -21,6 +34,7 @@ struct RunRecord {
   std::string status;                                   // e.g. "tracked", "lost", "interrupted"
   std::vector<std::string> notes;                       // what the user should know
   std::vector<std::pair<std::string, double>> numbers;  // e.g. "fallen_particles"
+  std::vector<QualityMeasure> quality;
   std::vector<std::pair<std::string, std::vector<double>>> by_frame;  // e.g. "ess"; NaN -> null
   std::string digest;  // result_digest() of the result's tables
 

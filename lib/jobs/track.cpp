@@ -14,6 +14,8 @@
 #include "io/run_record.h"
 #include "io/scene_video.h"
 #include "io/sha256.h"
+#include "jobs/report.h"
+#include "jobs/track_quality.h"
 #include "jobs/track_results.h"
 #include "jobs/track_setup.h"
 
@@ -126,21 +128,6 @@ Counts count(const TrackedFrames& frames) {
   return out;
 }
 
-// What a gate says against the result; empty if none does.
-std::string gate_trouble(const GateConfig& gates, const TrackedFrames& frames) {
-  const Counts counts = count(frames);
-  const int followed = counts.tracked + counts.lost;
-  const double lost = followed > 0 ? double(counts.lost) / followed : 0;
-  if (lost > gates.lost_share)
-    return fmt::format("lost for {:.0f} % of the frames after the walker was found (gate {:.0f} %)",
-                       100 * lost, 100 * gates.lost_share);
-  const int steps = foot_changes(frames);
-  if (steps < gates.least_steps)
-    return fmt::format("{} foot changes seen (gate {:.0f}): nobody walks", steps,
-                       gates.least_steps);
-  return {};
-}
-
 std::vector<double> by_frame(const TrackedFrames& frames, double (*value)(const FrameRecord&)) {
   std::vector<double> out;
   for (const FrameRecord& record : frames.records)
@@ -164,8 +151,8 @@ std::string_view status_word(TrackStatus status) {
   return "";
 }
 
-RunRecord record_of(const Run& run, const TrackOutcome& outcome, const WrittenTables& tables,
-                    double seconds) {
+RunRecord record_of(const Run& run, const TrackOutcome& outcome, const Quality& quality,
+                    const WrittenTables& tables, double seconds) {
   const TrackedFrames& frames = run.frames;
   const Counts counts = count(frames);
   RunRecord out;
@@ -188,6 +175,7 @@ RunRecord record_of(const Run& run, const TrackOutcome& outcome, const WrittenTa
                  {"negative_work_j", tables.totals.negative_work},
                  {"cost_of_transport", tables.totals.cost_of_transport},
                  {"peak_foot_load_body_weights", tables.totals.peak_load}};
+  out.quality = quality;
   out.by_frame = {
       {"ess", by_frame(frames, [](const FrameRecord& r) { return r.filter.ess; })},
       {"log_evidence",
@@ -204,8 +192,8 @@ RunRecord record_of(const Run& run, const TrackOutcome& outcome, const WrittenTa
   return out;
 }
 
-TrackStatus judge(const Run& run, const SceneVideo& video, const JobControl& control,
-                  std::string& trouble) {
+TrackStatus judge(const Run& run, const Quality& quality, const SceneVideo& video,
+                  const JobControl& control, std::string& trouble) {
   if (control.stopping()) return TrackStatus::kInterrupted;
   trouble = video.trouble();
   if (!trouble.empty()) return TrackStatus::kCutShort;
@@ -213,7 +201,7 @@ TrackStatus judge(const Run& run, const SceneVideo& video, const JobControl& con
     trouble = "nobody was found walking";
     return TrackStatus::kNotFound;
   }
-  trouble = gate_trouble(run.job.config.values.gates, run.frames);
+  trouble = first_failure(quality);
   return trouble.empty() ? TrackStatus::kTracked : TrackStatus::kBelowGates;
 }
 
@@ -245,17 +233,18 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   for (FrameRecord& record : run.tracker.finish()) run.frames.records.push_back(std::move(record));
   outcome.frames_per_second =
       outcome.frames / std::chrono::duration<double>(Clock::now() - tracking).count();
-  outcome.status = judge(run, video, control, outcome.trouble);
+  const Quality quality = quality_of(run.frames, job.config.values.gates);
+  outcome.status = judge(run, quality, video, control, outcome.trouble);
   outcome.tracked = count(run.frames).tracked;
   const auto writing = Clock::now();
   const WrittenTables tables =
       write_tables(run.frames, job.scene, job.config.values.kinetics, folder);
-  outcome.look_at = folder.file("joints.csv");
-  if (job.overlay && outcome.frames > 0)
-    outcome.look_at = write_overlays(job, run.frames, folder, control);
+  std::vector<ReportClip> clips;
+  if (job.overlay && outcome.frames > 0) clips = write_overlays(job, run.frames, folder, control);
   run.watch.add("output", writing);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  const std::string record = run_json(record_of(run, outcome, tables, seconds));
+  const std::string record = run_json(record_of(run, outcome, quality, tables, seconds));
+  outcome.look_at = write_report(folder, {job.scene, run.frames, record, clips});
   const bool partial =
       outcome.status == TrackStatus::kInterrupted || outcome.status == TrackStatus::kCutShort;
   partial ? folder.finish_partial(record) : folder.finish(record);

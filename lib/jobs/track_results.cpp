@@ -127,16 +127,16 @@ WrittenTables write_tables(const TrackedFrames& frames, const Scene& scene,
   return {result_digest(joints, uncertainty), totals};
 }
 
-std::filesystem::path write_overlays(const TrackJob& job, const TrackedFrames& frames,
-                                     const ResultFolder& folder, const JobControl& control) {
+std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames& frames,
+                                       const ResultFolder& folder, const JobControl& control) {
   SceneVideo video(job.scene);
   std::vector<VideoWriter> writers;
-  const auto name = [&](size_t c) {
-    return fmt::format("overlay_{}.mp4", job.scene.cameras[c].name);
-  };
+  std::vector<ReportClip> clips;
   for (size_t c = 0; c < job.scene.cameras.size(); ++c) {
     const Camera& camera = job.scene.cameras[c].camera;
-    writers.emplace_back(folder.file(name(c)), cv::Size(camera.width_px, camera.height_px),
+    const std::string& name = job.scene.cameras[c].name;
+    clips.push_back({name, folder.file(fmt::format("overlay_{}.mp4", name))});
+    writers.emplace_back(clips.back().file, cv::Size(camera.width_px, camera.height_px),
                          frames.frame_rate);
   }
   SceneFrames images;
@@ -150,7 +150,8 @@ std::filesystem::path write_overlays(const TrackJob& job, const TrackedFrames& f
     control.progress("drawing", i + 1, frames.records.size());
   }
   for (VideoWriter& writer : writers) writer.close();
-  return folder.file(name(0));
+  choose_embedded(clips, static_cast<uintmax_t>(1e6 * job.config.values.report.embed_mb));
+  return clips;
 }
 
 int foot_changes(const TrackedFrames& frames) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/job_control.h"
+#include "io/report_page.h"
 #include "io/result_folder.h"
 #include "jobs/motion_tables.h"
 #include "jobs/track.h"
@@ -35,9 +36,9 @@ WrittenTables write_tables(const TrackedFrames& frames, const Scene& scene,
                            const KineticsConfig& config, const ResultFolder& folder);
 
 // Reads the film again and draws the mean pose and the particles' spread into it, one video a
-// camera. Returns the path of the first.
-std::filesystem::path write_overlays(const TrackJob& job, const TrackedFrames& frames,
-                                     const ResultFolder& folder, const JobControl& control);
+// camera; marks those that the report has room for.
+std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames& frames,
+                                       const ResultFolder& folder, const JobControl& control);
 
 // Feet that took over from each other: how often the likelier stance side changed.
 int foot_changes(const TrackedFrames& frames);

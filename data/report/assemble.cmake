@@ -1,0 +1,35 @@
+# Puts the parts of the report's page together and writes them as C++.
+#   cmake -D FOLDER=data/report -D OUTPUT=report_template.cpp -P assemble.cmake
+function(read_parts into)
+  set(text "")
+  foreach(part ${ARGN})
+    file(READ ${FOLDER}/${part} content)
+    string(APPEND text "${content}\n")
+  endforeach()
+  set(${into} "${text}" PARENT_SCOPE)
+endfunction()
+
+read_parts(STYLE libraries/uplot.min.css style.css)
+read_parts(SCRIPT libraries/uplot.min.js libraries/ogl.min.js data.js player.js space.js charts.js tables.js main.js)
+file(READ ${FOLDER}/page.html PAGE)
+file(READ ${FOLDER}/normal_gait.csv NORMAL_GAIT)
+string(REPLACE "<!--STYLE-->\n" "${STYLE}" PAGE "${PAGE}")
+string(REPLACE "<!--SCRIPT-->\n" "${SCRIPT}" PAGE "${PAGE}")
+
+file(WRITE ${OUTPUT} "// Made from data/report by assemble.cmake.
+#include \"io/report_page.h\"
+
+namespace walktrack {
+
+std::string_view report_template() {
+  static constexpr char kText[] = R\"template(${PAGE})template\";
+  return {kText, sizeof(kText) - 1};
+}
+
+std::string_view normal_gait_csv() {
+  static constexpr char kText[] = R\"csv(${NORMAL_GAIT})csv\";
+  return {kText, sizeof(kText) - 1};
+}
+
+}  // namespace walktrack
+")

@@ -1,0 +1,13 @@
+verdict();
+keyFigures();
+gaitTables();
+startCycles();
+startTimes();
+quality();
+origin();
+startSpace();
+const filmShown = startPlayer();
+const tracked = times.map((_, i) => i).filter((i) => data.joints.mean_mm[i]);
+clock.show(tracked[Math.floor(tracked.length / 2)] ?? 0);
+// For whoever waits until the page is complete (print services, tests).
+Promise.resolve(filmShown).then(() => { document.documentElement.dataset.ready = 'true'; });

@@ -1,0 +1,108 @@
+// Words and numbers: the verdict, key figures, gait, quality, origin.
+// "0.61" with its 5-95 % band in small print.
+function banded(band, digits, factor = 1) {
+  if (!band || band.value === null) return '–';
+  const made = element('span', {}, fixed(factor * band.value, digits));
+  if (band.p05 !== null)
+    made.append(' ', element('small', {}, `${fixed(factor * band.p05, digits)} to ${fixed(factor * band.p95, digits)}`));
+  return made;
+}
+
+function verdict() {
+  const good = run.status === 'tracked';
+  const words = {'tracked': 'Tracked; every quality gate passed', 'not found': 'Nobody was found walking',
+    'below gates': 'Tracked, but below a quality gate', 'interrupted': 'Interrupted; what was done is shown',
+    'cut short': 'Cut short by a broken video; what came before is shown'}[run.status] ?? run.status;
+  byId('title').textContent = data.title;
+  byId('verdict').className = 'verdict ' + (good ? 'good' : 'bad');
+  byId('verdict').textContent = [words, ...run.notes].join(': ');
+}
+
+function keyFigures() {
+  const both = data.gait.summary.both;
+  const figure = (value, unit, name) =>
+    element('li', {}, element('b', {}, value, ' ', element('small', {}, unit)), element('span', {}, name));
+  const mean = (column, digits, unit, name) => {
+    const made = figure(fixed(both[column].value, digits), unit, name);
+    const {p05, p95} = both[column];
+    if (p05 !== null) made.append(element('span', {}, `${fixed(p05, digits)} to ${fixed(p95, digits)}`));
+    return made;
+  };
+  byId('key-figures').append(
+    mean('speed_m_s', 2, 'm/s', 'walking speed'),
+    mean('step_length_m', 2, 'm', 'step length'),
+    mean('cadence_steps_per_min', 0, '/min', 'cadence'),
+    mean('step_width_m', 2, 'm', 'step width'),
+    mean('stance_percent', 0, '%', 'stance of the stride'),
+    figure(`${run.numbers.tracked_frames}`, `of ${run.numbers.frames}`, 'frames tracked'),
+    figure(fixed(run.numbers.frames / run.timing.seconds, 1), '/s', `frames, ${plural(run.timing.threads, 'thread')}`));
+}
+
+const summaryRows = [
+  ['speed_m_s', 'Walking speed, m/s', 2], ['cadence_steps_per_min', 'Cadence, steps/min', 0],
+  ['step_length_m', 'Step length, m', 3], ['step_width_m', 'Step width, m', 3], ['step_time_s', 'Step time, s', 3],
+  ['stride_length_m', 'Stride length, m', 3], ['stride_time_s', 'Stride time, s', 3], ['stance_percent', 'Stance, % of stride', 1],
+  ['swing_percent', 'Swing, % of stride', 1], ['double_support_percent', 'Double support, % of stride', 1],
+  ['step_length_sd_m', 'Step length, SD over steps, m', 3], ['step_time_sd_s', 'Step time, SD over steps, s', 3],
+];
+const symmetryOf = {step_length_m: 'step_length_percent', step_time_s: 'step_time_percent', stance_percent: 'stance_percent'};
+
+function gaitTables() {
+  const {summary, contacts} = data.gait;
+  const into = byId('gait-tables');
+  if (!contacts.length) {
+    into.append(element('p', {}, 'No step was seen.'));
+    return;
+  }
+  into.append(element('p', {}, `${plural(summary.steps, 'step')}, ${plural(summary.strides, 'stride')}.`),
+    table(['mean', 'both', 'left', 'right', 'asymmetry, %'], summaryRows.map(([column, name, digits]) =>
+      [name, ...['both', 'left', 'right'].map((side) => banded(summary[side][column], digits)), banded(summary.symmetry[symmetryOf[column]], 1)])),
+    element('h3', {}, 'Contacts'),
+    table(['foot', 'strike, s', 'toe-off, s', 'step length, m', 'step width, m', 'step time, s', 'stance, %'],
+      contacts.map((c) => [c.side, banded(c.foot_strike_s, 3), banded(c.toe_off_s, 3), banded(c.step_length_m, 3),
+        banded(c.step_width_m, 3), banded(c.step_time_s, 3), banded(c.stance_percent, 1)])),
+    element('p', {className: 'note'}, 'Small print: 5–95 % of the filter’s particles. ' + data.gait.notes.join(' ')));
+}
+
+function quality() {
+  const rows = run.quality.map((q) => {
+    const gate = q.gate === null ? '–' : `${q.at_most ? 'at most' : 'at least'} ${q.gate}${q.unit ? ' ' + q.unit : ''}`;
+    return [q.what, `${fixed(q.value, q.digits)}${q.unit ? ' ' + q.unit : ''}`, gate, q.gate === null ? '–' : q.passed ? 'passed' : 'failed'];
+  });
+  const made = table(['measure', 'value', 'gate', ''], rows);
+  for (const cell of made.querySelectorAll('td:last-child'))
+    cell.className = {passed: 'good', failed: 'bad'}[cell.textContent] ?? '';
+  byId('quality-table').append(made);
+  const spans = [];
+  data.joints.mean_mm.forEach((row, i) => {
+    if (row) return;
+    const last = spans[spans.length - 1];
+    if (last && last[1] === i - 1) last[1] = i; else spans.push([i, i]);
+  });
+  byId('lost-spans').textContent = spans.length
+    ? 'Not tracked: ' + spans.map(([a, b]) => `frames ${a}–${b} (${fixed(a / data.rate, 2)}–${fixed((b + 1) / data.rate, 2)} s)`).join(', ') + '.'
+    : 'Every frame is tracked.';
+}
+
+function origin() {
+  const changed = Object.entries(run.config_origin).map(([key, place]) => `${key} (${place})`).join(', ');
+  const stages = Object.entries(run.timing.stage_seconds).map(([name, s]) => `${name} ${fixed(s, 1)} s`).join(', ');
+  const code = (text) => element('code', {}, text);
+  byId('origin-table').append(table(['', ''], [
+    ['Program', `${run.program.name} ${run.program.version}, commit ${run.program.commit}, ${run.program.build}, ${run.program.compiler}`],
+    ['Scene', code(`${run.scene.file}  sha256 ${run.scene.sha256}`)],
+    ['Cameras', data.cameras.map((c) => `${c.name}, ${c.size_px.join(' × ')} px`).join('; ')],
+    ['Subject', `stature ${data.subject.height_m} m, mass ${data.subject.mass_kg} kg`],
+    ['Frames', `${run.numbers.frames} at ${data.rate} Hz`],
+    ['Seed', `${run.seed}`],
+    ['Settings changed', changed || 'none: the defaults'],
+    ['Time', `${fixed(run.timing.seconds, 1)} s on ${run.timing.threads} threads: ${stages}`],
+    ['Command', code(run.timing.command_line.join(' '))],
+    ['Digest of the result', code(run.digest)],
+  ]));
+  byId('settings').append(table(['key', 'value', 'set by'],
+    leaves(run.config).map(([key, value]) => [code(key), JSON.stringify(value), run.config_origin[key] ?? 'default'])));
+  byId('run-json').textContent = JSON.stringify(run, null, 2);
+  byId('colophon').textContent = `Made by walktrack ${run.program.version}. The same inputs, settings and seed give the same digest. ` +
+    'Drawn with uPlot and OGL, which are inside this page.';
+}

@@ -1,0 +1,81 @@
+#include "jobs/track_quality.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "metrics/gait.h"
+#include "metrics/leg_swaps.h"
+#include "metrics/plausibility.h"
+
+namespace walktrack {
+
+namespace {
+
+QualityMeasure measure(std::string name, std::string what, double value, std::string unit,
+                       int digits) {
+  return {std::move(name), std::move(what), value, std::move(unit), digits, std::nullopt, true};
+}
+
+QualityMeasure at_most(QualityMeasure m, double gate) {
+  m.gate = gate;
+  return m;
+}
+
+QualityMeasure at_least(QualityMeasure m, double gate) {
+  m.gate = gate;
+  m.at_most = false;
+  return m;
+}
+
+// Per cent of the frames from the first tracked one on.
+double lost_percent(const TrackedFrames& frames) {
+  const auto& records = frames.records;
+  const auto is_tracked = [](const FrameRecord& record) { return record.tracked; };
+  const auto first = std::find_if(records.begin(), records.end(), is_tracked);
+  if (first == records.end()) return 0;
+  const auto tracked = std::count_if(first, records.end(), is_tracked);
+  return 100 * (1 - static_cast<double>(tracked) / static_cast<double>(records.end() - first));
+}
+
+}  // namespace
+
+Quality quality_of(const TrackedFrames& frames, const GateConfig& gates) {
+  const Motion motion = motion_of(frames);
+  const Plausibility p = plausibility(motion, gait_from_motion(motion));
+  const double minutes = static_cast<double>(frames.records.size()) / frames.frame_rate / 60;
+  const auto swaps = static_cast<double>(leg_swaps(motion));
+  return {
+      at_most(
+          measure("lost_percent", "Lost after the walker was found", lost_percent(frames), "%", 1),
+          100 * gates.lost_share),
+      at_least(measure("foot_changes", "Changes of the standing foot", foot_changes(frames), "", 0),
+               gates.least_steps),
+      at_most(measure("leg_swaps_per_min", "Legs swapped between frames",
+                      minutes > 0 ? swaps / minutes : 0, "/min", 1),
+              gates.leg_swaps),
+      at_most(measure("foot_slide_mm", "Sliding of a standing foot, mean of stances",
+                      1000 * p.mean_foot_slide, "mm", 0),
+              1000 * gates.foot_slide),
+      measure("worst_foot_slide_mm", "Sliding of a standing foot, worst stance",
+              1000 * p.worst_foot_slide, "mm", 0),
+      at_most(
+          measure("penetration_mm", "Deepest foot in the ground", 1000 * p.penetration, "mm", 0),
+          1000 * gates.penetration),
+      at_most(measure("jitter_m_s3", "Jitter: mean third derivative of the joints", p.jitter,
+                      "m/s³", 0),
+              gates.jitter),
+  };
+}
+
+std::string first_failure(const Quality& quality) {
+  for (const QualityMeasure& m : quality) {
+    if (m.passed()) continue;
+    return fmt::format("{}: {:.{}f}{}{} (gate {} {:g})", m.what, m.value, m.digits,
+                       m.unit.empty() ? "" : " ", m.unit, m.at_most ? "at most" : "at least",
+                       *m.gate);
+  }
+  return {};
+}
+
+}  // namespace walktrack

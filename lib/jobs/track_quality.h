@@ -1,0 +1,25 @@
+// How good a track is, as far as it can tell itself: numbers that people ask for, each with the
+// gate of the configuration that it has to pass.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/config.h"
+#include "io/run_record.h"
+#include "jobs/track_results.h"
+
+namespace walktrack {
+
+using Quality = std::vector<QualityMeasure>;
+
+// In the order that they are shown in. Feet, ground and trembling are judged by
+// metrics/plausibility.h, swapped legs by metrics/leg_swaps.h.
+Quality quality_of(const TrackedFrames& frames, const GateConfig& gates);
+
+// What the first failed gate says against the result; empty if all passed.
+std::string first_failure(const Quality& quality);
+
+}  // namespace walktrack

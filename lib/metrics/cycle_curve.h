@@ -1,0 +1,41 @@
+// Curves over the gait cycle: a signal cut at the strikes of one foot, each stride stretched to
+// 0-100 %, and what the strides have in common.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "metrics/gait.h"
+
+namespace walktrack {
+
+inline constexpr size_t kCyclePoints = 101;  // 0 %, 1 %, ..., 100 %
+using CycleCurve = std::array<double, kCyclePoints>;
+
+// From one strike of a foot to its next.
+struct Stride {
+  Side side;
+  double from, to;     // s
+  double toe_off = 0;  // share of the stride at which the foot leaves the ground; 0 = not known
+};
+
+// In order of time. A stride longer than `longest` seconds is two with an event missed between
+// them, and left out.
+std::vector<Stride> strides_of(const Gait& gait, double longest = 3.0);
+
+// The signal over the stride, linear between samples; NaN within a gap (samples that are NaN) and
+// outside the signal. `time` increases.
+CycleCurve over_stride(std::span<const double> time, std::span<const double> values,
+                       const Stride& stride);
+
+// Mean and standard deviation (n - 1; 0 for one curve) at every per cent, over the curves without a
+// gap; NaN without any.
+struct CycleBand {
+  CycleCurve mean, sd;
+  size_t count = 0;
+};
+CycleBand band_of(std::span<const CycleCurve> curves);
+
+}  // namespace walktrack

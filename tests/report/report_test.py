@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+"""Opens reports in a real browser: they load without complaint, ask nobody for anything, show the
+numbers of run.json, and can be used with keys, on a telephone and on paper.
+
+    report_test.py WALKTRACK SOURCE_FOLDER [PICTURES]
+
+With PICTURES, a folder, leaves screenshots there. Exit code 77 (skipped) where there is no Chromium.
+"""
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from browser import Browser, find_chromium  # noqa: E402
+
+READY = "document.documentElement?.dataset.ready === 'true'"
+# Few particles and frames: the page is tested, not the tracker.
+QUICK = ["--set", "filter.particles=60", "--set", "start.particles=20", "--set", "start.phases=4", "--set", "search.candidates=2",
+         "--set", "filter.max_layers=2"]
+walktrack, demo, pictures = None, None, None
+
+
+def run(command, *arguments):
+    return subprocess.run([walktrack, command, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+def scene(folder, frames, videos=("side", "front")):
+    """The demo's scene, cut to `frames`, in a folder of its own."""
+    folder.mkdir(parents=True)
+    for file in demo.iterdir():
+        (folder / file.name).symlink_to(file)
+    text = (demo / "scene.yaml").read_text()
+    for camera, video in zip(("side", "front"), videos):
+        text = text.replace(f"video: {camera}.mp4", f"video: {video}.mp4")
+    (folder / "scene.yaml").unlink()
+    (folder / "scene.yaml").write_text(f"{text}\nlast_frame: {frames - 1}\n")
+    return folder / "scene.yaml"
+
+
+class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.browser = Browser()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.temporary.cleanup()
+
+    def track(self, scene_file, name, *options):
+        out = self.folder / name
+        result = run("track", scene_file, "-o", out, *QUICK, *options)
+        self.assertIn(result.returncode, (0, 4), result.stderr)
+        self.assertIn("report.html", result.stderr)
+        return out
+
+    def open(self, page, width=1200):
+        browser = self.browser
+        browser.problems.clear()
+        browser.requests.clear()
+        browser.size(width, 900)
+        browser.open(page, READY)
+
+    def texts(self, selector):
+        return self.browser.value(f"[...document.querySelectorAll({json.dumps(selector)})].map((e) => e.textContent)")
+
+    def check_quiet(self, page):
+        """No complaint, and no request but for the page itself and what is inside it."""
+        self.assertEqual(self.browser.problems, [])
+        for url in self.browser.requests:
+            self.assertTrue(url == page.as_uri() or url.startswith(("blob:", "data:")), url)
+
+    def test_shows_what_the_run_found(self):
+        out = self.track(scene(self.folder / "scene", 60), "found")
+        self.open(out / "report.html")
+        record = json.loads((out / "run.json").read_text())
+        gait = json.loads((out / "gait.json").read_text())
+        self.assertEqual(json.loads(self.browser.value("byId('run-json').textContent")), record)
+        origin = self.texts("#origin-table")[0]
+        for text in (record["digest"], record["scene"]["sha256"], record["program"]["commit"]):
+            self.assertIn(text, origin)
+        tiles = self.texts("#key-figures li")
+        self.assertTrue(any(t.startswith(f"{record['numbers']['tracked_frames']:.0f} of 60") for t in tiles), tiles)
+        speed = gait["summary"]["both"]["speed_m_s"]["value"]
+        self.assertTrue(tiles[0].startswith(f"{speed:.2f} m/s"), tiles)
+        rows = self.texts("#quality-table tbody tr")
+        self.assertEqual(len(rows), len(record["quality"]))
+        for row, measure in zip(rows, record["quality"]):
+            self.assertTrue(row.startswith(measure["what"]), row)
+            self.assertIn(f"{measure['value']:.{measure['digits']}f}".replace("-", "−"), row)
+        self.assertEqual(len(self.texts("#gait-tables table:last-of-type tbody tr")) > 0, bool(gait["contacts"]))
+        settings = dict(zip(self.texts("#settings tbody th"), self.texts("#settings tbody td:nth-child(2)")))
+        self.assertEqual(settings["filter.particles"], "60")
+        self.film_and_figure()
+        self.keys()
+        self.small_and_on_paper()
+        self.check_quiet(out / "report.html")
+
+    def film_and_figure(self):
+        value = self.browser.value
+        self.assertEqual(value("document.querySelector('#film video').videoWidth"), 640)
+        self.assertEqual(len(self.texts("#strip button")), 5)
+        self.assertEqual(self.texts("#cameras button"), ["side", "front"])
+        # The figure is drawn: many pixels of the left leg's blue, whatever its shade.
+        blue = """(() => { const c = document.querySelector('#space canvas'), d = document.createElement('canvas');
+          d.width = c.width; d.height = c.height; const x = d.getContext('2d'); x.drawImage(c, 0, 0);
+          const p = x.getImageData(0, 0, d.width, d.height).data; let n = 0;
+          for (let i = 0; i < p.length; i += 4) n += p[i] < 60 && p[i + 2] > 90 && p[i + 2] - p[i] > 60;
+          return n; })()"""
+        self.assertGreater(value(blue), 200)
+        self.assertGreater(len(self.texts("#time-charts canvas")), 3)
+
+    def keys(self):
+        value = self.browser.value
+        value("clock.show(10)")
+        self.browser.key("ArrowRight", "ArrowRight")
+        self.assertEqual(value("clock.frame"), 11)
+        self.assertIn("frame 11", self.texts("#now")[0])
+        self.browser.key(" ", "Space", " ")
+        self.assertEqual(self.texts("#play"), ["Pause"])
+        value("new Promise((done) => setTimeout(done, 400))")
+        self.browser.key(" ", "Space", " ")
+        self.assertGreater(value("clock.frame"), 11)
+        value("byId('scrubber').focus()")
+        before = value("clock.frame")
+        self.browser.key("ArrowLeft", "ArrowLeft")
+        self.assertEqual(value("clock.frame"), before - 1)
+        # The film follows to the middle of that frame.
+        value("new Promise((done) => setTimeout(done, 300))")
+        shown = value("document.querySelector('#film video').currentTime")
+        self.assertAlmostEqual(shown, (before - 1 + 0.5) / 30, delta=0.5 / 30)
+
+    def small_and_on_paper(self):
+        if pictures:
+            self.browser.picture(pictures / "report_desk.png")
+        paper = self.folder / "report.pdf"
+        self.browser.paper(paper)
+        self.assertIn(len(re.findall(rb"/Type\s*/Page\b", paper.read_bytes())), range(2, 9))
+        self.browser.size(390, 844, 2, True)
+        self.browser.value("new Promise((done) => setTimeout(done, 300))")
+        self.assertLessEqual(self.browser.value("document.documentElement.scrollWidth"), 390)
+        if pictures:
+            self.browser.picture(pictures / "report_phone.png")
+            shutil.copy(paper, pictures / "report.pdf")
+
+    def test_large_films_are_played_from_beside_the_page(self):
+        out = self.track(scene(self.folder / "large", 30), "large_out", "--set", "report.embed_mb=0")
+        self.open(out / "report.html")
+        self.assertLess((out / "report.html").stat().st_size, 500_000)
+        self.assertEqual(self.browser.value("document.querySelector('#film video').videoWidth"), 640)
+        self.assertIn("overlay_side.mp4", self.texts("#film-note")[0])
+
+    def test_names_from_outside_stay_text(self):
+        hostile = "<img src=x onerror=document.title='owned'> \" ' & </script> \n"
+        hostile = hostile.replace("/", "∕")  # no folder has a slash in its name
+        out = self.track(scene(self.folder / hostile, 30), "hostile", "--no-overlay")
+        self.open(out / "report.html")
+        self.assertEqual(self.texts("h1"), [hostile + " / scene.yaml"])
+        self.assertEqual(self.browser.value("document.images.length"), 0)
+        self.assertNotEqual(self.browser.value("document.title"), "owned")
+        self.assertIn("wrote no overlay", self.texts("#film")[0])
+        self.check_quiet(out / "report.html")
+
+    def test_a_film_of_nobody_makes_a_page_that_says_so(self):
+        out = self.track(scene(self.folder / "empty", 30, ("side_background", "front_background")), "nobody")
+        self.open(out / "report.html")
+        self.assertIn("Nobody was found walking", self.texts("#verdict")[0])
+        self.assertIn("No whole stride", self.texts("#cycle-charts")[0])
+        self.check_quiet(out / "report.html")
+
+
+if __name__ == "__main__":
+    if not find_chromium():
+        print("SKIPPED: there is no chromium to open the reports in")
+        sys.exit(77)
+    walktrack, demo = sys.argv[1], pathlib.Path(sys.argv[2]).resolve() / "data/demo"
+    pictures = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
+    if pictures:
+        pictures.mkdir(parents=True, exist_ok=True)
+    unittest.main(argv=sys.argv[:1], verbosity=2)
