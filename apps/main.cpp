@@ -19,6 +19,7 @@ namespace walktrack {
 namespace {
 
 constexpr std::array kCommands{
+    Command{"analyse", "gait, angles and forces of a motion, tracked or measured", run_analyse},
     Command{"batch", "track every scene below a folder, resumable", run_batch},
     Command{"check", "find mistakes in a scene, its calibrations and videos", run_check},
     Command{"config", "print the commented defaults or the effective configuration", run_config},

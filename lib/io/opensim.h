@@ -1,11 +1,8 @@
 // Files for OpenSim and its relatives: marker positions (.trc) and joint angles (.mot).
 //
 // OpenSim's ground has x forward, y up, z to the right of x; the library's world has x, z up and y
-// to the left, so (x, y, z)_opensim = (x, z, -y)_world. Angles follow the names and signs of the
-// Rajagopal and Lai full-body models (body-fixed z, x, y for pelvis, hips and lumbar joint):
-// pelvis_tilt + = upper end backwards, pelvis_list + = right side down, hip_flexion +,
-// hip_adduction + towards the other leg, hip_rotation + = toes inwards, knee_angle + = flexion,
-// ankle_angle + = dorsiflexion.
+// to the left, so (x, y, z)_opensim = (x, z, -y)_world. Angles are those of body/joint_angles.h,
+// which have the names and signs of the Rajagopal and Lai full-body models.
 #pragma once
 
 #include <span>

@@ -4,6 +4,7 @@
 
 #include "io/gait_file.h"
 #include "io/kinetics_file.h"
+#include "io/opensim.h"
 
 namespace walktrack {
 
@@ -25,6 +26,19 @@ double double_support(const Gait& gait) {
     }
   }
   return count > 0 ? sum / static_cast<double>(count) : kUsualDoubleSupport;
+}
+
+void write_angles(const AnalysedMotion& analysed, const ResultFolder& folder) {
+  folder.write("joints.trc", trc_from_motion(analysed.motion, analysed.rate, "joints.trc"));
+  folder.write("angles.csv", joint_angles_csv(analysed.angles, analysed.rate));
+  std::vector<double> times;
+  std::vector<Pose> poses;
+  for (const AngleRow& row : analysed.angles) {
+    if (!row.pose) continue;
+    times.push_back(row.time);
+    poses.push_back(*row.pose);
+  }
+  if (!times.empty()) folder.write("angles.mot", mot_from_poses(times, poses, "angles"));
 }
 
 }  // namespace
@@ -50,6 +64,7 @@ std::vector<FootContact> foot_contacts(const Gait& gait) {
 
 KineticsTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsConfig& config,
                                    const ResultFolder& folder) {
+  write_angles(analysed, folder);
   const GaitTable gait = gait_table(analysed.motion, analysed.members, analysed.transfers);
   folder.write("gait.json", gait_json(gait));
   folder.write("gait.csv", gait_csv(gait));

@@ -1,10 +1,11 @@
-// The tables that follow from a motion, whether it was tracked or measured: gait.json, gait.csv and
-// kinetics.csv.
+// The tables that follow from a motion, whether it was tracked or measured: gait.json, gait.csv,
+// angles.csv, kinetics.csv, and for OpenSim joints.trc and angles.mot.
 #pragma once
 
 #include <vector>
 
 #include "camera/world_frame.h"
+#include "io/angles_file.h"
 #include "io/result_folder.h"
 #include "kinetics/kinetics.h"
 #include "metrics/gait_table.h"
@@ -15,6 +16,8 @@ struct AnalysedMotion {
   Motion motion;
   std::vector<Motion> members;  // as likely ones, for the bands; may be none
   std::vector<SupportTransfer> transfers;
+  std::vector<AngleRow> angles;  // one for each row
+  double rate = 30;              // Hz
   Subject subject;
   Eigen::Vector3d gravity{0, 0, -9.80665};  // m/s^2
   WorldFrame world;                         // of the tables

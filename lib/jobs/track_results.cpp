@@ -6,7 +6,6 @@
 #include <opencv2/core.hpp>
 
 #include "io/motion_file.h"
-#include "io/opensim.h"
 #include "io/overlay.h"
 #include "io/run_record.h"
 #include "io/scene_video.h"
@@ -29,6 +28,23 @@ void draw_record(const FrameRecord& record, const Camera& camera, bool arms, dou
   } else {
     draw_caption(image, fmt::format("{:.2f} s  not tracked", time));
   }
+}
+
+std::vector<AngleRow> angles_of(const TrackedFrames& frames) {
+  std::vector<AngleRow> rows;
+  for (size_t i = 0; i < frames.records.size(); ++i) {
+    AngleRow& row = rows.emplace_back(AngleRow{time_of(frames, i), {}, {}, {}});
+    const FrameEstimate& estimate = frames.records[i].estimate;
+    if (!frames.records[i].tracked) continue;
+    row.pose = estimate.pose;
+    row.p05.emplace();
+    row.p95.emplace();
+    for (size_t k = 0; k < kJointAngleCount; ++k) {
+      (*row.p05)[k] = estimate.angles[k].p05;
+      (*row.p95)[k] = estimate.angles[k].p95;
+    }
+  }
+  return rows;
 }
 
 }  // namespace
@@ -111,19 +127,10 @@ WrittenTables write_tables(const TrackedFrames& frames, const Scene& scene,
   const std::string uncertainty = uncertainty_csv(motion, uncertainty_of(frames), scene.world);
   folder.write("joints.csv", joints);
   folder.write("uncertainty.csv", uncertainty);
-  folder.write("joints.trc", trc_from_motion(motion, frames.frame_rate, "joints.trc"));
-  const KineticsTotals totals =
-      write_motion_tables({motion, ensemble_of(frames), support_transfers_of(frames), scene.subject,
-                           scene.gravity, scene.world},
-                          config, folder);
-  std::vector<double> times;
-  std::vector<Pose> poses;
-  for (size_t i = 0; i < frames.records.size(); ++i) {
-    if (!frames.records[i].tracked) continue;
-    times.push_back(time_of(frames, i));
-    poses.push_back(frames.records[i].estimate.pose);
-  }
-  if (!times.empty()) folder.write("angles.mot", mot_from_poses(times, poses, "angles"));
+  const KineticsTotals totals = write_motion_tables(
+      {motion, ensemble_of(frames), support_transfers_of(frames), angles_of(frames),
+       frames.frame_rate, scene.subject, scene.gravity, scene.world},
+      config, folder);
   return {result_digest(joints, uncertainty), totals};
 }
 

@@ -31,6 +31,23 @@ void add_pose(const Pose& pose, double weight, double reference_heading, Pose& s
   }
 }
 
+// Angles as differences to those of the mean pose, so that a full turn does not split them.
+void spread_angles(std::span<const WalkerParticle> particles, std::span<const double> weights,
+                   int threads, FrameEstimate& out) {
+  const JointAngles middle = joint_angles(out.pose);
+  std::vector<JointAngles> all(particles.size());
+  parallel_for(particles.size(), threads, [&](size_t i) {
+    all[i] = joint_angles(particles[i].pose);
+    for (size_t k = 0; k < kJointAngleCount; ++k)
+      all[i][k] = middle[k] + std::remainder(all[i][k] - middle[k], 2 * kPi);
+  });
+  parallel_for(kJointAngleCount, threads, [&](size_t k) {
+    std::vector<double> values(all.size());
+    for (size_t i = 0; i < all.size(); ++i) values[i] = all[i][k];
+    out.angles[k] = weighted_spread(values, weights);
+  });
+}
+
 // Walkers run by their own clocks: the pace turns the walker's time into the person's.
 double since_transfer(const WalkerParticle& particle) {
   return particle.walker.since_transfer / std::exp(particle.extra_before[kPace]);
@@ -105,6 +122,7 @@ FrameEstimate estimate_frame(const BodyModel& model, std::span<const WalkerParti
     out.speed += weights[i] * moved.head<2>().norm() / dt;
   }
   out.pose.heading += reference;
+  spread_angles(particles, weights, threads, out);
   out.since_transfer =
       since_transfer(particles, weights, out.left_stance > 0.5 ? Side::kLeft : Side::kRight);
   return out;

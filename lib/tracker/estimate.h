@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "body/joint_angles.h"
 #include "tracker/particle.h"
 
 namespace walktrack {
@@ -20,6 +21,7 @@ struct FrameEstimate {
   JointPositions joints;   // weighted means
   std::array<std::array<Spread, 3>, kJointCount> spread{};  // by joint and axis
   Pose pose;                                                // weighted means of the pose's numbers
+  std::array<Spread, kJointAngleCount> angles{};            // rad; about those of `pose`
   double left_stance = 0;  // probability that the left foot carries the body
   // s, from when the likelier of the feet took over the body's weight until now
   Spread since_transfer;

@@ -1,0 +1,47 @@
+// walktrack analyse: gait, angles and forces of a motion that is already there.
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "core/errors.h"
+#include "jobs/analyse.h"
+#include "terminal.h"
+
+namespace walktrack {
+
+namespace po = boost::program_options;
+
+int run_analyse(const Arguments& arguments) {
+  std::string motion;
+  double height = 0, mass = 0;
+  CommandLine line({.name = "analyse",
+                    .operands = "MOTION",
+                    .about = "Gait events and parameters, joint angles, ground reactions and joint "
+                             "moments of a motion\n(joints.csv, or a folder that holds one; z up, "
+                             "ground at z = 0), in the folder --output.\n'track' writes the same "
+                             "tables, with bands.",
+                    .example = "walktrack analyse data/demo/truth.csv -o out/analysis"});
+  auto add = line.options().add_options();
+  add("height", po::value(&height)->value_name("M"),
+      "of the subject; default: as thighs and shanks have it");
+  add("mass", po::value(&mass)->value_name("KG"), "of the subject; default: 70");
+  line.operand("MOTION", &motion);
+  if (!line.parse(arguments)) return kDone;
+  if (height < 0 || mass < 0) throw UsageError("--height, --mass: allowed are numbers above 0");
+  AnalyseJob job;
+  job.motion = motion;
+  job.output = line.required_output();
+  if (height > 0) job.height = height;
+  if (mass > 0) job.mass = mass;
+  job.config = line.config();
+  job.overwrite = line.common().overwrite;
+  job.command_line = {"walktrack", "analyse"};
+  job.command_line.insert(job.command_line.end(), arguments.begin(), arguments.end());
+  const AnalyseOutcome outcome = analyse(job);
+  Terminal(line.common())
+      .control()
+      .say(fmt::format("{} steps at {:.2f} m/s; open {}/gait.json", outcome.steps, outcome.speed,
+                       line.required_output()));
+  return kDone;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,87 @@
+#include "jobs/analyse.h"
+
+#include <cmath>
+
+#include "body/pose_from_joints.h"
+#include "core/errors.h"
+#include "io/files.h"
+#include "io/motion_file.h"
+#include "io/run_record.h"
+#include "io/sha256.h"
+#include "jobs/motion_tables.h"
+
+namespace walktrack {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kMaxMotionBytes = size_t{1} << 30;
+
+// The stature whose thighs and shanks are as long as the motion's; the default's if none is known.
+double stature_of(const Motion& motion) {
+  const BodyLengths unit = body_lengths({.height = 1, .mass = 1, .lengths = {}});
+  double sum = 0;
+  size_t count = 0;
+  for (const JointPositions& joints : motion.joints) {
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const double length = (joints[hip(side)] - joints[knee(side)]).norm() +
+                            (joints[knee(side)] - joints[ankle(side)]).norm();
+      if (!std::isfinite(length)) continue;
+      sum += length / (unit.thigh + unit.shank);
+      ++count;
+    }
+  }
+  return count > 0 && sum > 0 ? sum / static_cast<double>(count) : Subject{}.height;
+}
+
+std::vector<AngleRow> angles_of(const Motion& motion, const Subject& subject) {
+  const BodyLengths lengths = body_lengths(subject);
+  std::vector<AngleRow> rows;
+  for (size_t i = 0; i < motion.time.size(); ++i)
+    rows.push_back({motion.time[i], pose_from_joints(motion.joints[i], lengths), {}, {}});
+  return rows;
+}
+
+RunRecord record_of(const AnalyseJob& job, const fs::path& file, const Subject& subject,
+                    const KineticsTotals& totals) {
+  RunRecord record;
+  record.command = "analyse";
+  record.scene = file.filename().string();
+  record.scene_digest = sha256(read_text_file(file, kMaxMotionBytes));
+  record.config = job.config;
+  record.status = "analysed";
+  if (!job.mass)
+    record.notes.push_back("the subject's mass is not known: forces are those of 70 kg");
+  record.numbers = {{"height_m", subject.height},
+                    {"mass_kg", subject.mass},
+                    {"distance_m", totals.distance},
+                    {"positive_work_j", totals.positive_work},
+                    {"negative_work_j", totals.negative_work},
+                    {"cost_of_transport", totals.cost_of_transport},
+                    {"peak_foot_load_body_weights", totals.peak_load}};
+  record.digest = record.scene_digest;
+  record.command_line = job.command_line;
+  return record;
+}
+
+}  // namespace
+
+AnalyseOutcome analyse(const AnalyseJob& job) {
+  const fs::path file = fs::is_directory(job.motion) ? job.motion / "joints.csv" : job.motion;
+  AnalysedMotion analysed;
+  analysed.motion = read_motion(file);
+  if (analysed.motion.time.size() < 2)
+    throw InputError(describe({file.string(), 0, ""}, "fewer than two rows", "a motion"));
+  analysed.rate = 1 / sample_period(analysed.motion);
+  analysed.subject.height = job.height.value_or(stature_of(analysed.motion));
+  analysed.subject.mass = job.mass.value_or(Subject{}.mass);
+  analysed.angles = angles_of(analysed.motion, analysed.subject);
+  const ResultFolder folder(job.output, job.overwrite);
+  const KineticsTotals totals = write_motion_tables(analysed, job.config.values.kinetics, folder);
+  folder.finish(run_json(record_of(job, file, analysed.subject, totals)));
+  const Gait gait = gait_from_motion(analysed.motion);
+  return {gait.steps.size(), gait.speed};
+}
+
+}  // namespace walktrack

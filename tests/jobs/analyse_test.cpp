@@ -1,0 +1,136 @@
+#include "jobs/analyse.h"
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/conventions.h"
+#include "core/errors.h"
+#include "io/csv.h"
+#include "io/files.h"
+#include "io/result_folder.h"
+
+namespace walktrack {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kDemo = fs::path(WALKTRACK_SOURCE_DIR) / "data/demo";
+const fs::path kData = fs::path(WALKTRACK_SOURCE_DIR) / "../shared/data";
+
+class Analyse : public testing::Test {
+ protected:
+  Analyse() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / (std::string("walktrack_analyse_") + test->name());
+    fs::remove_all(folder_);
+  }
+  ~Analyse() override { fs::remove_all(folder_); }
+  AnalyseJob job(const fs::path& motion) const {
+    AnalyseJob out;
+    out.motion = motion;
+    out.output = folder_;
+    return out;
+  }
+  fs::path folder_;
+};
+
+TEST_F(Analyse, WritesACompleteResult) {
+  const AnalyseOutcome outcome = analyse(job(kDemo / "truth.csv"));
+  EXPECT_GE(outcome.steps, 5u);
+  for (const char* name :
+       {"gait.json", "gait.csv", "angles.csv", "angles.mot", "joints.trc", "kinetics.csv"})
+    EXPECT_TRUE(fs::exists(folder_ / name)) << name;
+  EXPECT_TRUE(is_complete_result(folder_));
+  const auto run = nlohmann::json::parse(read_text_file(folder_ / "run.json", size_t{1} << 20));
+  // The demo's subject is 1.75 m high: its thighs and shanks say so.
+  EXPECT_NEAR(run.at("numbers").at("height_m").get<double>(), 1.75, 0.01);
+  EXPECT_EQ(run.at("notes").size(), 1u);  // nobody said the mass
+  EXPECT_THROW(analyse(job(kDemo / "truth.csv")), UsageError);
+}
+
+TEST_F(Analyse, ForcesGoWithTheMass) {
+  AnalyseJob light = job(kDemo / "truth.csv");
+  light.mass = 35;
+  analyse(light);
+  const CsvTable table = read_csv(folder_ / "kinetics.csv");
+  const size_t row = table.rows.size() / 2;
+  const double half = table.number(table.rows[row], table.column("l_grf_z_n")) +
+                      table.number(table.rows[row], table.column("r_grf_z_n"));
+  light.mass = 70;
+  light.overwrite = true;
+  analyse(light);
+  const CsvTable heavy = read_csv(folder_ / "kinetics.csv");
+  const double whole = heavy.number(heavy.rows[row], heavy.column("l_grf_z_n")) +
+                       heavy.number(heavy.rows[row], heavy.column("r_grf_z_n"));
+  EXPECT_NEAR(whole, 2 * half, 1e-4);
+}
+
+// OpenSim storage files: columns by name.
+std::map<std::string, std::vector<double>> read_storage(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  while (std::getline(in, line) && line.find("endheader") == std::string::npos) continue;
+  std::getline(in, line);
+  std::vector<std::string> names;
+  std::istringstream header(line);
+  for (std::string name; header >> name;) names.push_back(name);
+  std::map<std::string, std::vector<double>> columns;
+  while (std::getline(in, line)) {
+    std::istringstream cells(line);
+    double value = 0;
+    for (const std::string& name : names)
+      if (cells >> value) columns[name].push_back(value);
+  }
+  return columns;
+}
+
+struct Agreement {
+  double correlation, spread_deg;  // of the differences, about their mean
+};
+
+Agreement agreement(const std::vector<double>& a_deg, const std::vector<double>& b_rad) {
+  const size_t n = std::min(a_deg.size(), b_rad.size());
+  double a1 = 0, b1 = 0, aa = 0, bb = 0, ab = 0;
+  for (size_t i = 0; i < n; ++i) {
+    const double a = a_deg[i], b = deg_from_rad(b_rad[i]);
+    a1 += a, b1 += b, aa += a * a, bb += b * b, ab += a * b;
+  }
+  const auto count = static_cast<double>(n);
+  const double va = aa - a1 * a1 / count, vb = bb - b1 * b1 / count, c = ab - a1 * b1 / count;
+  return {c / std::sqrt(va * vb), std::sqrt((va + vb - 2 * c) / count)};
+}
+
+// The same laboratory trials by OpenSim's own inverse kinematics: our names and signs are theirs.
+// Offsets are not compared: OpenSim takes the pelvis's tilt and the foot's zero from markers.
+TEST_F(Analyse, AnglesGoAsOpenSimsInverseKinematicsDo) {
+  const std::map<std::string, double> spread_deg{
+      {"hip_flexion", 4}, {"knee_angle", 4}, {"ankle_angle", 5}};
+  for (const std::string trial : {"opencapS4_walking1", "opencapS4_walkingTS1"}) {
+    const fs::path mocap = kData / "mocap" / (trial + ".csv"),
+                   ik = kData / "grf" / (trial + "_ik.mot");
+    if (!fs::exists(mocap) || !fs::exists(ik)) GTEST_SKIP() << ik << " is absent";
+    AnalyseJob each = job(mocap);
+    each.overwrite = true;
+    analyse(each);
+    const auto ours = read_storage(folder_ / "angles.mot"), theirs = read_storage(ik);
+    for (const auto& [joint, allowed] : spread_deg) {
+      for (const char* side : {"_r", "_l"}) {
+        const Agreement found = agreement(ours.at(joint + side), theirs.at(joint + side));
+        EXPECT_GT(found.correlation, 0.9) << trial << " " << joint << side;
+        EXPECT_LT(found.spread_deg, allowed) << trial << " " << joint << side;
+      }
+    }
+    // A few degrees of movement from joint centres that are good to a centimetre: the sign is told.
+    for (const char* name : {"pelvis_list", "hip_adduction_r", "hip_adduction_l"})
+      EXPECT_GT(agreement(ours.at(name), theirs.at(name)).correlation, 0.7) << trial << " " << name;
+  }
+}
+
+}  // namespace
+}  // namespace walktrack
