@@ -16,6 +16,12 @@ file(READ ${FOLDER}/normal_gait.csv NORMAL_GAIT)
 string(REPLACE "<!--STYLE-->\n" "${STYLE}" PAGE "${PAGE}")
 string(REPLACE "<!--SCRIPT-->\n" "${SCRIPT}" PAGE "${PAGE}")
 
+read_parts(SCRIPT batch.js)
+read_parts(STYLE style.css)
+file(READ ${FOLDER}/batch.html BATCH)
+string(REPLACE "<!--STYLE-->\n" "${STYLE}" BATCH "${BATCH}")
+string(REPLACE "<!--SCRIPT-->\n" "${SCRIPT}" BATCH "${BATCH}")
+
 file(WRITE ${OUTPUT} "// Made from data/report by assemble.cmake.
 #include \"io/report_page.h\"
 
@@ -23,6 +29,11 @@ namespace walktrack {
 
 std::string_view report_template() {
   static constexpr char kText[] = R\"template(${PAGE})template\";
+  return {kText, sizeof(kText) - 1};
+}
+
+std::string_view batch_template() {
+  static constexpr char kText[] = R\"template(${BATCH})template\";
   return {kText, sizeof(kText) - 1};
 }
 

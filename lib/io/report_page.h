@@ -39,6 +39,8 @@ std::string json_in_html(std::string_view json);
 
 // The page without title, data and films.
 std::string_view report_template();
+// The page of a batch with its places <!--HEADLINE-->, <!--STATES-->, <!--HEADINGS-->, <!--ROWS-->.
+std::string_view batch_template();
 // data/report/normal_gait.csv.
 std::string_view normal_gait_csv();
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/job_control.h"
+#include "jobs/batch_figures.h"
 #include "jobs/child_process.h"
 
 namespace walktrack {
@@ -30,6 +31,7 @@ struct SequenceResult {
   std::string reason{};  // of failure, or of what is short of a gate
   double seconds = 0;    // that tracking took; 0 = not known
   std::string digest{};
+  BatchFigures figures{};
 };
 
 struct BatchJob {

@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "io/files.h"
+#include "io/report_page.h"
 #include "io/text.h"
 #include "jobs/batch.h"
 
@@ -8,14 +11,22 @@ namespace walktrack {
 
 namespace {
 
+std::string number(const std::optional<double>& value, int digits) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "";
+}
+
 std::string summary_csv(const std::vector<Sequence>& sequences,
                         const std::vector<SequenceResult>& results) {
-  std::string text = "sequence,state,seconds,digest,reason\n";
+  std::string text = "sequence,state,seconds,digest,reason";
+  for (const BatchFigure& figure : kBatchFigures) text += fmt::format(",{}", figure.column);
+  text += "\n";
   for (size_t i = 0; i < sequences.size(); ++i) {
     const SequenceResult& result = results[i];
-    text += fmt::format("{},{},{},{},{}\n", csv_cell(sequences[i].name), state_name(result.state),
+    text += fmt::format("{},{},{},{},{}", csv_cell(sequences[i].name), state_name(result.state),
                         result.seconds > 0 ? fmt::format("{:.1f}", result.seconds) : "",
                         csv_cell(result.digest), csv_cell(result.reason));
+    for (const auto& figure : result.figures) text += "," + number(figure, 6);
+    text += "\n";
   }
   return text;
 }
@@ -30,30 +41,71 @@ std::string failures_txt(const std::vector<Sequence>& sequences,
   return text;
 }
 
-constexpr const char* kPageStart =
-    "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>walktrack batch"
-    "</title>\n<style>body{font-family:sans-serif;margin:2em}td,th{padding:.3em .8em;"
-    "text-align:left;border-bottom:1px solid #ccc}.failed{color:#b00020}.degraded{color:#8a5a00}"
-    "</style></head><body>\n<h1>Batch</h1>\n";
+std::string headings_html() {
+  std::string row = "<th>sequence</th><th>state</th>";
+  for (const BatchFigure& figure : kBatchFigures)
+    row += fmt::format("<th class=\"number\">{}</th>", figure.heading);
+  return row + "<th class=\"number\">time, s</th><th>reason</th>";
+}
+
+// What to look at: the report, else the folder.
+std::string link_to(const Sequence& sequence) {
+  std::error_code ignored;
+  const bool report = std::filesystem::is_regular_file(sequence.output / "report.html", ignored);
+  return url_path(sequence.name) + (report ? "/report.html" : "/");
+}
+
+std::string row_html(const Sequence& sequence, const SequenceResult& result) {
+  const std::string_view state = state_name(result.state);
+  std::string row =
+      fmt::format("<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td class=\"{}\">{}</td>",
+                  link_to(sequence), html_text(one_line(sequence.name)), state, state);
+  for (size_t i = 0; i < kBatchFigures.size(); ++i)
+    row += fmt::format("<td class=\"number\">{}</td>",
+                       number(result.figures[i], kBatchFigures[i].digits));
+  return row + fmt::format("<td class=\"number\">{}</td><td class=\"word\">{}</td></tr>\n",
+                           result.seconds > 0 ? fmt::format("{:.1f}", result.seconds) : "",
+                           html_text(one_line(result.reason)));
+}
+
+std::string states_html(const std::vector<SequenceResult>& results) {
+  std::string tiles;
+  for (const SequenceState state : {SequenceState::kComplete, SequenceState::kDegraded,
+                                    SequenceState::kFailed, SequenceState::kWaiting}) {
+    const auto count = std::count_if(results.begin(), results.end(),
+                                     [&](const auto& result) { return result.state == state; });
+    tiles +=
+        fmt::format("<li><b class=\"{0}\">{1}</b><span>{0}</span></li>", state_name(state), count);
+  }
+  return tiles;
+}
+
+// The template with texts in the place of its marks, which stand there in this order.
+std::string filled(std::string_view page,
+                   std::initializer_list<std::pair<std::string_view, std::string>> texts) {
+  std::string out;
+  for (const auto& [mark, text] : texts) {
+    const size_t place = page.find(mark);
+    out.append(page.substr(0, place)).append(text);
+    page.remove_prefix(place + mark.size());
+  }
+  return out.append(page);
+}
 
 std::string overview_html(const std::vector<Sequence>& sequences,
                           const std::vector<SequenceResult>& results) {
   int complete = 0;
   std::string rows;
   for (size_t i = 0; i < sequences.size(); ++i) {
-    const SequenceResult& result = results[i];
-    complete += result.state == SequenceState::kComplete;
-    const std::string name = html_text(sequences[i].name);
-    rows += fmt::format(
-        "<tr><td><a href=\"{}/\">{}</a></td><td class=\"{}\">{}</td><td>{}</td><td>{}</td></tr>\n",
-        url_path(sequences[i].name), name, state_name(result.state), state_name(result.state),
-        result.seconds > 0 ? fmt::format("{:.1f} s", result.seconds) : "",
-        html_text(result.reason));
+    complete += results[i].state == SequenceState::kComplete;
+    rows += row_html(sequences[i], results[i]);
   }
-  return fmt::format(
-      "{}<p>{} of {} sequences complete</p>\n<table><tr><th>sequence</th><th>state</th>"
-      "<th>time</th><th>reason</th></tr>\n{}</table></body></html>\n",
-      kPageStart, complete, sequences.size(), rows);
+  return filled(
+      batch_template(),
+      {{"<!--HEADLINE-->", fmt::format("{} of {} sequences complete", complete, sequences.size())},
+       {"<!--STATES-->", states_html(results)},
+       {"<!--HEADINGS-->", headings_html()},
+       {"<!--ROWS-->\n", rows}});
 }
 
 }  // namespace

@@ -86,6 +86,7 @@ SequenceResult complete_result(const fs::path& file) {
   if (timing != json.end() && timing->is_object()) {
     result.seconds = timing->value("seconds", 0.0);
   }
+  result.figures = figures_of(json, file.parent_path());
   return result;
 }
 

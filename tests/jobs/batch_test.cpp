@@ -28,8 +28,11 @@ constexpr const char* kScript =
     "scene=$1; out=$3; mode=$(sed -n 2p \"$scene\")\n"
     "echo x >> \"$out/runs\"\n"
     "case $mode in\n"
-    "  '#ok') echo '{\"status\": \"tracked\", \"digest\": \"d1\", \"timing\": {\"seconds\": 1.5}}'"
-    " > \"$out/run.json\";;\n"
+    "  '#ok') echo '{\"summary\": {\"both\": {\"speed_m_s\": {\"value\": 1.25}}}}' > "
+    "\"$out/gait.json\"\n"
+    "    touch \"$out/report.html\"\n"
+    "    echo '{\"status\": \"tracked\", \"digest\": \"d1\", \"timing\": {\"seconds\": 1.5},"
+    " \"quality\": [{\"name\": \"foot_slide_mm\", \"value\": 12}]}' > \"$out/run.json\";;\n"
     "  '#lost') echo '{\"status\": \"below gates\", \"notes\": [\"lost 40 %\"]}' > "
     "\"$out/run.json\"; exit 4;;\n"
     "  '#fail') echo 'walktrack: cam.mp4: found \"no\" <video>, allowed: one' >&2; exit 3;;\n"
@@ -87,16 +90,21 @@ TEST_F(BatchTest, GoesOnAfterFailuresOfEveryKind) {
   EXPECT_EQ(outcome.failed, 3);
   EXPECT_EQ(outcome.waiting, 0);
   EXPECT_EQ(read_file(job_.output / "summary.csv"),
-            "sequence,state,seconds,digest,reason\n"
-            "crash,failed,,,ended by signal 11 (Segmentation fault)\n"
-            "fail,failed,,,\"exit 3: cam.mp4: found \"\"no\"\" <video>, allowed: one\"\n"
-            "lie,failed,,,exit 0\n"
-            "lost,degraded,,,below gates: lost 40 %\n"
-            "ok,complete,1.5,d1,\n");
+            "sequence,state,seconds,digest,reason,lost_percent,speed_m_s,cadence_steps_per_min,"
+            "step_length_m,stance_percent,foot_slide_mm,penetration_mm\n"
+            "crash,failed,,,ended by signal 11 (Segmentation fault),,,,,,,\n"
+            "fail,failed,,,\"exit 3: cam.mp4: found \"\"no\"\" <video>, allowed: one\",,,,,,,\n"
+            "lie,failed,,,exit 0,,,,,,,\n"
+            "lost,degraded,,,below gates: lost 40 %,,,,,,,\n"
+            "ok,complete,1.5,d1,,,1.250000,,,,12.000000,\n");
   EXPECT_THAT(read_file(job_.output / "failures.txt"),
               testing::StartsWith("crash: ended by signal 11 (Segmentation fault)\nfail: exit 3"));
   const std::string page = read_file(job_.output / "batch.html");
   EXPECT_THAT(page, HasSubstr("1 of 5 sequences complete"));
+  EXPECT_THAT(page, HasSubstr("href=\"ok/report.html\""));
+  EXPECT_THAT(page, HasSubstr("href=\"crash/\""));
+  EXPECT_THAT(page, HasSubstr("<td class=\"number\">1.25</td>"));
+  EXPECT_THAT(page, testing::Not(HasSubstr("<!--")));
   EXPECT_THAT(page, HasSubstr("&lt;video&gt;"));
   EXPECT_THAT(page, testing::Not(HasSubstr("<video>")));
 }
