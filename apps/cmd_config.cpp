@@ -7,7 +7,7 @@
 namespace walktrack {
 
 int run_config(const Arguments& arguments) {
-  bool changed = false;
+  bool changed = false, keys = false;
   CommandLine line({.name = "config",
                     .operands = "",
                     .about = "Prints every parameter with its value, meaning, allowed values and, "
@@ -15,8 +15,13 @@ int run_config(const Arguments& arguments) {
                              "a configuration file.",
                     .example = "walktrack config --set seed=7"});
   line.options().add_options()("changed", boost::program_options::bool_switch(&changed),
-                               "only what differs from the defaults");
+                               "only what differs from the defaults")(
+      "keys", boost::program_options::bool_switch(&keys), "only the names, one a line");
   if (!line.parse(arguments)) return kDone;
+  if (keys) {
+    for (const auto& [key, value] : config_values(line.config().values)) fmt::print("{}\n", key);
+    return kDone;
+  }
   const std::string text = config_as_yaml(
       line.config(), changed ? ConfigScope::kChanged : ConfigScope::kEverything, true);
   if (line.common().output.empty()) {

@@ -4,6 +4,7 @@
 #include <fmt/ostream.h>
 
 #include "core/errors.h"
+#include "manual.h"
 
 namespace walktrack {
 
@@ -12,22 +13,6 @@ namespace po = boost::program_options;
 namespace {
 
 constexpr char kWords[] = "words that are no options";  // no option on the line can have this name
-
-po::options_description common_options(CommonOptions& common) {
-  po::options_description options("Common options");
-  auto add = options.add_options();
-  add("config,c", po::value(&common.config_file)->value_name("FILE"), "configuration (YAML)");
-  add("set", po::value(&common.settings)->composing()->value_name("KEY=VALUE"),
-      "set one parameter; see 'walktrack config'");
-  add("output,o", po::value(&common.output)->value_name("PATH"), "where the results go");
-  add("seed", po::value(&common.seed)->value_name("N"), "seed of all random numbers");
-  add("threads", po::value(&common.threads)->value_name("N"), "threads, 0 = all of the machine");
-  add("yes,y", po::bool_switch(&common.overwrite), "overwrite a complete result");
-  add("quiet", po::bool_switch(&common.quiet), "errors only");
-  add("verbose", po::bool_switch(&common.verbose), "say more");
-  add("help,h", "this text");
-  return options;
-}
 
 std::vector<std::string> long_names(const po::options_description& options) {
   std::vector<std::string> names;
@@ -67,6 +52,22 @@ po::variables_map parse_words(const Arguments& arguments, const po::options_desc
 
 }  // namespace
 
+po::options_description common_options(CommonOptions& common) {
+  po::options_description options("Common options");
+  auto add = options.add_options();
+  add("config,c", po::value(&common.config_file)->value_name("FILE"), "configuration (YAML)");
+  add("set", po::value(&common.settings)->composing()->value_name("KEY=VALUE"),
+      "set one parameter; see 'walktrack config'");
+  add("output,o", po::value(&common.output)->value_name("PATH"), "where the results go");
+  add("seed", po::value(&common.seed)->value_name("N"), "seed of all random numbers");
+  add("threads", po::value(&common.threads)->value_name("N"), "threads, 0 = all of the machine");
+  add("yes,y", po::bool_switch(&common.overwrite), "overwrite a complete result");
+  add("quiet", po::bool_switch(&common.quiet), "errors only");
+  add("verbose", po::bool_switch(&common.verbose), "say more");
+  add("help,h", "this text");
+  return options;
+}
+
 CommandLine::CommandLine(CommandHelp help)
     : help_(std::move(help)), own_("Options of " + help_.name) {}
 
@@ -88,7 +89,21 @@ void CommandLine::print_help() const {
              help_.example);
 }
 
+// The requests of manual.h.
+bool CommandLine::explain(const Arguments& arguments) const {
+  if (arguments == Arguments{kManualRequest}) {
+    fmt::print("{}", manual_section(help_, own_));
+  } else if (arguments == Arguments{kWordsRequest}) {
+    CommonOptions unused;
+    fmt::print("{}{}", option_words(own_), option_words(common_options(unused)));
+  } else {
+    return false;
+  }
+  return true;
+}
+
 bool CommandLine::parse(const Arguments& arguments) {
+  if (explain(arguments)) return false;
   po::options_description known;
   known.add(own_).add(common_options(common_));
   const po::variables_map values = parse_words(arguments, known);

@@ -51,6 +51,9 @@ struct CommandHelp {
   std::string example;   // a command that runs on shipped data
 };
 
+// Those of every command, bound to `common`.
+boost::program_options::options_description common_options(CommonOptions& common);
+
 class CommandLine {
  public:
   explicit CommandLine(CommandHelp help);
@@ -77,6 +80,7 @@ class CommandLine {
     std::string* value;
     bool optional;
   };
+  bool explain(const Arguments& arguments) const;
   void print_help() const;
   void take_operands(const std::vector<std::string>& words);
 

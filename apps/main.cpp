@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "core/errors.h"
 #include "core/version.h"
+#include "manual.h"
 #include "terminal.h"
 
 namespace walktrack {
@@ -43,9 +44,8 @@ void print_overview(std::FILE* to) {
   fmt::print(to,
              "\n  --version  version and build\n"
              "  --help     this text; 'walktrack COMMAND --help' explains a command\n\n"
-             "Exit codes: 0 done, 1 failed, 2 usage or configuration, 3 input unreadable,\n"
-             "            4 done but lost or below a quality gate, 130 interrupted\n\n"
-             "Example:\n  walktrack config\n");
+             "{}\nExample:\n  walktrack config\n",
+             kExitCodes);
 }
 
 void print_version() {
@@ -74,6 +74,15 @@ int run(const Arguments& words) {
   if (words.empty() || words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
     print_overview(words.empty() ? stderr : stdout);
     return words.empty() ? kUsage : kDone;
+  }
+  if (words[0] == kManualRequest) {
+    print_manual(kCommands);
+    return kDone;
+  }
+  if (words[0] == kWordsRequest) {
+    for (const Command& command : kCommands) fmt::print("{}\n", command.name);
+    fmt::print("--help\n--version\n");
+    return kDone;
   }
   if (words[0] == "--version") {
     print_version();

@@ -22,6 +22,20 @@ extern "C" void request_stop(int) { stop_requested.store(true); }
 constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
 constexpr size_t kBarWidth = 30;
 
+// https://no-color.org: set and not empty.
+bool wants_colour() {
+  const char* no_colour = std::getenv("NO_COLOR");
+  return no_colour == nullptr || *no_colour == '\0';
+}
+
+// "45 s", "12 min", "3 h 20 min".
+std::string duration(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  const int minutes = static_cast<int>(seconds / 60 + 0.5);
+  return minutes < 120 ? fmt::format("{} min", minutes)
+                       : fmt::format("{} h {:02d} min", minutes / 60, minutes % 60);
+}
+
 }  // namespace
 
 void watch_signals() {
@@ -39,7 +53,7 @@ const std::atomic<bool>& stop_request() { return stop_requested; }
 Terminal::Terminal(const CommonOptions& options)
     : quiet_(options.quiet),
       interactive_(!options.quiet && isatty(STDERR_FILENO) != 0),
-      colour_(std::getenv("NO_COLOR") == nullptr) {}
+      colour_(wants_colour()) {}
 
 Terminal::~Terminal() { finish_line(); }
 
@@ -79,9 +93,10 @@ std::string Terminal::line(const Progress& progress) const {
   const size_t done = std::min(progress.done, progress.total);
   const size_t full = kBarWidth * done / progress.total;
   const double left = rate > 0 ? static_cast<double>(progress.total - done) / rate : 0;
-  return fmt::format("{} [{}{}{}{}] {}/{}  {:.1f}/s  {:.0f} s left", what_,
-                     colour_ ? "\033[32m" : "", std::string(full, '='), colour_ ? "\033[0m" : "",
-                     std::string(kBarWidth - full, ' '), done, progress.total, rate, left);
+  return fmt::format("{} [{}{}{}{}] {}/{}  {:.1f}/s  {} left", what_, colour_ ? "\033[32m" : "",
+                     std::string(full, '='), colour_ ? "\033[0m" : "",
+                     std::string(kBarWidth - full, ' '), done, progress.total, rate,
+                     duration(left));
 }
 
 void Terminal::finish_line() {

@@ -45,5 +45,7 @@ CheckReport check_scene(const CheckJob& job, const JobControl& control);
 
 // The report for people, one paragraph a camera, findings last.
 std::string check_text(const CheckReport& report);
+// The same for programs.
+std::string check_json(const CheckReport& report);
 
 }  // namespace walktrack

@@ -1,0 +1,99 @@
+#include "manual.h"
+
+#include <fmt/format.h>
+
+#include "core/version.h"
+
+namespace walktrack {
+
+namespace po = boost::program_options;
+
+namespace {
+
+// Text as roff prints it: a minus that can be copied, no line taken for a request.
+std::string roff(std::string_view text) {
+  std::string safe;
+  bool line_start = true;
+  for (const char c : text) {
+    if (line_start && (c == '.' || c == '\'')) safe += "\\&";
+    if (c == '\\') {
+      safe += "\\e";
+    } else if (c == '-') {
+      safe += "\\-";
+    } else {
+      safe += c;
+    }
+    line_start = c == '\n';
+  }
+  return safe;
+}
+
+// "bold" words of an option: "-o, --output PATH".
+std::string option_heading(const po::option_description& option) {
+  std::string names = option.format_name();  // "-o [ --output ]" or "--set"
+  std::string heading;
+  for (const char c : names) {
+    if (c == '[') heading += ", ";
+    if (c != ' ' && c != '[' && c != ']') heading += c;
+  }
+  const std::string parameter = option.format_parameter();
+  return fmt::format("\\fB{}\\fR{}", roff(heading),
+                     parameter.empty() ? "" : " \\fI" + roff(parameter) + "\\fR");
+}
+
+void print_beginning() {
+  const std::string_view version = build_facts().version;
+  fmt::print(".TH WALKTRACK 1 \"\" \"walktrack {}\" \"User Commands\"\n", version);
+  fmt::print(
+      ".SH NAME\nwalktrack \\- tracks a walking person in calibrated video with a physical gait "
+      "model\n.SH SYNOPSIS\n.B walktrack\n.I COMMAND\n[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n"
+      "walktrack follows one walking person through the films of one or more calibrated cameras\n"
+      "with a particle filter whose motion model is a simulated walker. It writes joints, angles,\n"
+      "gait and forces with their uncertainty, overlay films and a report to look at and send on.\n"
+      ".SH COMMANDS\n");
+}
+
+void print_end() {
+  fmt::print(".SH EXIT STATUS\n.nf\n{}.fi\n", roff(kExitCodes));
+  fmt::print(
+      ".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nIf set and not empty, progress is shown without colour.\n"
+      ".SH FILES\n.TP\n.I /usr/share/walktrack/demo\nA synthetic walk with its truth.\n"
+      ".TP\n.I /usr/share/walktrack/configs\nModels of walkers.\n"
+      ".TP\n.I /usr/share/doc/walktrack\nThe guide.\n"
+      ".SH EXAMPLE\n.nf\nwalktrack check /usr/share/walktrack/demo/scene.yaml\n"
+      "walktrack track /usr/share/walktrack/demo/scene.yaml \\-o demo\n.fi\n");
+}
+
+}  // namespace
+
+void print_manual(std::span<const Command> commands) {
+  print_beginning();
+  for (const Command& command : commands) command.run({kManualRequest});
+  CommonOptions unused;
+  fmt::print(".SH COMMON OPTIONS\n{}", manual_options(common_options(unused)));
+  print_end();
+}
+
+std::string manual_section(const CommandHelp& help, const po::options_description& own) {
+  return fmt::format(".SS walktrack {}{}{}\n{}\n{}.PP\nExample:\n.PP\n.RS\n.nf\n{}\n.fi\n.RE\n",
+                     help.name, help.operands.empty() ? "" : " ", roff(help.operands),
+                     roff(help.about), manual_options(own), roff(help.example));
+}
+
+std::string manual_options(const po::options_description& options) {
+  std::string text;
+  for (const auto& option : options.options())
+    text += fmt::format(".TP\n{}\n{}\n", option_heading(*option), roff(option->description()));
+  return text;
+}
+
+std::string option_words(const po::options_description& options) {
+  std::string words;
+  for (const auto& option : options.options()) {
+    const bool takes_value = option->semantic()->max_tokens() > 0;
+    words += fmt::format("--{}{}\n", option->long_name(), takes_value ? "=" : "");
+  }
+  return words;
+}
+
+}  // namespace walktrack
