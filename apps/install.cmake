@@ -1,0 +1,33 @@
+# What is installed, and the Debian package made of it (cpack in the build folder). The version is
+# that of project() in the first CMakeLists.txt.
+include(GNUInstallDirs)
+set(DOCUMENTS ${CMAKE_INSTALL_DATADIR}/doc/walktrack)
+
+install(TARGETS walktrack DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+# The manual comes from the program itself.
+set(MANUAL ${CMAKE_CURRENT_BINARY_DIR}/walktrack.1.gz)
+add_custom_command(OUTPUT ${MANUAL} VERBATIM DEPENDS walktrack
+  COMMAND sh -c "\"$<TARGET_FILE:walktrack>\" --help-man | gzip -9n > \"${MANUAL}\"")
+add_custom_target(manual ALL DEPENDS ${MANUAL})
+install(FILES ${MANUAL} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+
+install(FILES completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME walktrack)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs ${PROJECT_SOURCE_DIR}/data/demo
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/walktrack)
+install(DIRECTORY guide DESTINATION ${DOCUMENTS})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${DOCUMENTS} RENAME copyright)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME walktrack)
+set(CPACK_PACKAGE_CONTACT "the walktrack authors <walktrack@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "tracks a walking person in calibrated video")
+set(CPACK_PACKAGE_DESCRIPTION "A particle filter whose motion model is a simulated kneed walker follows one person
+through the films of one or more calibrated cameras. It writes joints, angles, gait and
+forces with their uncertainty, files for OpenSim, overlay films and a report.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # dependencies: the packages of the libraries that it loads
+include(CPack)
