@@ -32,35 +32,38 @@ function normalAt(name) {
   });
 }
 
-const angleNames = {
-  hip_flexion: ['Hip', 'extension − / flexion +'], knee_flexion: ['Knee', 'flexion +'],
-  ankle_dorsiflexion: ['Ankle', 'plantar − / dorsiflexion +'], pelvis_tilt: ['Pelvis and trunk', 'lean forward +'],
+// What is drawn: caption, label of the axis, whether the normal range is comparable.
+const angles = {
+  hip_flexion: ['Hip', '°  extension − / flexion +', true], knee_flexion: ['Knee', '°  flexion +', true],
+  ankle_dorsiflexion: ['Ankle', '°  plantar − / dorsiflexion +', true], pelvis_tilt: ['Pelvis', '°  forward tilt +', false],
+};
+const loads = {
+  vertical_load: ['Vertical ground reaction', 'body weights'], hip_flexion_moment: ['Hip moment', 'N m/kg  extension − / flexion +'],
+  knee_flexion_moment: ['Knee moment', 'N m/kg  extension − / flexion +'],
+  ankle_dorsiflexion_moment: ['Ankle moment', 'N m/kg  plantar − / dorsiflexion +'],
 };
 
-function cycleChart(name) {
-  const percent = Array.from({length: 101}, (_, i) => i);
-  const series = [{}], values = [percent], bands = [];
-  const band = (low, high, fill) => {
-    values.push(high, low);
-    series.push({stroke: 'transparent', width: 0, points: {show: false}}, {stroke: 'transparent', width: 0, points: {show: false}});
-    bands.push({series: [series.length - 2, series.length - 1], fill});
-  };
+function cycleChart(parent, cycles, name, [caption, label, comparable]) {
+  const series = [{}], values = [Array.from({length: 101}, (_, i) => i)], bands = [];
   const line = (points, stroke, width) => {
     values.push(points);
     series.push({stroke, width, points: {show: false}});
   };
-  if (name !== 'pelvis_tilt') band(normalAt(name + '_low'), normalAt(name + '_high'), faded('#8b98a5', 0.3));
+  const band = (low, high, fill) => {
+    line(high, 'transparent', 0);
+    line(low, 'transparent', 0);
+    bands.push({series: [series.length - 2, series.length - 1], fill});
+  };
+  if (comparable) band(normalAt(name + '_low'), normalAt(name + '_high'), faded('#8b98a5', 0.3));
   const toeOffs = [];
-  for (const side of sides) {
-    const cycle = data.cycles.find((c) => c.angle === name && c.side === side);
-    if (!cycle || !cycle.count) continue;
-    for (const stride of cycle.strides) {
-      if (cycle.count > 1) line(stride.values, faded(colours[side], 0.3), 1);
+  for (const {side, count, mean, p05, p95, strides} of cycles.filter((c) => c.name === name)) {
+    if (!count) continue;
+    for (const stride of strides) {
+      if (count > 1) line(stride.values, faded(colours[side], 0.35), 1);
       if (stride.toe_off) toeOffs.push([100 * stride.toe_off, colours[side]]);
     }
-    if (cycle.count > 1)
-      band(cycle.mean.map((m, i) => m - cycle.sd[i]), cycle.mean.map((m, i) => m + cycle.sd[i]), faded(colours[side], 0.16));
-    line(cycle.mean, colours[side], 2.5);
+    band(p05, p95, faded(colours[side], 0.18));
+    line(mean, colours[side], 2.5);
   }
   const marks = (u) => {
     for (const [at, stroke] of toeOffs) {
@@ -71,39 +74,60 @@ function cycleChart(name) {
       u.ctx.setLineDash([]);
     }
   };
-  const [caption, sign] = angleNames[name];
-  chart(byId('cycle-charts'), caption, `${caption} angle over the gait cycle, left and right, beside the normal range`, 230,
+  chart(parent, caption, `${caption} over the gait cycle, left and right`, 230,
     {series, bands, scales: {x: {time: false, range: [0, 100]}}, hooks: {draw: [marks]},
-      axes: [axis('% of the gait cycle', 24), axis(`°  ${sign}`, 34)]}, values);
+      axes: [axis('% of the gait cycle', 24), axis(label, 40)]}, values);
+}
+
+function cycleKey(strides, extra) {
+  return element('p', {className: 'key'}, element('i', {className: 'left'}), `left, ${plural(strides('left'), 'stride')} `,
+    element('i', {className: 'right'}), `right, ${plural(strides('right'), 'stride')} `, ...extra);
 }
 
 function startCycles() {
-  const strides = Object.fromEntries(sides.map((side) => [side, Math.max(0, ...data.cycles.filter((c) => c.side === side).map((c) => c.count))]));
-  if (strides.left + strides.right === 0) {
+  const strides = (side) => Math.max(0, ...data.angles.filter((c) => c.side === side).map((c) => c.count));
+  if (!strides('left') && !strides('right')) {
     byId('cycle-charts').append(element('p', {}, 'No whole stride, from one strike of a foot to its next, was tracked without a gap.'));
     return;
   }
-  byId('curves').insertBefore(element('p', {className: 'key'}, element('i', {className: 'left'}), `left, ${plural(strides.left, 'stride')} `,
-    element('i', {className: 'right'}), `right, ${plural(strides.right, 'stride')} `, element('i', {className: 'normal'}), 'normal range (mean ± 1 SD)'),
-    byId('cycle-charts'));
-  Object.keys(angleNames).forEach(cycleChart);
+  byId('cycle-charts').before(cycleKey(strides, [element('i', {className: 'normal'}), 'normal range (mean ± 1 SD)']));
+  for (const [name, what] of Object.entries(angles)) cycleChart(byId('cycle-charts'), data.angles, name, what);
+  byId('motion-range').append(table(['mean curve, °', 'least', 'greatest', 'range', 'greatest at %', 'at strike', 'normal mean'], rangeRows()));
+  byId('normal-note').textContent = 'Bold: mean of the strides; thin: each stride; coloured band: 5–95 % of the filter’s particles; dashes: toe-off. ' +
+    `${normal.source} The definitions differ (see the limits below): compare shape and range before level.`;
+}
+
+function rangeRows() {
   const rows = [];
-  for (const name of Object.keys(angleNames)) {
-    for (const side of sides) {
-      const cycle = data.cycles.find((c) => c.angle === name && c.side === side);
-      if (!cycle || !cycle.count) continue;
-      const low = Math.min(...cycle.mean), high = Math.max(...cycle.mean);
-      const typical = name === 'pelvis_tilt' ? '–' : (() => {
-        const mean = normalAt(name + '_low').map((v, i) => (v + normalAt(name + '_high')[i]) / 2);
-        return `${fixed(Math.min(...mean), 0)} to ${fixed(Math.max(...mean), 0)}`;
-      })();
-      rows.push([`${angleNames[name][0]}, ${side}`, fixed(low, 1), fixed(high, 1), fixed(high - low, 1),
-        fixed(cycle.mean.indexOf(high), 0), fixed(cycle.mean[0], 1), typical]);
+  for (const [name, [caption, , comparable]] of Object.entries(angles)) {
+    const normalMean = comparable ? normalAt(name + '_low').map((low, i) => (low + normalAt(name + '_high')[i]) / 2) : [];
+    const typical = comparable ? `${fixed(Math.min(...normalMean), 0)} to ${fixed(Math.max(...normalMean), 0)}` : '–';
+    for (const {side, count, mean} of data.angles.filter((c) => c.name === name)) {
+      if (!count) continue;
+      const low = Math.min(...mean), high = Math.max(...mean);
+      rows.push([`${caption}, ${side}`, fixed(low, 1), fixed(high, 1), fixed(high - low, 1), fixed(mean.indexOf(high), 0), fixed(mean[0], 1), typical]);
     }
   }
-  byId('motion-range').append(table(['mean curve, °', 'least', 'greatest', 'range', 'greatest at %', 'at strike', 'normal mean'], rows));
-  byId('normal-note').textContent = `Thin lines are strides, the coloured band is their mean ± 1 SD, dashes mark toe-off. ${normal.source} ` +
-    'The definitions differ (see the limits below): compare shape and range before level.';
+  return rows;
+}
+
+function startForces() {
+  const strides = (side) => Math.max(0, ...data.loads.filter((c) => c.side === side).map((c) => c.count));
+  if (!strides('left') && !strides('right')) return;
+  byId('forces').hidden = false;
+  byId('force-charts').before(cycleKey(strides, []));
+  for (const [name, what] of Object.entries(loads)) cycleChart(byId('force-charts'), data.loads, name, what);
+  const n = run.numbers;
+  byId('force-totals').append(table(['whole walk', ''], [
+    ['Way of the centre of mass, m', fixed(n.distance_m, 2)],
+    ['Positive work of hips, knees and ankles, J', fixed(n.positive_work_j, 0)],
+    ['Negative work, J', fixed(n.negative_work_j, 0)],
+    ['Cost of transport (positive work per weight and way)', fixed(n.cost_of_transport, 3)],
+    ['Greatest vertical load of a foot, body weights', fixed(n.peak_foot_load_body_weights, 2)],
+  ]));
+  byId('force-note').textContent = 'By inverse dynamics of the tracked body: computed from its motion, not measured. Moments are those of the muscles, ' +
+    'positive as the angle is. In double support the sharing between the feet is a model; near the ends of the tracked span values lean on extrapolation. ' +
+    `All scale with the mass of ${data.subject.mass_kg} kg.`;
 }
 
 function timeChart(caption, description, values, label, more = {}) {

@@ -2,6 +2,7 @@ verdict();
 keyFigures();
 gaitTables();
 startCycles();
+startForces();
 startTimes();
 quality();
 origin();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <limits>
 #include <set>
 #include <string_view>
 
@@ -77,6 +79,33 @@ double CsvTable::number(const Row& row, size_t column) const {
   const auto value = number_from_text(row.cells[column]);
   if (!value) fail(row, column, "a number");
   return *value;
+}
+
+std::vector<std::vector<double>> read_csv_columns(const std::filesystem::path& path,
+                                                  const std::vector<std::string>& names) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError(fmt::format("{}: cannot be opened", path.string()));
+  CsvTable table;  // header, and one row at a time
+  table.file = path.string();
+  std::vector<size_t> wanted;
+  std::vector<std::vector<double>> columns(names.size());
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    if (trimmed(line).empty() || line.front() == '#') continue;
+    if (table.columns.empty()) {
+      take_header(table, split_cells(line), number);
+      for (const std::string& name : names) wanted.push_back(table.column(name));
+      continue;
+    }
+    table.rows.clear();
+    take_row(table, split_cells(line), number);
+    for (size_t k = 0; k < wanted.size(); ++k) {
+      columns[k].push_back(table.optional_number(table.rows.front(), wanted[k])
+                               .value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+  }
+  if (table.columns.empty()) throw InputError(fmt::format("{}: no header", path.string()));
+  return columns;
 }
 
 CsvTable csv_from_text(const std::string& text, const std::string& file) {

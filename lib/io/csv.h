@@ -32,6 +32,10 @@ struct CsvTable {
 
 // InputError for a file without header, doubled columns, or a row of another length.
 CsvTable read_csv(const std::filesystem::path& path);
+// Some columns of a long table, without holding the rest: one list of numbers for each name, NaN
+// for empty cells. Errors as of read_csv.
+std::vector<std::vector<double>> read_csv_columns(const std::filesystem::path& path,
+                                                  const std::vector<std::string>& names);
 CsvTable csv_from_text(const std::string& text, const std::string& file);
 
 // A number with six decimals (µm, µs), which is what tables hold; "" for NaN, never "-0.000000".

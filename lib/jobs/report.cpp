@@ -1,15 +1,11 @@
 #include "jobs/report.h"
 
-#include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "io/files.h"
-#include "metrics/cycle_curve.h"
+#include "jobs/report_curves.h"
 
 namespace walktrack {
 
@@ -17,9 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t kMaxTableBytes = size_t{1} << 28;
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 Json millimetres(double metres) {
   return std::isfinite(metres) ? Json(std::lround(1000 * metres)) : Json();
@@ -31,12 +25,6 @@ Json rounded(double value) {
 }
 
 Json triple(const Eigen::Vector3d& p) { return {rounded(p.x()), rounded(p.y()), rounded(p.z())}; }
-
-Json curve(const CycleCurve& values) {
-  Json out = Json::array();
-  for (const double value : values) out.push_back(rounded(value));
-  return out;
-}
 
 // Where the camera stands and the corners of its picture, one metre ahead of it.
 Json camera_json(const SceneCamera& scene_camera) {
@@ -89,48 +77,6 @@ Json contacts_json(const Gait& gait) {
   return out;
 }
 
-// An angle of the pose in degrees, by the name it has in normal_gait.csv.
-struct Angle {
-  const char* name;
-  double (*of)(const Pose& pose, Side side);
-};
-const LegPose& leg(const Pose& pose, Side side) { return pose.legs[static_cast<size_t>(side)]; }
-constexpr std::array<Angle, 4> kAngles{{
-    {"hip_flexion", [](const Pose& p, Side s) { return leg(p, s).hip_flexion; }},
-    {"knee_flexion", [](const Pose& p, Side s) { return leg(p, s).knee_flexion; }},
-    {"ankle_dorsiflexion", [](const Pose& p, Side s) { return leg(p, s).ankle_dorsiflexion; }},
-    {"pelvis_tilt", [](const Pose& p, Side) { return p.tilt; }},
-}};
-
-Json cycles_json(const TrackedFrames& frames, const std::vector<double>& time, const Gait& gait) {
-  Json out = Json::array();
-  for (const Angle& angle : kAngles) {
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-      std::vector<double> values;
-      for (const FrameRecord& record : frames.records)
-        values.push_back(record.tracked ? kDegrees * angle.of(record.estimate.pose, side) : kNaN);
-      std::vector<CycleCurve> curves;
-      Json strides = Json::array();
-      for (const Stride& stride : strides_of(gait)) {
-        if (stride.side != side) continue;
-        curves.push_back(over_stride(time, values, stride));
-        strides.push_back({{"from", rounded(stride.from)},
-                           {"to", rounded(stride.to)},
-                           {"toe_off", rounded(stride.toe_off)},
-                           {"values", curve(curves.back())}});
-      }
-      const CycleBand band = band_of(curves);
-      out.push_back({{"angle", angle.name},
-                     {"side", side == Side::kLeft ? "left" : "right"},
-                     {"strides", strides},
-                     {"count", band.count},
-                     {"mean", curve(band.mean)},
-                     {"sd", curve(band.sd)}});
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 std::filesystem::path write_report(const ResultFolder& folder, const ReportInput& input) {
@@ -147,7 +93,8 @@ std::filesystem::path write_report(const ResultFolder& folder, const ReportInput
   data["cameras"] = cameras;
   data["joints"] = motion_json(input.frames);
   data["contacts"] = contacts_json(gait);
-  data["cycles"] = cycles_json(input.frames, motion.time, gait);
+  data["angles"] = cycles_json(angle_signals(folder), gait);
+  data["loads"] = cycles_json(load_signals(folder, input.scene), gait);
   data["normal_csv"] = normal_gait_csv();
   ReportPage page;
   page.title = input.scene.file.parent_path().filename().string() + " / " +

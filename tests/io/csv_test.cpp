@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "tests/run_program.h"
 
 namespace walktrack {
 namespace {
@@ -51,6 +52,20 @@ TEST(CsvNumber, IsFixedAndNeverNegativeZero) {
   EXPECT_EQ(csv_number(-1e-9), "0.000000");
   EXPECT_EQ(csv_number(-1e-6), "-0.000001");
   EXPECT_EQ(csv_number(NAN), "");
+}
+
+TEST(ReadCsvColumns, TakesWhatIsAskedForAndIsAsStrictAsTheTable) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("t.csv", "# note\nt,a,b\n0,1,2\n\n1,,4\n");
+  const auto columns = read_csv_columns(file, {"b", "a"});
+  EXPECT_THAT(columns[0], testing::ElementsAre(2, 4));
+  EXPECT_EQ(columns[1][0], 1);
+  EXPECT_TRUE(std::isnan(columns[1][1]));
+  EXPECT_THROW(read_csv_columns(file, {"c"}), InputError);
+  EXPECT_THROW(read_csv_columns(folder.write("bad", "t,a\n1,x\n"), {"a"}), InputError);
+  EXPECT_THROW(read_csv_columns(folder.write("short", "t,a\n1\n"), {"a"}), InputError);
+  EXPECT_THROW(read_csv_columns(folder.write("none", "# nothing\n"), {"a"}), InputError);
+  EXPECT_THROW(read_csv_columns(folder / "missing", {"a"}), InputError);
 }
 
 }  // namespace
