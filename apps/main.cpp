@@ -71,6 +71,7 @@ int run_command(std::string_view name, const Arguments& arguments) {
 }
 
 int run(const Arguments& words) {
+  if (words.size() == 2 && words[0] == "help") return run_command(words[1], {"--help"});
   if (words.empty() || words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
     print_overview(words.empty() ? stderr : stdout);
     return words.empty() ? kUsage : kDone;
