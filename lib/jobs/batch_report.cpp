@@ -25,7 +25,7 @@ std::string summary_csv(const std::vector<Sequence>& sequences,
     text += fmt::format("{},{},{},{},{}", csv_cell(sequences[i].name), state_name(result.state),
                         result.seconds > 0 ? fmt::format("{:.1f}", result.seconds) : "",
                         csv_cell(result.digest), csv_cell(result.reason));
-    for (const auto& figure : result.figures) text += "," + number(figure, 6);
+    for (const auto& figure : result.figures) text += fmt::format(",{}", number(figure, 6));
     text += "\n";
   }
   return text;
