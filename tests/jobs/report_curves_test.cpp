@@ -72,7 +72,8 @@ TEST(CyclesJson, CutsEachSideAtItsOwnStrikes) {
   for (const auto& [time, side] :
        {std::pair{0.0, Side::kLeft}, {0.5, Side::kRight}, {1.0, Side::kLeft}, {2.0, Side::kLeft}})
     gait.events.push_back({time, side, GaitEventKind::kFootStrike});
-  Signal signal{.name = "ramp"};
+  Signal signal;
+  signal.name = "ramp";
   for (int i = 0; i <= 20; ++i) {
     signal.time.push_back(0.1 * i);
     signal.value.push_back(i);
