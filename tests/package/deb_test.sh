@@ -18,7 +18,7 @@ dpkg-deb --info "$deb" | sed -n 's/^ \(Package\|Version\|Depends\|Installed-Size
 
 root=${DEB_TEST_ROOT:-$work/root}
 # The mirror of this machine, and what apt has to know to reach it.
-mirror=$(grep -rhoE '^(URIs:|deb) +[^ ]+debian/?( |$)' /etc/apt/sources.list /etc/apt/sources.list.d 2>/dev/null | awk '{print $2; exit}')
+mirror=$({ grep -rhoE '^(URIs:|deb) +[^ ]+debian/?( |$)' /etc/apt/sources.list /etc/apt/sources.list.d 2>/dev/null || true; } | awk 'NR == 1 {print $2}')
 release=$(. /etc/os-release && echo "$VERSION_CODENAME")
 if [ ! -x "$root/usr/bin/apt-get" ]; then
   debootstrap --variant=minbase "$release" "$root" "${mirror:-http://deb.debian.org/debian}" >"$work/debootstrap.log" ||
