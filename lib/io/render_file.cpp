@@ -164,8 +164,8 @@ Walker read_other(const YamlValue& value, const fs::path& folder, double duratio
 RenderFile read_render_file(const fs::path& path) {
   const YamlValue file = YamlValue::from_file(path.string());
   file.only_keys({"seed", "frame_rate", "start", "duration", "setting", "light", "sensor",
-                  "background_frames", "subject", "walk", "cameras", "occluders", "others",
-                  "slope_deg", "initial", "truth"});
+                  "background_frames", "images", "subject", "walk", "cameras", "occluders",
+                  "others", "slope_deg", "initial", "truth"});
   const fs::path folder = fs::absolute(path).parent_path();
   RenderFile out;
   RenderOptions& options = out.options;
@@ -178,6 +178,7 @@ RenderFile read_render_file(const fs::path& path) {
   if (file.has("light")) read_light(file.at("light"), options.light);
   if (file.has("sensor")) read_sensor(file.at("sensor"), options);
   take(file, "background_frames", 0, 100'000, options.background_frames);
+  take(file, "images", options.images);
   take_degrees(file, "slope_deg", 45, options.slope);
   take(file, "initial", options.state_initial);
   if (file.has("subject")) {

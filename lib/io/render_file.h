@@ -15,6 +15,7 @@
 //   occluders: [{post: [x, y, radius, height]}, {box: [x0, y0, z0, x1, y1, z1]}]
 //   others: [{motion: other.csv, shift: [0, 1.5], turn_deg: 180, delay: 0.5, clothes: 2},
 //            {walk: {speed: 1, start: [3, 1], heading_deg: 180}}]
+//   images: false                # folders of PNG images in place of videos
 //   truth: {labels: false, flow: false, depth: false}
 #pragma once
 

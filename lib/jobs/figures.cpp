@@ -46,6 +46,11 @@ void add_joint_errors(const Motion& truth, const Motion& estimate, Figures& out)
   out.add_mm("joint_error_relative", "joint error, pelvis moved onto truth",
              any ? e.pelvis_relative.mean : kNone);
   out.add_mm("joint_error_procrustes", "joint error, Procrustes", any ? e.procrustes.mean : kNone);
+  out.add_mm("offset_along", "pelvis ahead of the truth, mean", e.mean_offset.x());
+  out.add_mm("offset_left", "pelvis to the left of it, mean", e.mean_offset.y());
+  out.add_mm("offset_up", "pelvis above it, mean", e.mean_offset.z());
+  out.add("leg_length_percent", "legs longer than the truth's, %",
+          kPercent * (e.leg_length_ratio - 1), 1);
   out.add_share("swapped", "frames with legs exchanged", any ? e.swapped_share : kNone);
   for (size_t j = 0; j < kJointCount; ++j) {
     const std::string name(kJointNames[j]);

@@ -12,7 +12,7 @@
 #include "io/calibration.h"
 #include "io/files.h"
 #include "io/motion_file.h"
-#include "io/video_writer.h"
+#include "jobs/frame_writer.h"
 #include "jobs/render_truth.h"
 #include "synth/sensor.h"
 #include "synth/stage.h"
@@ -92,10 +92,10 @@ void make_truth_folders(const RenderJob& job, const std::string& camera) {
 
 // Renders `count` frames, some at a time in parallel, and writes them in order.
 template <typename MakeFrame>
-void write_video(const fs::path& path, const Filming& filming, size_t count, int threads,
-                 const JobControl& control, const MakeFrame& make_frame) {
-  VideoWriter writer(path, {filming.view.camera.width_px, filming.view.camera.height_px},
-                     filming.rate);
+void write_film(const RenderJob& job, const std::string& name, const Filming& filming, size_t count,
+                int threads, const JobControl& control, const MakeFrame& make_frame) {
+  FrameWriter writer(job.output, name, job.options.images,
+                     {filming.view.camera.width_px, filming.view.camera.height_px}, filming.rate);
   const size_t batch = kFramesPerThread * static_cast<size_t>(threads);
   std::vector<cv::Mat> images(batch);
   for (size_t start = 0; start < count && !control.stopping(); start += batch) {
@@ -112,20 +112,18 @@ void film(const RenderJob& job, const Stage& stage, const Filming& filming, int 
   const std::string& name = filming.camera.name;
   make_truth_folders(job, name);
   write_file_atomically(job.output / (name + ".yaml"), opencv_from_camera(filming.view.camera));
-  write_video(
-      job.output / (name + ".mp4"), filming, filming.frames, threads, control, [&](size_t frame) {
-        write_truth_pictures(job, stage, filming, frame);
-        const Plane<Colour> light =
-            exposed(stage, filming.view, job.options.shutter, filming.time(frame), filming.rate);
-        return picture(job, light, 2 * filming.stream, static_cast<uint32_t>(frame));
-      });
+  write_film(job, name, filming, filming.frames, threads, control, [&](size_t frame) {
+    write_truth_pictures(job, stage, filming, frame);
+    const Plane<Colour> light =
+        exposed(stage, filming.view, job.options.shutter, filming.time(frame), filming.rate);
+    return picture(job, light, 2 * filming.stream, static_cast<uint32_t>(frame));
+  });
   if (job.options.background_frames == 0 || control.stopping()) return;
-  write_video(job.output / (name + "_background.mp4"), filming,
-              static_cast<size_t>(job.options.background_frames), threads, control,
-              [&](size_t frame) {
-                return picture(job, filming.view.empty, 2 * filming.stream + 1,
-                               static_cast<uint32_t>(frame));
-              });
+  write_film(job, name + "_background", filming, static_cast<size_t>(job.options.background_frames),
+             threads, control, [&](size_t frame) {
+               return picture(job, filming.view.empty, 2 * filming.stream + 1,
+                              static_cast<uint32_t>(frame));
+             });
 }
 
 std::vector<double> scene_times(const Stage& stage, double rate) {
@@ -161,9 +159,11 @@ std::string scene_yaml(const RenderJob& job, const std::vector<Filming>& cameras
   std::string out = "# Synthetic: rendered by walktrack, truth in truth.csv.\ncameras:\n";
   for (const Filming& filming : cameras) {
     const std::string& name = filming.camera.name;
-    out += fmt::format("  - {{name: {0}, video: {0}.mp4, calibration: {0}.yaml", name);
+    const bool images = job.options.images;
+    out += fmt::format("  - {{name: {0}, video: {1}, calibration: {0}.yaml", name,
+                       film_name(name, images));
     if (job.options.background_frames > 0)
-      out += fmt::format(", background: {}_background.mp4", name);
+      out += fmt::format(", background: {}", film_name(name + "_background", images));
     if (filming.camera.start_frame > 0)
       out += fmt::format(", start_frame: {}", filming.camera.start_frame);
     if (filming.camera.frame_rate)

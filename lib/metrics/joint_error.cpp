@@ -1,5 +1,8 @@
 #include "metrics/joint_error.h"
 
+#include <algorithm>
+#include <optional>
+
 #include <Eigen/Geometry>
 
 #include "core/errors.h"
@@ -53,6 +56,61 @@ void add_each_joint(const JointPositions& truth, const JointPositions& estimate,
   }
 }
 
+// The horizontal direction in which the pelvis goes in the second about a row; nullopt where it
+// hardly does.
+std::optional<Vector3d> way_at(const Motion& motion, size_t row) {
+  constexpr double kHalfWindow = 0.5;  // s; a stride, so that sway does not count
+  constexpr double kLeastWay = 0.1;    // m
+  std::optional<Vector3d> first, last;
+  const double now = motion.time[row];
+  const auto begin = std::lower_bound(motion.time.begin(), motion.time.end(), now - kHalfWindow);
+  for (auto t = begin; t != motion.time.end() && *t <= now + kHalfWindow; ++t) {
+    const Vector3d& pelvis =
+        motion.joints[static_cast<size_t>(t - motion.time.begin())][Joint::kPelvis];
+    if (!known(pelvis)) continue;
+    if (!first) first = pelvis;
+    last = pelvis;
+  }
+  if (!first) return std::nullopt;
+  Vector3d way = *last - *first;
+  way.z() = 0;
+  if (way.norm() < kLeastWay) return std::nullopt;
+  return way.normalized();
+}
+
+double leg_length(const JointPositions& joints) {
+  double sum = 0;
+  for (const Side side : {Side::kLeft, Side::kRight})
+    sum += (joints[hip(side)] - joints[knee(side)]).norm() +
+           (joints[knee(side)] - joints[ankle(side)]).norm();
+  return sum;
+}
+
+// Signed errors, which random errors do not hide.
+class SignedErrors {
+ public:
+  void add(const Motion& truth, size_t row, const JointPositions& estimate) {
+    const JointPositions& joints = truth.joints[row];
+    ratios_ += leg_length(estimate) / leg_length(joints);
+    ++frames_;
+    const std::optional<Vector3d> way = way_at(truth, row);
+    if (!way) return;
+    const Vector3d offset = estimate[Joint::kPelvis] - joints[Joint::kPelvis];
+    const Vector3d left = Vector3d::UnitZ().cross(*way);
+    offsets_ += Vector3d(offset.dot(*way), offset.dot(left), offset.z());
+    ++walking_frames_;
+  }
+  void write_to(JointErrors& out) const {
+    if (frames_ > 0) out.leg_length_ratio = ratios_ / static_cast<double>(frames_);
+    if (walking_frames_ > 0) out.mean_offset = offsets_ / static_cast<double>(walking_frames_);
+  }
+
+ private:
+  size_t frames_ = 0, walking_frames_ = 0;
+  double ratios_ = 0;
+  Vector3d offsets_ = Vector3d::Zero();
+};
+
 }  // namespace
 
 bool scored_joints_known(const JointPositions& joints) { return scored_points(joints).allFinite(); }
@@ -68,6 +126,7 @@ JointErrors joint_errors(const Motion& truth, const Motion& estimate) {
   size_t usable = 0, filled = 0, swaps = 0;
   std::vector<double> absolute, relative, aligned;
   std::array<std::vector<double>, kJointCount> distances;
+  SignedErrors errors;
   for (size_t i = 0; i < truth.time.size(); ++i) {
     if (!scored_joints_known(truth.joints[i])) continue;
     ++usable;
@@ -82,6 +141,7 @@ JointErrors joint_errors(const Motion& truth, const Motion& estimate) {
     relative.push_back(mean_distance(a.colwise() - a.col(0), b.colwise() - b.col(0)));
     aligned.push_back(distance_after_similarity(a, b));
     add_each_joint(truth.joints[i], found.joints[i], distances);
+    errors.add(truth, i, found.joints[i]);
     if (swapped(truth.joints[i], found.joints[i])) ++swaps;
   }
   if (usable == 0) throw InputError("no row of the truth knows pelvis, hips, knees and ankles");
@@ -89,6 +149,7 @@ JointErrors joint_errors(const Motion& truth, const Motion& estimate) {
     out.filled_share = static_cast<double>(filled) / static_cast<double>(out.frames);
     out.swapped_share = static_cast<double>(swaps) / static_cast<double>(filled);
   }
+  errors.write_to(out);
   out.absolute = error_statistics(std::move(absolute));
   out.pelvis_relative = error_statistics(std::move(relative));
   out.procrustes = error_statistics(std::move(aligned));

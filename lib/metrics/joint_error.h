@@ -9,6 +9,8 @@
 #include <array>
 #include <limits>
 
+#include <Eigen/Core>
+
 #include "body/motion.h"
 #include "metrics/statistics.h"
 
@@ -30,6 +32,11 @@ struct JointErrors {
   // in each frame (Procrustes; Umeyama 1991).
   ErrorStatistics absolute, pelvis_relative, procrustes;
   std::array<ErrorStatistics, kJointCount> by_joint;  // absolute; count 0 where never both known
+  // Mean of estimated minus true pelvis: along the true way of walking, to its left, up. The way is
+  // that of a second of the pelvis; NaN if nobody comes forward in it.
+  Eigen::Vector3d mean_offset = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  // Estimated over true length of thighs and shanks, mean over frames; NaN without frames.
+  double leg_length_ratio = std::numeric_limits<double>::quiet_NaN();
 };
 
 // Throws InputError if no truth frame knows the seven joints.

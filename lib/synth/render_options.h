@@ -61,6 +61,7 @@ struct RenderOptions {
   Sensor sensor;
   Shutter shutter;
   int jpeg_quality = 0;               // 1 (worst) to 100: frames pass a JPEG coder; 0 = they do not
+  bool images = false;                // folders of PNG images in place of videos
   int background_frames = 30;         // of the empty scene, a video of its own; 0 = none
   std::vector<RenderCamera> cameras;  // none = one at the side
   std::vector<Thing> occluders;       // that stand in the scene, also in the empty one

@@ -113,6 +113,29 @@ TEST_F(Render, SameSeedSameBytesForAnyThreadCount) {
   }
 }
 
+TEST_F(Render, ImagesAreTheFramesToTheLastBit) {
+  job_.options.images = true;
+  job_.threads = 1;
+  render_scene(job_, {});
+  const std::string once = content(job_.output / "side/000015.png");
+  EXPECT_FALSE(fs::exists(job_.output / "side/000016.png"));
+  const Scene scene = read_scene(job_.output / "scene.yaml");
+  SceneVideo video(scene);
+  SceneFrames frames;
+  int count = 0;
+  while (video.read(frames)) ++count;
+  EXPECT_EQ(count, 16);
+  // Shorter and with other threads: the same pictures, and none of the old ones is left.
+  job_.threads = 3;
+  job_.overwrite = true;
+  render_scene(job_, {});
+  EXPECT_EQ(content(job_.output / "side/000015.png"), once);
+  job_.options.duration = 0.2;
+  render_scene(job_, {});
+  EXPECT_TRUE(fs::exists(job_.output / "side/000006.png"));
+  EXPECT_FALSE(fs::exists(job_.output / "side/000007.png"));
+}
+
 TEST_F(Render, LabelsShowThePartsAndTheFlowMovesWithThem) {
   job_.options.flow = job_.options.labels = true;
   render_scene(job_, {});

@@ -38,6 +38,36 @@ TEST(JointErrors, EachKindForgivesItsTransform) {
   EXPECT_NEAR(turn.procrustes.mean, 0, 1e-12);
 }
 
+TEST(JointErrors, OffsetsAreAlongTheWayItsLeftAndUp) {
+  const Motion truth = walk_motion({});  // along x
+  for (const double turn : {0.0, 2.0}) {
+    const Eigen::AngleAxisd turned(turn, Vector3d::UnitZ());
+    const Motion way = changed(truth, [&](JointPositions& joints, size_t) {
+      for (Vector3d& p : joints.at) p = turned * p;
+    });
+    const Motion moved = changed(way, [&](JointPositions& joints, size_t) {
+      for (Vector3d& p : joints.at) p += turned * Vector3d(-0.04, 0.02, 0.01);
+    });
+    // The pelvis sways 2 cm about the straight way, so a window's way is off by up to 2 degrees.
+    EXPECT_LT((joint_errors(way, moved).mean_offset - Vector3d(-0.04, 0.02, 0.01)).norm(), 0.002);
+  }
+}
+
+TEST(JointErrors, NobodyIsAheadOfWhoStandsStill) {
+  const Motion truth = walk_motion({});
+  const Motion still = changed(truth, [&](JointPositions& j, size_t) { j = truth.joints[0]; });
+  EXPECT_TRUE(joint_errors(still, still).mean_offset.hasNaN());
+}
+
+TEST(JointErrors, LegLengthIsRelativeToTheTruth) {
+  const Motion truth = walk_motion({});
+  const Motion large = changed(truth, [](JointPositions& joints, size_t) {
+    for (Vector3d& p : joints.at) p *= 1.02;
+  });
+  EXPECT_NEAR(joint_errors(truth, truth).leg_length_ratio, 1, 1e-12);
+  EXPECT_NEAR(joint_errors(truth, large).leg_length_ratio, 1.02, 1e-12);
+}
+
 TEST(JointErrors, OneWrongJointCountsASeventh) {
   const Motion truth = walk_motion({});
   const Motion bad = changed(truth, [](JointPositions& joints, size_t) {

@@ -1,0 +1,166 @@
+// Would the suite notice? Faults of a tracker, planted into its results, its scenes or its
+// configuration, never into its code; each must take a figure of a fast scene out of its band.
+// README.md lists them.
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "io/motion_file.h"
+#include "io/run_record.h"
+#include "tests/regression/compared.h"
+
+namespace walktrack {
+namespace {
+
+using Eigen::Vector3d;
+using testing::IsEmpty;
+using testing::Not;
+
+using Results = std::vector<SuiteResult>;
+using Fault = std::function<void(SuiteResult&)>;
+
+std::vector<std::string> noticed(const std::string& scene, const Results& results) {
+  return out_of_bands(read_bands(bands_file()), scene, values_of(results));
+}
+
+// What leaves its band when every run of the scene has the fault.
+std::vector<std::string> noticed(const std::string& scene, const Fault& fault) {
+  Results results = compared_results(scene);
+  for (SuiteResult& result : results) fault(result);
+  return noticed(scene, results);
+}
+
+Fault each_row(std::function<void(JointPositions&)> change) {
+  return [change](SuiteResult& result) {
+    for (JointPositions& joints : result.estimate.joints) change(joints);
+  };
+}
+
+void exchange_legs(JointPositions& joints) {
+  for (const auto& of : {hip, knee, ankle, toe})
+    std::swap(joints[of(Side::kLeft)], joints[of(Side::kRight)]);
+}
+
+// The knee on the other side of the line from hip to ankle.
+void flip_knees(JointPositions& joints) {
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const Vector3d line = (joints[ankle(side)] - joints[hip(side)]).normalized();
+    const Vector3d out = joints[knee(side)] - joints[hip(side)];
+    joints[knee(side)] = joints[hip(side)] + 2 * line * line.dot(out) - out;
+  }
+}
+
+void delay_by_a_frame(SuiteResult& result) {
+  auto& joints = result.estimate.joints;
+  joints.insert(joints.begin(), joints.front());
+  joints.pop_back();
+}
+
+void lose_the_second_half(SuiteResult& result) {
+  auto& joints = result.estimate.joints;
+  for (size_t i = joints.size() / 2; i < joints.size(); ++i) joints[i] = unknown_joints();
+}
+
+void shrink_intervals(SuiteResult& result) {
+  for (size_t i = 0; i < result.uncertainty.time.size(); ++i) {
+    for (size_t j = 0; j < kJointCount; ++j) {
+      Vector3d& low = result.uncertainty.p05[i].at[j];
+      Vector3d& high = result.uncertainty.p95[i].at[j];
+      const Vector3d middle = 0.5 * (low + high);
+      low = middle + 0.25 * (low - middle);
+      high = middle + 0.25 * (high - middle);
+    }
+  }
+}
+
+// Each row as if the body had jumped back and forth.
+void tremble(SuiteResult& result) {
+  for (size_t i = 0; i < result.estimate.joints.size(); ++i)
+    for (Vector3d& p : result.estimate.joints[i].at) p.x() += i % 2 == 0 ? 0.02 : -0.02;
+}
+
+TEST(PlantedFaults, InResultsTakeAFigureOutOfItsBand) {
+  const std::map<std::string, Fault> faults{
+      {"legs exchanged", each_row(exchange_legs)},
+      {"wrong sign of the knees' flexion", each_row(flip_knees)},
+      {"2 % too large", each_row([](JointPositions& joints) {
+         for (Vector3d& p : joints.at) p *= 1.02;
+       })},
+      {"mirrored world", each_row([](JointPositions& joints) {
+         for (Vector3d& p : joints.at) p.y() = -p.y();
+         exchange_legs(joints);
+       })},
+      {"ground 10 cm too low", each_row([](JointPositions& joints) {
+         for (Vector3d& p : joints.at) p.z() -= 0.1;
+       })},
+      {"lost half-way", lose_the_second_half},
+      {"intervals a quarter as wide", shrink_intervals},
+      {"trembling by 2 cm", tremble},
+  };
+  for (const auto& [name, fault] : faults)
+    EXPECT_THAT(noticed("three_cameras", fault), Not(IsEmpty())) << name;
+}
+
+TEST(PlantedFaults, AFrameOfDelayShowsWhereFramesAreFew) {
+  EXPECT_THAT(noticed("seven_fps", delay_by_a_frame), Not(IsEmpty()));
+}
+
+// The suite's first run of a scene after a change of its job.
+Results with(const std::string& name, const std::function<void(TrackJob&)>& change) {
+  const auto scene = rendered_scene(name, compared_folder());
+  TrackJob job = suite_job(name, scene, 1, compared_folder() / "faulty");
+  change(job);
+  return {tracked(job)};
+}
+
+TEST(PlantedFaults, ADroppedFlowTermTakesAFigureOutOfItsBand) {
+  const auto drop = [](TrackJob& job) {
+    apply_setting(job.config, "observation.flow.enabled=false", "--set");
+  };
+  EXPECT_THAT(noticed("flow_only", with("flow_only", drop)), Not(IsEmpty()));
+}
+
+TEST(PlantedFaults, ADroppedBackgroundTermTakesAFigureOutOfItsBand) {
+  const auto drop = [](TrackJob& job) {
+    apply_setting(job.config, "observation.background.enabled=false", "--set");
+  };
+  EXPECT_THAT(noticed("one_camera", with("one_camera", drop)), Not(IsEmpty()));
+}
+
+TEST(PlantedFaults, ExchangedCalibrationsTakeAFigureOutOfItsBand) {
+  const auto exchange = [](TrackJob& job) {
+    std::swap(job.scene.cameras[0].camera, job.scene.cameras[1].camera);
+  };
+  EXPECT_THAT(noticed("three_cameras", with("three_cameras", exchange)), Not(IsEmpty()));
+}
+
+// Threads in another order: the tracker must not care, and the suite must see it if it did, even if
+// a single coordinate moved by the last digit that is written.
+TEST(PlantedFaults, AnOrderThatDependsOnThreadsChangesTheDigest) {
+  const auto scene = rendered_scene("one_camera", compared_folder());
+  const auto run = [&](int threads) {
+    TrackJob job = suite_job("one_camera", scene, 1, compared_folder() / "again");
+    job.scene.last_frame = 12;
+    job.config.values.threads = threads;
+    return tracked(job);
+  };
+  const auto digest = [](const SuiteResult& result) {
+    return result_digest(motion_csv(result.estimate),
+                         uncertainty_csv(result.estimate, result.uncertainty));
+  };
+  SuiteResult result = run(1);
+  EXPECT_EQ(run(3).digest, result.digest);
+  const std::string before = digest(result);
+  EXPECT_EQ(before, result.digest);
+  result.estimate.joints[6][Joint::kLeftAnkle].y() += 1e-6;
+  EXPECT_NE(digest(result), before);
+}
+
+}  // namespace
+}  // namespace walktrack

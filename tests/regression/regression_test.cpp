@@ -1,0 +1,51 @@
+// The scenes of the suite against the bands in the repository. The fast subset runs with every test
+// run, the whole suite with `ctest -L slow`.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/regression/compared.h"
+
+namespace walktrack {
+namespace {
+
+constexpr const char* kHelp =
+    "if this is meant: scripts/refresh_bands.sh, and let its table be reviewed";
+
+class FastRegression : public testing::TestWithParam<SuiteScene> {};
+class FullRegression : public testing::TestWithParam<SuiteScene> {};
+
+void expect_in_bands(std::string_view name) {
+  const auto left =
+      out_of_bands(read_bands(bands_file()), std::string(name), values_of(compared_results(name)));
+  EXPECT_THAT(left, testing::IsEmpty()) << kHelp;
+}
+
+TEST_P(FastRegression, StaysInItsBands) { expect_in_bands(GetParam().name); }
+TEST_P(FullRegression, StaysInItsBands) { expect_in_bands(GetParam().name); }
+
+std::vector<SuiteScene> fast_scenes() {
+  std::vector<SuiteScene> out;
+  for (const SuiteScene& scene : suite_scenes())
+    if (scene.fast) out.push_back(scene);
+  return out;
+}
+
+std::string name_of(const testing::TestParamInfo<SuiteScene>& info) {
+  return std::string(info.param.name);
+}
+
+INSTANTIATE_TEST_SUITE_P(Suite, FastRegression, testing::ValuesIn(fast_scenes()), name_of);
+INSTANTIATE_TEST_SUITE_P(Suite, FullRegression,
+                         testing::ValuesIn(suite_scenes().begin(), suite_scenes().end()), name_of);
+
+TEST(Regression, EverySceneHasBands) {
+  const std::vector<Band> bands = read_bands(bands_file());
+  for (const SuiteScene& scene : suite_scenes()) {
+    const auto of_scene = [&](const Band& band) { return band.scene == scene.name; };
+    // A figure may be lacking, e.g. the slide of a foot that never stands; most must not.
+    EXPECT_GE(std::count_if(bands.begin(), bands.end(), of_scene), 12) << scene.name;
+  }
+}
+
+}  // namespace
+}  // namespace walktrack

@@ -1,0 +1,107 @@
+#include "tests/regression/suite.h"
+
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "io/files.h"
+#include "io/motion_file.h"
+#include "io/render_file.h"
+#include "jobs/evaluate.h"
+#include "jobs/render.h"
+#include "metrics/statistics.h"
+
+namespace walktrack {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr size_t kMaxRunJson = size_t{1} << 24;
+
+constexpr SuiteScene kScenes[] = {
+    {"three_cameras", true},  {"one_camera", true}, {"slow", false},      {"fast", false},
+    {"turn", false},          {"slope", false},     {"low_light", false}, {"blur", false},
+    {"field", false},         {"occluder", false},  {"seven_fps", true},  {"fps_120", false},
+    {"second_walker", false}, {"flow_only", true},  {"unaided", false},
+};
+
+fs::path suite_folder() { return fs::path(WALKTRACK_SOURCE_DIR) / "tests/regression"; }
+
+fs::path suite_file(std::string_view name, const char* suffix) {
+  return suite_folder() / "scenes" / (std::string(name) + suffix);
+}
+
+double median_evidence(const nlohmann::json& run) {
+  std::vector<double> values;
+  for (const nlohmann::json& value : run.at("by_frame").at("log_evidence"))
+    if (value.is_number()) values.push_back(value);
+  return values.empty() ? kNone : quantile(std::move(values), 0.5);
+}
+
+}  // namespace
+
+std::span<const SuiteScene> suite_scenes() { return kScenes; }
+
+fs::path bands_file() { return suite_folder() / "bands.csv"; }
+
+fs::path rendered_scene(std::string_view name, const fs::path& folder) {
+  const fs::path scene = folder / name;
+  if (fs::exists(scene / "scene.yaml")) return scene;
+  RenderJob job;
+  RenderFile file = read_render_file(suite_file(name, ".yaml"));
+  job.walker = std::move(file.subject);
+  job.options = std::move(file.options);
+  job.output = scene;
+  render_scene(job, {});
+  return scene;
+}
+
+TrackJob suite_job(std::string_view name, const fs::path& scene, uint64_t seed,
+                   const fs::path& output) {
+  TrackJob job;
+  job.scene = read_scene(scene / "scene.yaml");
+  apply_config_file(job.config, (suite_folder() / "track.yaml").string());
+  const fs::path own = suite_file(name, ".track.yaml");
+  if (fs::exists(own)) apply_config_file(job.config, own.string());
+  job.config.values.seed = seed;
+  job.output = output;
+  job.overwrite = true;
+  job.overlay = false;
+  return job;
+}
+
+SuiteResult tracked(const TrackJob& job) {
+  track_scene(job, {});
+  const auto run = nlohmann::json::parse(read_text_file(job.output / "run.json", kMaxRunJson));
+  return {read_motion(job.scene.truth), read_motion(job.output / "joints.csv"),
+          read_uncertainty(job.output / "uncertainty.csv"), median_evidence(run), run.at("digest")};
+}
+
+FigureValues values_of(const SuiteResult& result) {
+  FigureValues out;
+  for (const Figure& figure : figures(result.truth, result.estimate, result.uncertainty))
+    out[figure.key] = figure.value;
+  out["speed_error_m_s"] = out.at("speed_m_s") - out.at("truth_speed_m_s");
+  out["log_evidence"] = result.log_evidence;
+  return out;
+}
+
+std::vector<SuiteResult> suite_results(std::string_view name, size_t seeds,
+                                       const fs::path& folder) {
+  const fs::path scene = rendered_scene(name, folder);
+  std::vector<SuiteResult> out;
+  for (uint64_t seed = 1; seed <= seeds; ++seed)
+    out.push_back(tracked(suite_job(name, scene, seed, folder / "result")));
+  return out;
+}
+
+std::vector<FigureValues> values_of(const std::vector<SuiteResult>& results) {
+  std::vector<FigureValues> out;
+  for (const SuiteResult& result : results) out.push_back(values_of(result));
+  return out;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,53 @@
+// The regression suite: small scenes, rendered when they are needed, tracked with few particles and
+// measured. README.md says how it is used.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "body/motion.h"
+#include "jobs/track.h"
+#include "metrics/coverage.h"
+#include "tests/regression/bands.h"
+
+namespace walktrack {
+
+struct SuiteScene {
+  std::string_view name;  // scenes/<name>.yaml, and <name>.track.yaml if it is tracked differently
+  bool fast;              // in the subset that every test run does
+};
+
+std::span<const SuiteScene> suite_scenes();
+
+std::filesystem::path bands_file();
+
+// Renders a scene below `folder` unless it is there; its scene folder.
+std::filesystem::path rendered_scene(std::string_view name, const std::filesystem::path& folder);
+
+// The job that tracks a rendered scene into `output` the suite's way.
+TrackJob suite_job(std::string_view name, const std::filesystem::path& scene, uint64_t seed,
+                   const std::filesystem::path& output);
+
+// A result and what it is measured against.
+struct SuiteResult {
+  Motion truth, estimate;
+  JointUncertainty uncertainty;
+  double log_evidence = 0;  // nats, median over tracked frames
+  std::string digest;
+};
+
+SuiteResult tracked(const TrackJob& job);
+
+// Seeds 1 to `seeds` of a scene.
+std::vector<SuiteResult> suite_results(std::string_view name, size_t seeds,
+                                       const std::filesystem::path& folder);
+
+// What `evaluate` says of results, and what else is watched.
+FigureValues values_of(const SuiteResult& result);
+std::vector<FigureValues> values_of(const std::vector<SuiteResult>& results);
+
+}  // namespace walktrack
