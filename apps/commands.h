@@ -7,6 +7,7 @@ namespace walktrack {
 
 int run_analyse(const Arguments& arguments);
 int run_batch(const Arguments& arguments);
+int run_calibrate(const Arguments& arguments);
 int run_check(const Arguments& arguments);
 int run_config(const Arguments& arguments);
 int run_cycle(const Arguments& arguments);

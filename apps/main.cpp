@@ -22,6 +22,7 @@ namespace {
 constexpr std::array kCommands{
     Command{"analyse", "gait, angles and forces of a motion, tracked or measured", run_analyse},
     Command{"batch", "track every scene below a folder, resumable", run_batch},
+    Command{"calibrate", "find the lens and the place of a camera", run_calibrate},
     Command{"check", "find mistakes in a scene, its calibrations and videos", run_check},
     Command{"config", "print the commented defaults or the effective configuration", run_config},
     Command{"cycle", "find a limit cycle of a walker and what it is like", run_cycle},

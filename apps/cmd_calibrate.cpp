@@ -1,0 +1,102 @@
+// walktrack calibrate: a camera's lens and place.
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "core/errors.h"
+#include "jobs/calibrate.h"
+#include "terminal.h"
+
+namespace walktrack {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr const char* kAbout =
+    "Finds a camera's lens from views of a board (--views), and its place from a board on the "
+    "floor\n(--floor) or from points measured on it (--points: u,v,x,y,z; pixels, metres, z up). "
+    "Writes the\ncalibration for scenes and for Pose2Sim, the residuals and pictures to judge it "
+    "by.";
+
+struct BoardOptions {
+  std::string kind, size;
+  double spacing = 0;
+
+  void declare(CommandLine& line) {
+    auto add = line.options().add_options();
+    add("board", po::value(&kind)->default_value("chessboard"), "chessboard or circles");
+    add("size", po::value(&size)->value_name("CxR"), "inner corners or circles, e.g. 9x6");
+    add("spacing", po::value(&spacing)->value_name("M"), "between neighbours, m, e.g. 0.025");
+  }
+
+  static bool read_whole(std::string_view text, int& value) {
+    const auto end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc{} && at == end && value >= 3 && value <= 100;
+  }
+
+  std::optional<Board> board() const {
+    if (kind != "chessboard" && kind != "circles")
+      throw UsageError(describe({"", 0, "--board"}, kind, "chessboard or circles"));
+    if (size.empty() && spacing == 0) return std::nullopt;
+    Board out{kind == "circles" ? BoardKind::kCircles : BoardKind::kChessboard, 0, 0, spacing};
+    const size_t x = size.find('x');
+    if (x == std::string::npos || !read_whole(std::string_view(size).substr(0, x), out.columns) ||
+        !read_whole(std::string_view(size).substr(x + 1), out.rows))
+      throw UsageError(describe({"", 0, "--size"}, fmt::format("'{}'", size),
+                                "COLUMNSxROWS of inner corners or circles, 3 to 100, e.g. 9x6"));
+    if (!(spacing > 0 && spacing <= 10))
+      throw UsageError(describe({"", 0, "--spacing"}, fmt::format("{}", spacing),
+                                "metres between neighbouring points, above 0, at most 10"));
+    return out;
+  }
+};
+
+LensModel lens_model(const std::string& name) {
+  if (name == "pinhole") return LensModel::kPinhole;
+  if (name == "brown") return LensModel::kBrown;
+  if (name == "rational") return LensModel::kRational;
+  if (name == "fisheye") return LensModel::kFisheye;
+  throw UsageError(describe({"", 0, "--model"}, name, "pinhole, brown, rational or fisheye"));
+}
+
+}  // namespace
+
+int run_calibrate(const Arguments& arguments) {
+  std::string name, model, views, camera, floor, points;
+  BoardOptions board;
+  CommandLine line({.name = "calibrate",
+                    .operands = "",
+                    .about = kAbout,
+                    .example = "walktrack calibrate --camera data/demo/side.yaml --points "
+                               "data/demo/side_points.csv --floor data/demo/side.mp4 -o "
+                               "out/calibration"});
+  auto add = line.options().add_options();
+  add("name", po::value(&name)->default_value("cam0"), "the camera's, and of its files");
+  add("views", po::value(&views)->value_name("PATH"), "video or images of the board");
+  add("camera", po::value(&camera)->value_name("FILE"),
+      "take the lens of this calibration instead");
+  add("model", po::value(&model)->default_value("brown"), "pinhole, brown, rational or fisheye");
+  add("floor", po::value(&floor)->value_name("PATH"),
+      "picture or video of the camera in its place");
+  add("points", po::value(&points)->value_name("FILE"), "measured points, CSV");
+  board.declare(line);
+  if (!line.parse(arguments)) return kDone;
+  CalibrateJob job{.name = name,
+                   .board = board.board(),
+                   .model = lens_model(model),
+                   .views = views,
+                   .camera = camera,
+                   .floor = floor,
+                   .points = points,
+                   .output = line.required_output(),
+                   .overwrite = line.common().overwrite,
+                   .command_line = {"walktrack", "calibrate"}};
+  job.command_line.insert(job.command_line.end(), arguments.begin(), arguments.end());
+  Terminal terminal(line.common());
+  fmt::print("{}", calibrate_text(calibrate(job, terminal.control())));
+  return kDone;
+}
+
+}  // namespace walktrack

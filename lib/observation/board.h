@@ -1,0 +1,39 @@
+// Calibration boards in pictures: chessboards, and grids of dark circles on a light ground.
+//
+// A board's points are its inner corners or circle centres, columns x rows of them, row by row:
+// point (c, r) lies at (c, r, 0) * spacing on the board, x along a row, y along a column, and z, to
+// make these right-handed, into the board. Seen from its front, x to y turns clockwise.
+//
+// A board looks the same turned by half a turn, unless it is a chessboard with columns + rows odd:
+// then point (0, 0) is the corner whose inner square (towards the middle of the board) is dark.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace cv {
+class Mat;
+}
+
+namespace walktrack {
+
+enum class BoardKind { kChessboard, kCircles };
+
+struct Board {
+  BoardKind kind = BoardKind::kChessboard;
+  int columns = 9, rows = 6;  // of points
+  double spacing = 0.025;     // m, between neighbouring points
+};
+
+// Whether the picture tells which end of the board is which.
+bool has_one_origin(const Board& board);
+
+// On the board, m, in the order of find_board.
+std::vector<Eigen::Vector3d> board_points(const Board& board);
+
+// The points in an 8-bit BGR picture, px, to a fraction of a pixel; nullopt unless all are seen.
+std::optional<std::vector<Eigen::Vector2d>> find_board(const cv::Mat& image, const Board& board);
+
+}  // namespace walktrack

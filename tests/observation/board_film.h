@@ -1,0 +1,43 @@
+// Pictures of calibration boards, exact for any lens: every pixel is the mean over rays.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "camera/camera.h"
+#include "observation/board.h"
+
+namespace walktrack {
+
+// A camera whose rays are computed once; boards are then put before it.
+class BoardFilm {
+ public:
+  explicit BoardFilm(const Camera& lens);
+
+  // The picture of a board whose frame (observation/board.h) is placed by camera_from_board: a
+  // white sheet with a margin of one and a half spacings, before grey.
+  cv::Mat picture(const Board& board, const Eigen::Matrix3d& rotation,
+                  const Eigen::Vector3d& translation) const;
+
+ private:
+  Eigen::Vector2d ray(int u, int v, double across, double down) const;  // in pixel (u, v), 0 to 1
+
+  int width_, height_;
+  std::vector<Eigen::Vector2d> corners_;  // normalised, of the pixels' corners, row by row
+};
+
+// A pose of a board in view: its middle at `distance` along the ray of a pixel, turned about its
+// own axes by yaw, pitch (from facing the camera) and roll, rad.
+struct BoardPose {
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d translation;
+};
+BoardPose board_pose(const Camera& lens, const Board& board, const Eigen::Vector2d& pixel,
+                     double distance, double yaw, double pitch, double roll);
+
+// Twelve poses that determine a lens: tilted to all sides, over the whole picture.
+std::vector<BoardPose> board_poses(const Camera& lens, const Board& board);
+
+}  // namespace walktrack
