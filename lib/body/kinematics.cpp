@@ -145,30 +145,28 @@ Vector3d ankle_from_root(const Body& body, const Pose& pose, Side side) {
          thigh * (body.lengths.thigh * Vector3d::UnitZ() + body.lengths.shank * shank_up);
 }
 
-double sole_pitch(const BodyLengths& lengths, double ankle_height) {
-  // height(p) = a cos p + b sin p with a = flat ankle height, b = ball's distance ahead;
-  //           = r cos(p - p0), r = |(a, b)|, p0 = atan2(b, a), rising up to p = p0.
-  const double a = lengths.ankle_height, b = lengths.ball_forward;
-  if (ankle_height <= a) return 0;
-  const double peak = std::atan2(b, a);
-  return peak - std::acos(std::min(1.0, ankle_height / std::hypot(a, b)));
-}
-
 Eigen::Vector2d ankle_from_ball(const BodyLengths& lengths, double pitch) {
   const double c = std::cos(pitch), s = std::sin(pitch);
   return {-lengths.ball_forward * c + lengths.ankle_height * s,
           lengths.ball_forward * s + lengths.ankle_height * c};
 }
 
-void stand_on(const Body& body, Side side, const Vector3d& ball, double pitch, Pose& pose) {
-  const Eigen::Vector2d ankle = ankle_from_ball(body.lengths, pitch);
+double sole_pitch(const BodyLengths& lengths, const Eigen::Vector2d& ankle_from_ball) {
+  return std::atan2(ankle_from_ball.y(), -ankle_from_ball.x()) -
+         std::atan2(lengths.ankle_height, lengths.ball_forward);
+}
+
+void stand_on(const Body& body, Side side, const Vector3d& ball,
+              const Eigen::Vector2d& ankle_from_ball, Pose& pose) {
   // The foot points where the leg's plane points: heading, turned by the hip's rotation.
   LegPose& leg = pose.legs[index(side)];
   const double toes = pose.heading - outward(side) * leg.hip_rotation;
   const Vector3d ankle_world =
-      ball + Vector3d(ankle.x() * std::cos(toes), ankle.x() * std::sin(toes), ankle.y());
+      ball + Vector3d(ankle_from_ball.x() * std::cos(toes), ankle_from_ball.x() * std::sin(toes),
+                      ankle_from_ball.y());
   pose.root = ankle_world - ankle_from_root(body, pose, side);
-  leg.ankle_dorsiflexion = pose.tilt - leg.hip_flexion + leg.knee_flexion - pitch;
+  leg.ankle_dorsiflexion =
+      pose.tilt - leg.hip_flexion + leg.knee_flexion - sole_pitch(body.lengths, ankle_from_ball);
 }
 
 }  // namespace walktrack

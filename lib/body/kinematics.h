@@ -41,16 +41,18 @@ void pose_parts(const Body& body, const Skeleton& skeleton, std::vector<PosedPar
 // the root's position does not matter.
 Eigen::Vector3d ankle_from_root(const Body& body, const Pose& pose, Side side);
 
-// Pitch of the sole (0 flat, positive = heel up) at which the foot turned about its ball has its
-// ankle `ankle_height` above the ground; 0 for a height at or below that of a flat foot, at most a
-// right angle.
-double sole_pitch(const BodyLengths& lengths, double ankle_height);
-
-// Ankle relative to the ball for a sole pitched by `pitch`: (forward, up), metres.
+// Ankle relative to the ball for a sole pitched by `pitch` (0 flat, positive = heel up) about its
+// ball: (forward, up), metres.
 Eigen::Vector2d ankle_from_ball(const BodyLengths& lengths, double pitch);
 
-// Puts the pose's `side` foot with its ball at `ball` (on the sole's level, z = ground) and the
-// sole pitched by `pitch`: sets the root and that ankle's dorsiflexion.
-void stand_on(const Body& body, Side side, const Eigen::Vector3d& ball, double pitch, Pose& pose);
+// The pitch at which the ball lies straight between the ankle and the ball's place on the ground:
+// its inverse where the distance is the foot's.
+double sole_pitch(const BodyLengths& lengths, const Eigen::Vector2d& ankle_from_ball);
+
+// Puts the pose's `side` ankle over the foot's place, the ground below its ball, at
+// `ankle_from_ball` along the foot (forward, up), and turns the foot to have its ball there: sets
+// the root and that ankle's dorsiflexion.
+void stand_on(const Body& body, Side side, const Eigen::Vector3d& ball,
+              const Eigen::Vector2d& ankle_from_ball, Pose& pose);
 
 }  // namespace walktrack

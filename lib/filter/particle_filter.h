@@ -37,11 +37,11 @@
 namespace walktrack {
 
 struct FilterConfig {
-  int particles = 600;
+  int particles = 300;
   double resample_below = 0.5;  // resample when ESS / particles falls below this
   double layer_ess = 0.5;  // ESS / particles that an increment of the exponent may cost down to
   int max_layers = 8;      // the last layer takes whatever exponent is left
-  int moves = 1;           // Metropolis-Hastings steps a particle and layer
+  int moves = 3;           // Metropolis-Hastings steps a particle and layer
 };
 
 template <typename State>
@@ -55,7 +55,7 @@ struct FilterReport {
   double log_evidence = 0;  // log p(this frame | frames before), estimated
   double ess = 0;           // before the last resampling of the frame, in particles
   int layers = 0;
-  int dead = 0;           // particles that propagation lost
+  int dead = 0;           // particles that propagation lost or the evidence rules out
   double accepted = 0;    // share of moves accepted, 0 when there were none
   bool all_dead = false;  // every weight is -infinity: start anew
 };
@@ -78,9 +78,28 @@ class ParticleFilter {
   template <typename Propagate, typename LogLikelihood, typename Move>
   FilterReport step(uint32_t frame, const Propagate& propagate, const LogLikelihood& log_likelihood,
                     const Move& move) {
+    predict(propagate);
+    return update(frame, log_likelihood, move);
+  }
+
+  // The first half of a frame: the set becomes the prediction.
+  template <typename Propagate>
+  void predict(const Propagate& propagate) {
+    alive_.resize(size());
+    parallel_for(size(), threads_, [&](size_t i) {
+      alive_[i] = propagate(set_.states[i], static_cast<uint32_t>(i)) ? 1 : 0;
+    });
+    before_ = log_sum_exp(set_.log_weights);
+    for (size_t i = 0; i < size(); ++i)
+      if (!alive_[i]) set_.log_weights[i] = kDead;
+  }
+
+  // The second half: the prediction meets the frame's evidence.
+  template <typename LogLikelihood, typename Move>
+  FilterReport update(uint32_t frame, const LogLikelihood& log_likelihood, const Move& move) {
     FilterReport report;
     Rng rng(seed_, Purpose::kResampling, frame);
-    predict(propagate, log_likelihood, report);
+    weigh(log_likelihood, report);
     if (report.dead == static_cast<int>(size())) {
       report.all_dead = true;
       report.log_evidence = kDead;
@@ -112,21 +131,18 @@ class ParticleFilter {
 
   size_t size() const { return set_.states.size(); }
 
-  template <typename Propagate, typename LogLikelihood>
-  void predict(const Propagate& propagate, const LogLikelihood& log_likelihood,
-               FilterReport& report) {
+  template <typename LogLikelihood>
+  void weigh(const LogLikelihood& log_likelihood, FilterReport& report) {
     proposed_ = accepted_ = 0;
-    const double before = log_sum_exp(set_.log_weights);
     parallel_for(size(), threads_, [&](size_t i) {
-      const bool alive = propagate(set_.states[i], static_cast<uint32_t>(i));
-      set_.log_likelihoods[i] = alive ? log_likelihood(set_.states[i]) : kDead;
+      set_.log_likelihoods[i] = alive_[i] ? log_likelihood(set_.states[i]) : kDead;
     });
     for (size_t i = 0; i < size(); ++i) {
       if (set_.log_likelihoods[i] != kDead) continue;
       set_.log_weights[i] = kDead;
       ++report.dead;
     }
-    report.log_evidence = log_sum_exp(set_.log_weights) - before;
+    report.log_evidence = log_sum_exp(set_.log_weights) - before_;
   }
 
   // The largest step of the exponent, at most `room`, whose weights keep the wanted sample size.
@@ -210,6 +226,8 @@ class ParticleFilter {
   uint64_t seed_;
   int threads_;
   ParticleSet<State> set_;
+  std::vector<uint8_t> alive_;  // survived the prediction
+  double before_ = 0;           // log of the weights' sum before it
   std::vector<State> next_states_;
   std::vector<double> next_log_likelihoods_;
   std::vector<uint32_t> parents_;

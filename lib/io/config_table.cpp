@@ -133,6 +133,8 @@ void add_track(ParameterTable& table) {
   ParameterGroup<T> t(table, "track", "keeping the track", &Config::tracker);
   t.number("lost_below", &T::lost_below, 0, 1, "share of the likelihood's median");
   t.number("lost_after", &T::lost_after, 0, 100, "time below it until the track is lost, s");
+  t.number("seek", &T::seek, 0, 1000,
+           "time for which a lost walker is looked for only within reach, s");
   t.number("recall", &T::recall, 0.1, 100, "past that the median is taken over, s");
   t.integer("samples", &T::samples, 0, 1000,
             "particles of a frame kept: the overlay's, and for bands");

@@ -20,7 +20,8 @@ JointPositions standing_figure(const Subject& subject, const Eigen::Vector2d& pl
   Pose pose;
   const double half_width = 0.5 * body.lengths.hip_width;
   const double ahead = body.lengths.ball_forward;
-  stand_on(body, Side::kLeft, {place.x() + ahead, place.y() + half_width, 0}, 0, pose);
+  stand_on(body, Side::kLeft, {place.x() + ahead, place.y() + half_width, 0},
+           ankle_from_ball(body.lengths, 0), pose);
   pose.legs[1].ankle_dorsiflexion = pose.legs[0].ankle_dorsiflexion;
   return forward_kinematics(body, pose).joints;
 }

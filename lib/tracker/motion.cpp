@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <Eigen/Cholesky>
 
@@ -78,7 +79,7 @@ void change_support(const MotionContext& context, WalkerParticle& particle, Rng&
   // old place, which is where the leg that now swings still stands.
   particle.stance = landed;
   Pose pose = particle.pose;
-  const KneedState shown = shown_state(particle.walker, landed, particle.extra);
+  const KneedState shown = shown_state(particle.walker, landed, particle.aim, particle.extra);
   pose.tilt = shown.q[kTorso];
   const auto set = [&](Side side, int thigh, int shank) {
     LegPose& leg = pose.legs[index(side)];
@@ -87,15 +88,17 @@ void change_support(const MotionContext& context, WalkerParticle& particle, Rng&
   };
   set(landed, kStanceThigh, kStanceShank);
   set(other(landed), kSwingThigh, kSwingShank);
-  const double old_ankle = kneed_posture(context.model.walker, shown).swing_ankle.y();
   stand_on(context.model.body, other(landed),
            Eigen::Vector3d(particle.ball.x(), particle.ball.y(), 0),
-           sole_pitch(context.model.body.lengths, old_ankle), pose);
-  particle.ball = landing_ball(context.model.body, pose, landed);
+           rolled_ankle(context.model, particle.walker.q[kSwingShank]), pose);
+  particle.ball = landing_ball(context.model, pose, landed, particle.walker.q[kStanceShank]);
   choose_controls(context, particle, rng);
 }
 
 Outcome simulate(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  // The longest steps of the prior lower the hip by a sixth. A walker that goes down further has
+  // been pushed to where its legs can hide from the images, and will not come up again.
+  constexpr KneedLimits kWalks{.min_hip_height = 0.8};
   const bool sloped = !context.model.downhill.isZero();
   const KneedModel tilted =
       sloped ? in_plane(context.model, particle.extra[kHeading]) : KneedModel{};
@@ -105,7 +108,7 @@ Outcome simulate(const MotionContext& context, WalkerParticle& particle, Rng& rn
   double left = std::max(0.0, context.dt * std::exp(particle.extra_before[kPace]) + stray);
   while (left > 0) {
     const KneedAdvance done =
-        kneed_advance(model, particle.controls, Vector5::Zero(), particle.walker, left);
+        kneed_advance(model, particle.controls, Vector5::Zero(), particle.walker, left, kWalks);
     left -= done.elapsed;
     if (done.event == KneedEvent::kFallen) return Outcome::kFallen;
     if (done.event == KneedEvent::kDiverged) return Outcome::kDiverged;
@@ -134,6 +137,37 @@ Outcome predict(const MotionContext& context, WalkerParticle& particle, Rng& rng
   return Outcome::kAlive;
 }
 
+// Noise that moves one part of the body: what the walker feels, the trunk with the standing foot,
+// a leg, an arm.
+constexpr size_t kNoiseGroups = 6, kNoiseGroupsWithoutArms = 4;
+std::span<const int> noise_group(size_t group) {
+  constexpr int e = kExtraNoise, t = kTorqueNoise, b = kBallNoise;
+  static constexpr std::array<int, 6> walker{t, t + 1, t + 2, t + 3, t + 4, e + kPace};
+  static constexpr std::array<int, 6> trunk{b,         b + 1,       e + kHeading,
+                                            e + kList, e + kCrouch, e + kTilt};
+  static constexpr std::array<int, 5> left{e + kAbduction, e + kRotation, e + kAnkle, e + kThigh,
+                                           e + kShank};
+  static constexpr std::array<int, 5> right{e + kAbductionRight, e + kRotationRight,
+                                            e + kAnkleRight, e + kThighRight, e + kShankRight};
+  static constexpr std::array<int, 3> left_arm{e + kShoulder, e + kShoulderAbduction, e + kElbow};
+  static constexpr std::array<int, 3> right_arm{e + kShoulderRight, e + kShoulderAbductionRight,
+                                                e + kElbowRight};
+  switch (group) {
+    case 0:
+      return trunk;
+    case 1:
+      return left;
+    case 2:
+      return right;
+    case 3:
+      return walker;
+    case 4:
+      return left_arm;
+    default:
+      return right_arm;
+  }
+}
+
 }  // namespace
 
 MarkovConstants markov_constants(Extra extra) {
@@ -154,8 +188,10 @@ MarkovConstants markov_constants(Extra extra) {
       return {deg(-3), 0.08, deg(12), deg(-45), deg(30)};
     case kPace:
       return {0, 0.5, 0.12, -0.4, 0.4};
+    case kCrouch:
+      return {deg(8), 3, deg(3), deg(-10), deg(40)};
     case kTilt:
-      return {0, 0.5, deg(6), deg(-20), deg(20)};
+      return {0, 0.5, deg(6), deg(-20), deg(40)};
     case kThigh:
     case kThighRight:
       return {0, 0.15, deg(6), deg(-30), deg(30)};
@@ -213,15 +249,19 @@ Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& r
 }
 
 void perturb(const MotionContext& context, double boldness, WalkerParticle& particle, Rng& rng) {
-  // Half of the proposals change everything a little, the others one group of coordinates.
+  // A quarter of the proposals changes everything a little, the others one part of the body.
   const double keep = std::sqrt(1 - boldness * boldness);
-  const int count = kExtraNoise + extra_count(context.model.body);
-  const bool all = rng.uniform() < 0.5;
-  const int first = all ? 0 : static_cast<int>(rng.uniform() * count);
-  const int last = all ? count : std::min(count, first + 5);
-  for (int k = first; k < last; ++k) {
+  const auto change = [&](int k) {
     double& z = particle.noise[static_cast<size_t>(k)];
     z = keep * z + boldness * rng.normal();
+  };
+  if (rng.uniform() < 0.25) {
+    const int count = kExtraNoise + extra_count(context.model.body);
+    for (int k = 0; k < count; ++k) change(k);
+  } else {
+    const size_t groups = context.model.body.groups.arms ? kNoiseGroups : kNoiseGroupsWithoutArms;
+    const size_t chosen = static_cast<size_t>(rng.uniform() * static_cast<double>(groups));
+    for (const int k : noise_group(chosen)) change(k);
   }
   realise(context.model, context.scale, particle);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "body/kinematics.h"
+#include "tracker/stride.h"
 
 namespace walktrack {
 
@@ -30,21 +31,27 @@ void set_leg(const KneedState& s, bool stance, const Extras& extra, Side side, P
 
 }  // namespace
 
-KneedState shown_state(const KneedState& walker, Side stance, const Extras& extra) {
+KneedState shown_state(const KneedState& walker, Side stance, const StepAim& aim,
+                       const Extras& extra) {
   const size_t standing = index(stance), swinging = 1 - standing;
+  const double half_stride = 0.5 * std::min(1.0, walker.since_transfer / aim.duration());
+  const LegDifference stands = leg_difference(half_stride);
+  const LegDifference swings = leg_difference(0.5 + half_stride);
+  // Thigh and shank are about as long: the hip sinks straight down.
+  const double crouch = 0.5 * extra[kCrouch];
   KneedState shown = walker;
   shown.q[kTorso] += extra[kTilt];
-  shown.q[kStanceThigh] += extra[kThigh + standing];
-  shown.q[kStanceShank] += extra[kShank + standing];
-  shown.q[kSwingThigh] += extra[kThigh + swinging];
-  shown.q[kSwingShank] += extra[kShank + swinging];
+  shown.q[kStanceThigh] += stands.thigh + extra[kThigh + standing] - crouch;
+  shown.q[kStanceShank] += stands.shank + extra[kShank + standing] + crouch;
+  shown.q[kSwingThigh] += swings.thigh + extra[kThigh + swinging] - crouch;
+  shown.q[kSwingShank] += swings.shank + extra[kShank + swinging] + crouch;
   keep_knees(shown);
   return shown;
 }
 
-Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance,
+Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance, const StepAim& aim,
              const Eigen::Vector2d& ball, const Extras& extra) {
-  const KneedState shown = shown_state(walker, stance, extra);
+  const KneedState shown = shown_state(walker, stance, aim, extra);
   Pose pose;
   pose.heading = extra[kHeading];
   pose.list = extra[kList];
@@ -53,9 +60,8 @@ Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance,
   set_leg(shown, false, extra, other(stance), pose);
   for (size_t i = 0; model.body.groups.arms && i < 2; ++i)
     pose.arms[i] = {extra[kShoulder + i], extra[kShoulderAbduction + i], extra[kElbow + i]};
-  const double ankle_height = kneed_posture(model.walker, shown).stance_ankle.y();
-  const double pitch = sole_pitch(model.body.lengths, ankle_height);
-  stand_on(model.body, stance, Eigen::Vector3d(ball.x(), ball.y(), 0), pitch, pose);
+  stand_on(model.body, stance, Eigen::Vector3d(ball.x(), ball.y(), 0),
+           rolled_ankle(model, walker.q[kStanceShank]), pose);
   return pose;
 }
 
@@ -83,15 +89,24 @@ void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& pa
       particle.predicted_ball +
       particle.ball_sigma *
           (z[kBallNoise] * ahead + z[kBallNoise + 1] * Eigen::Vector2d(-ahead.y(), ahead.x()));
-  particle.pose = pose_of(model, walker, particle.stance, particle.ball, particle.extra);
+  particle.pose =
+      pose_of(model, walker, particle.stance, particle.aim, particle.ball, particle.extra);
 }
 
-Eigen::Vector2d landing_ball(const Body& body, const Pose& pose, Side swing) {
-  const Eigen::Vector3d ankle = pose.root + ankle_from_root(body, pose, swing);
-  const double outward = swing == Side::kLeft ? 1 : -1;
-  const double toes = pose.heading - outward * pose.legs[index(swing)].hip_rotation;
-  return ankle.head<2>() +
-         body.lengths.ball_forward * Eigen::Vector2d(std::cos(toes), std::sin(toes));
+Eigen::Vector2d rolled_ankle(const BodyModel& model, double shank) {
+  const KneedParameters& p = model.walker.parameters;
+  const double c = std::cos(shank), s = std::sin(shank);
+  return {p.foot_radius * shank - p.foot_up * s - p.foot_forward * (c - 1) -
+              model.body.lengths.ball_forward,
+          p.foot_radius - p.foot_up * c + p.foot_forward * s};
+}
+
+Eigen::Vector2d landing_ball(const BodyModel& model, const Pose& pose, Side landed, double shank) {
+  const Eigen::Vector3d ankle = pose.root + ankle_from_root(model.body, pose, landed);
+  const double outward = landed == Side::kLeft ? 1 : -1;
+  const double toes = pose.heading - outward * pose.legs[index(landed)].hip_rotation;
+  return ankle.head<2>() -
+         rolled_ankle(model, shank).x() * Eigen::Vector2d(std::cos(toes), std::sin(toes));
 }
 
 KneedModel in_plane(const BodyModel& model, double heading) {

@@ -30,8 +30,9 @@ enum Extra {
   kRotationRight,
   kAnkle,  // dorsiflexion; a standing foot's follows from its sole instead
   kAnkleRight,
-  kPace,  // logarithm of how much faster the person walks than the walker
-  kTilt,  // from here to the shanks: how far a person's angles stray from the walker's
+  kPace,    // logarithm of how much faster the person walks than the walker
+  kCrouch,  // how much further both knees are bent than the walker's
+  kTilt,    // from here to the shanks: how far a person's angles stray from the walker's
   kThigh,
   kThighRight,
   kShank,
@@ -70,6 +71,8 @@ struct NoiseScale {
 struct StepAim {
   double speed = 0;        // m/s
   double step_length = 0;  // m
+
+  double duration() const { return step_length / speed; }  // s
 };
 
 struct WalkerParticle {
@@ -103,15 +106,23 @@ struct BodyModel {
 // Sets the realised part (walker, ball, extra, pose) from the predicted part and the noise.
 void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle);
 
-// The walker's state as the person shows it, strayed by the extras.
-KneedState shown_state(const KneedState& walker, Side stance, const Extras& extra);
+// The walker's state as the person shows it: with a person's legs (tracker/stride.h), strayed by
+// the extras.
+KneedState shown_state(const KneedState& walker, Side stance, const StepAim& aim,
+                       const Extras& extra);
 
 // The pose of a walker whose standing foot has its ball at `ball`.
-Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance,
+Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance, const StepAim& aim,
              const Eigen::Vector2d& ball, const Extras& extra);
 
-// Where the swing foot's ball would stand if it came down flat now: the next `ball`.
-Eigen::Vector2d landing_ball(const Body& body, const Pose& pose, Side swing);
+// The standing ankle relative to its ball's place, (forward, up), m, when the walker's round foot
+// has rolled to where its shank leans by `shank`, rad. The foot is flat at 0, its ball
+// BodyLengths::ball_forward ahead of the ankle; the hip goes on as smoothly as the walker's.
+Eigen::Vector2d rolled_ankle(const BodyModel& model, double shank);
+
+// Where the ball of the `landed` foot comes to stand: the place from which its ankle, with the
+// shank leaning by `shank`, has rolled to where it is in `pose`.
+Eigen::Vector2d landing_ball(const BodyModel& model, const Pose& pose, Side landed, double shank);
 
 // The model's gravity in the plane of `heading`.
 KneedModel in_plane(const BodyModel& model, double heading);

@@ -11,6 +11,10 @@ namespace walktrack {
 
 namespace {
 
+// The speeds of the figure book, m/s.
+constexpr double kSlowestPage = 0.5, kPageStep = 0.2;
+constexpr int kPages = 9;
+
 std::vector<PosedPart> parts_of(const Body& body, const Pose& pose) {
   std::vector<PosedPart> parts;
   pose_parts(body, forward_kinematics(body, pose), parts);
@@ -38,23 +42,33 @@ double log_likelihood(const TrackerScene& scene, const SceneEvidence& evidence,
   return sum;
 }
 
-std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior) {
-  constexpr double kSpeed = 1.25;  // m/s
+std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed) {
   constexpr int kFigures = 6;
   const double leg = leg_length(model.body.lengths);
   const double unit_speed = std::sqrt(model.walker.parameters.gravity * leg);
-  const PriorGait gait = gait_at(prior, model.walker.parameters, kSpeed,
-                                 leg * preferred_step_length(kSpeed / unit_speed));
+  const PriorGait gait = gait_at(prior, model.walker.parameters, speed,
+                                 leg * preferred_step_length(speed / unit_speed));
   Extras extra{};
   for (int k = 0; k < extra_count(model.body); ++k)
     extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).rest;
   std::vector<Pose> figures;
   for (int k = 0; k < kFigures; ++k) {
     const KneedState state = state_at_phase(model.walker, gait, double(k) / kFigures);
-    figures.push_back(pose_of(model, state, Side::kLeft, Eigen::Vector2d::Zero(), extra));
+    figures.push_back(pose_of(model, state, Side::kLeft, {gait.speed, gait.step_length},
+                              Eigen::Vector2d::Zero(), extra));
     figures.back().root.head<2>().setZero();
   }
   return figures;
+}
+
+FigureBook::FigureBook(const BodyModel& model, const GaitPrior& prior) {
+  for (int k = 0; k < kPages; ++k)
+    pages_.push_back(walking_figures(model, prior, kSlowestPage + k * kPageStep));
+}
+
+std::span<const Pose> FigureBook::at(double speed) const {
+  const long page = std::lround((speed - kSlowestPage) / kPageStep);
+  return pages_[static_cast<size_t>(std::clamp(page, 0L, long{kPages - 1}))];
 }
 
 double place_score(const TrackerScene& scene, const SceneEvidence& evidence,

@@ -32,9 +32,19 @@ using SceneEvidence = std::vector<CameraEvidence>;
 double log_likelihood(const TrackerScene& scene, const SceneEvidence& evidence,
                       const WalkerParticle& particle, bool with_motion);
 
-// A walker's poses through a step of the usual gait, root above the origin, heading 0: one of them
-// resembles any walker in any frame, whichever foot stands.
-std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior);
+// A walker's poses through a step of the usual gait of a speed (m/s), root above the origin,
+// heading 0: one of them resembles any such walker in any frame, whichever foot stands.
+std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed);
+
+// The same for all speeds of walking.
+class FigureBook {
+ public:
+  FigureBook(const BodyModel& model, const GaitPrior& prior);
+  std::span<const Pose> at(double speed) const;
+
+ private:
+  std::vector<std::vector<Pose>> pages_;
+};
 
 // The log-likelihood of the figure that fits best, its root above `position`.
 double place_score(const TrackerScene& scene, const SceneEvidence& evidence,

@@ -18,7 +18,7 @@
 namespace walktrack {
 
 struct SightingConfig {
-  double window = 0.8;     // s of film that a walk is read from
+  double window = 1.2;     // s of film that a walk is read from: two steps
   double slowest = 0.35;   // m/s: who is slower is not walking
   double fastest = 3.0;    // m/s
   double complete = 0.5;   // no frame's score below this share of the window's median
@@ -28,9 +28,12 @@ struct SightingConfig {
 };
 
 // Where the person was and how they moved, on the ground, metres and m/s.
+// Along the viewing ray both are less certain.
 struct Sighting {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // at the window's first frame
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  Eigen::Vector2d ray = Eigen::Vector2d::UnitX();  // over the ground, away from the first camera
+  double position_sd = 0, velocity_sd = 0;         // along the ray
 };
 
 struct Place {
@@ -40,8 +43,9 @@ struct Place {
 
 // Log-likelihood ratio of the walking figure over a ground point, all cameras together, nats.
 using PlaceScore = std::function<double(const Eigen::Vector2d&)>;
-// The same in one frame of a window, the figure walking along a heading, rad.
-using WindowScore = std::function<double(size_t frame, const Eigen::Vector2d&, double heading)>;
+// The same in one frame of a window, the figure walking at a velocity, m/s.
+using WindowScore = std::function<double(size_t frame, const Eigen::Vector2d& place,
+                                         const Eigen::Vector2d& velocity)>;
 
 // The heading that shows a figure over `position` side on to the camera.
 double side_on_heading(const Camera& camera, const Eigen::Vector2d& position);

@@ -57,18 +57,21 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
   for (size_t i = 0; i < out.size(); ++i) {
     Rng rng(seed, Purpose::kInitialisation, 0, static_cast<uint32_t>(i));
     WalkerParticle& p = out[i];
-    const double speed =
-        sighting.velocity.norm() * std::exp(config.speed * rng.truncated_normal(2.5));
+    const Eigen::Vector2d position =
+        sighting.position + sighting.position_sd * rng.truncated_normal(2.5) * sighting.ray;
+    const Eigen::Vector2d velocity =
+        sighting.velocity + sighting.velocity_sd * rng.truncated_normal(2.5) * sighting.ray;
+    const double speed = velocity.norm() * std::exp(config.speed * rng.truncated_normal(2.5));
     const double step = leg * preferred_step_length(speed / unit_speed) *
                         std::exp(config.step_length * rng.truncated_normal(2.5));
     p.aim = {speed, step};
     p.stance = range.stance;
     for (int k = 0; k < extra_count(context.model.body); ++k)
       p.extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).rest;
-    p.extra[kHeading] = std::atan2(sighting.velocity.y(), sighting.velocity.x());
+    p.extra[kHeading] = std::atan2(velocity.y(), velocity.x());
     p.extra_before = p.extra;
     enter_gait(context, range.from + (range.to - range.from) * rng.uniform(), p);
-    place(context, sighting.position, p);
+    place(context, position, p);
   }
   return out;
 }

@@ -12,7 +12,7 @@ namespace walktrack {
 
 struct StartConfig {
   int phases = 6;        // hypotheses over the phase of a step, for each standing foot
-  int particles = 250;   // of each hypothesis
+  int particles = 150;   // of each hypothesis
   double seconds = 0.5;  // for which they compete
   double heading_deg = 6;
   double speed = 0.15;        // relative

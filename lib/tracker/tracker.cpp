@@ -7,6 +7,7 @@
 
 #include "body/kinematics.h"
 #include "core/log_weights.h"
+#include "tracker/course.h"
 
 namespace walktrack {
 
@@ -14,6 +15,9 @@ namespace {
 
 // A hypothesis this many nats behind the best has lost (odds of 1 to 3 million).
 constexpr double kHopeless = 15;
+// Share of the filter's moves that change the course, the others change the frame's noise.
+constexpr double kCourseMoves = 0.3;
+constexpr double kUsualSpeed = 1.25;  // m/s
 
 int frames_in(double seconds, double dt) {
   return std::max(2, static_cast<int>(std::lround(seconds / dt)));
@@ -29,7 +33,7 @@ Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig
       seed_(seed),
       threads_(threads),
       frame_scale_(noise_scale(config.motion, scene_.model, scene_.dt)),
-      figures_(walking_figures(scene_.model, prior)),
+      figures_(scene_.model, prior),
       filter_(config.filter, seed, threads) {}
 
 std::vector<FrameRecord> Tracker::push(const SceneEvidence& evidence) {
@@ -69,21 +73,26 @@ void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& ou
   }
   if (places_.empty())
     places_ = standing_places(scene_.cameras, scene_.model.body.subject.height, config_.sighting);
+  const uint32_t newest = frame_ + static_cast<uint32_t>(window_.size());
   const auto score = [&](const Eigen::Vector2d& place) {
+    if (!within_reach(place, newest)) return 0.0;
     // Half of the figures, half a step, will do for a first look.
-    return place_score(scene_, evidence, {figures_.data(), figures_.size() / 2}, place,
+    const std::span<const Pose> figures = figures_.at(kUsualSpeed);
+    return place_score(scene_, evidence, figures.first(figures.size() / 2), place,
                        side_on_heading(scene_.cameras[0], place));
   };
   candidates_.push_back(find_figures(score, places_, config_.sighting, threads_));
   window_.push_back(evidence);
   if (static_cast<int>(window_.size()) < frames_in(config_.sighting.window, scene_.dt)) return;
-  const auto window_score = [&](size_t frame, const Eigen::Vector2d& place, double heading) {
-    return place_score(scene_, window_[frame], figures_, place, heading);
+  const auto window_score = [&](size_t frame, const Eigen::Vector2d& place,
+                                const Eigen::Vector2d& velocity) {
+    return place_score(scene_, window_[frame], figures_.at(velocity.norm()), place,
+                       std::atan2(velocity.y(), velocity.x()));
   };
   const auto sighting =
       find_walk(std::vector(candidates_.begin(), candidates_.end()), window_score, scene_.dt,
                 camera_centre(scene_.cameras[0]).head<2>(), config_.sighting, threads_);
-  if (!sighting) {
+  if (!sighting || !within_reach(sighting->position, frame_)) {
     window_.pop_front();
     candidates_.pop_front();
     ++frame_;
@@ -171,7 +180,25 @@ void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out
     supports_.clear();
     mode_ = Mode::kSearching;
   }
+  if (mode_ == Mode::kTracking && frames_below_ == 0) {
+    const Pose& pose = record.estimate.pose;
+    last_seen_ = {
+        pose.root.head<2>(),
+        record.estimate.speed * Eigen::Vector2d(std::cos(pose.heading), std::sin(pose.heading)),
+        frame_};
+  }
   out.push_back(std::move(record));
+}
+
+// Whether a walker who was lost can be at a place: not far from where they were going.
+bool Tracker::within_reach(const Eigen::Vector2d& place, uint32_t frame) const {
+  if (!last_seen_) return true;
+  constexpr double kNear = 0.5;   // m
+  constexpr double kStray = 0.8;  // m/s: they may stop or turn aside
+  const double elapsed = scene_.dt * (frame - last_seen_->frame);
+  if (elapsed > config_.seek) return true;
+  const Eigen::Vector2d expected = last_seen_->position + elapsed * last_seen_->velocity;
+  return (place - expected).norm() < kNear + kStray * elapsed;
 }
 
 // One frame of the filter: propagate, weigh, resample; then what the particles say.
@@ -188,11 +215,15 @@ FrameRecord Tracker::advance(Filter& filter, const SceneEvidence& evidence, uint
   const auto weigh = [&](const WalkerParticle& particle) {
     return log_likelihood(scene_, evidence, particle, !first);
   };
+  filter.predict(step);
+  const CourseSpread course =
+      course_spread(filter.particles().states, filter.particles().log_weights);
   const auto move = [&](WalkerParticle& particle, double boldness, Rng& rng) {
+    if (rng.uniform() < kCourseMoves) return change_course(motion, course, boldness, particle, rng);
     perturb(motion, boldness, particle, rng);
   };
   FrameRecord record;
-  record.filter = filter.step(frame_, step, weigh, move);
+  record.filter = filter.update(frame_, weigh, move);
   record.fallen = static_cast<int>(std::count(outcomes.begin(), outcomes.end(), Outcome::kFallen));
   record.diverged =
       static_cast<int>(std::count(outcomes.begin(), outcomes.end(), Outcome::kDiverged));
@@ -212,7 +243,7 @@ FrameRecord Tracker::advance(Filter& filter, const SceneEvidence& evidence, uint
 
 // What a figure out of the gait's book would score where the walker is believed to be.
 double Tracker::figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const {
-  return place_score(scene_, evidence, figures_, estimate.pose.root.head<2>(),
+  return place_score(scene_, evidence, figures_.at(estimate.speed), estimate.pose.root.head<2>(),
                      estimate.pose.heading);
 }
 

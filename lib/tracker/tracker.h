@@ -4,7 +4,7 @@
 //   starting:  hypotheses over phase and side compete for a while    (tracker/start.h)
 //   tracking:  for every frame: propagate, weigh, resample, estimate (filter/particle_filter.h)
 //   lost:      the likelihood fell far below its own past, or below that of a figure that merely
-//              stands in the same place; search again
+//              stands in the same place; search again, for a while only where the walker can be
 //
 // Frames before the walk was found, and while it was lost, are reported as not tracked. Searching
 // looks a window ahead, so records come out late at first and one for one afterwards.
@@ -31,6 +31,7 @@ struct TrackerConfig {
   double lost_after = 0.4;   // s below it
   int samples = 20;          // particles kept of every frame to show the spread
   double recall = 1.5;       // s of past likelihoods that the median is taken over
+  double seek = 4;           // s for which a lost walker is looked for only where they can be
 };
 
 struct FrameRecord {
@@ -75,6 +76,13 @@ class Tracker {
   void settle(std::vector<FrameRecord>& out);
   void track(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   FrameRecord advance(Filter& filter, const SceneEvidence& evidence, uint64_t seed, bool first);
+  // Where the walker was last surely seen, and how they went on.
+  struct LastSeen {
+    Eigen::Vector2d position, velocity;  // m, m/s
+    uint32_t frame;
+  };
+
+  bool within_reach(const Eigen::Vector2d& place, uint32_t frame) const;
   double figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const;
   bool fading(double support, double figure);
 
@@ -87,13 +95,14 @@ class Tracker {
 
   Mode mode_ = Mode::kSearching;
   uint32_t frame_ = 0;  // of the next evidence to be worked on
-  std::vector<Pose> figures_;
+  FigureBook figures_;
   std::vector<Eigen::Vector2d> places_;
   std::deque<SceneEvidence> window_;
   std::deque<std::vector<Place>> candidates_;
   std::vector<Hypothesis> hypotheses_;
   uint32_t starts_ = 0;  // how often a search has ended: keys the random streams
   Filter filter_;
+  std::optional<LastSeen> last_seen_;
   std::deque<double> supports_;
   int frames_below_ = 0;
   int losses_ = 0;

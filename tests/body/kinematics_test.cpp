@@ -133,13 +133,12 @@ TEST(ForwardKinematics, EmbedsThePlaneWithoutSignFlips) {
   EXPECT_TRUE(shank_up.isApprox(Vector3d(std::sin(shank), 0, std::cos(shank)), 1e-12));
 }
 
-TEST(SolePitch, InvertsTheAnkleHeightAndStaysFlatBelow) {
+TEST(SolePitch, InvertsTheTurnAboutTheBallAtAnyDistance) {
   const BodyLengths l = body_lengths(Subject{});
-  EXPECT_EQ(sole_pitch(l, l.ankle_height), 0.0);
-  EXPECT_EQ(sole_pitch(l, 0.0), 0.0);
-  for (double pitch = 0.01; pitch < 1.0; pitch += 0.1)
-    EXPECT_NEAR(sole_pitch(l, ankle_from_ball(l, pitch).y()), pitch, 1e-12);
-  EXPECT_LT(sole_pitch(l, 10.0), kPi / 2);
+  for (double pitch = -0.3; pitch < 1.0; pitch += 0.1) {
+    EXPECT_NEAR(sole_pitch(l, ankle_from_ball(l, pitch)), pitch, 1e-12);
+    EXPECT_NEAR(sole_pitch(l, 1.1 * ankle_from_ball(l, pitch)), pitch, 1e-12);
+  }
 }
 
 TEST(StandOn, PutsTheAnkleWhereTheFootTurnedAboutItsBallHasIt) {
@@ -149,9 +148,9 @@ TEST(StandOn, PutsTheAnkleWhereTheFootTurnedAboutItsBallHasIt) {
     Pose pose = random_pose(rng);
     const Vector3d ball(draw(rng, 3), draw(rng, 3), 0);
     const double pitch = 0.4 + draw(rng, 0.4);
-    stand_on(body, Side::kRight, ball, pitch, pose);
-    const Vector3d ankle = forward_kinematics(body, pose).joints[Joint::kRightAnkle];
     const Eigen::Vector2d expected = ankle_from_ball(body.lengths, pitch);
+    stand_on(body, Side::kRight, ball, expected, pose);
+    const Vector3d ankle = forward_kinematics(body, pose).joints[Joint::kRightAnkle];
     EXPECT_NEAR(ankle.z(), expected.y(), 1e-12);
     EXPECT_NEAR((ankle - ball).head<2>().norm(), std::abs(expected.x()), 1e-12);
   }
@@ -166,7 +165,7 @@ TEST(StandOn, LaysTheSoleAtItsPitchWhenTheLegMovesInItsPlane) {
     for (LegPose& leg : pose.legs) leg.hip_abduction = leg.hip_rotation = 0;
     const Vector3d ball(draw(rng, 3), draw(rng, 3), 0);
     const double pitch = 0.4 + draw(rng, 0.4);
-    stand_on(body, Side::kLeft, ball, pitch, pose);
+    stand_on(body, Side::kLeft, ball, ankle_from_ball(body.lengths, pitch), pose);
     const Skeleton skeleton = forward_kinematics(body, pose);
     EXPECT_NEAR(std::asin(-skeleton.axes(Segment::kLeftFoot)(2, 0)), pitch, 1e-9);
     // The joint lies above the point of contact by the ball's height and tips over with the foot.

@@ -34,6 +34,7 @@ class Track : public testing::Test {
     job.scene = read_scene(kDemo / "scene.yaml");
     job.scene.last_frame = last_frame;
     job.config.values.tracker.filter.particles = 60;
+    job.config.values.tracker.filter.moves = 1;
     job.config.values.tracker.start.particles = 30;
     job.output = folder_ / name;
     job.overlay = false;
@@ -50,21 +51,21 @@ TEST_F(Track, SameSeedSameBytesForAnyThreadCount) {
   std::string digest;
   for (const int threads : {1, 2, 8}) {
     const std::string name = "threads" + std::to_string(threads);
-    TrackJob each = job(30, name);
+    TrackJob each = job(45, name);
     each.config.values.threads = threads;
     track_scene(each, {});
     const std::string found = run_json(name).at("digest");
     if (digest.empty()) digest = found;
     EXPECT_EQ(found, digest) << threads << " threads";
   }
-  TrackJob other = job(30, "other");
+  TrackJob other = job(45, "other");
   other.config.values.seed = 2;
   track_scene(other, {});
   EXPECT_NE(run_json("other").at("digest"), digest);
 }
 
 TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {
-  const TrackOutcome outcome = track_scene(job(40, "demo"), {});
+  const TrackOutcome outcome = track_scene(job(60, "demo"), {});
   EXPECT_GT(outcome.tracked, 30);
   const Motion truth = read_motion(kDemo / "truth.csv");
   const Motion found = read_motion(folder_ / "demo/joints.csv");
@@ -106,7 +107,7 @@ TEST_F(Track, ACompleteResultIsNotOverwrittenUnasked) {
 
 TEST_F(Track, TermsThatAreOffTakeNoPartAndNoHarm) {
   for (const bool background : {true, false}) {
-    TrackJob each = job(20, background ? "no_flow" : "no_background");
+    TrackJob each = job(40, background ? "no_flow" : "no_background");
     each.config.values.observation.flow.enabled = false;
     each.config.values.observation.foreground.enabled = background;
     each.config.values.observation.background.enabled = background;

@@ -10,25 +10,26 @@
 namespace walktrack {
 namespace {
 
-// The plane embeds into 3-D: seen from the side, the drawn legs have the walker's own angles.
+// The plane embeds into 3-D: seen from the side, the drawn legs have the angles to be shown.
 TEST(PoseOf, HasTheWalkersAnglesInItsPlane) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);
   for (const WalkerParticle& p : walkers(context, 1.2, 50)) {
     Extras extra{};
     extra[kHeading] = 0.7;
-    const Pose pose = pose_of(walking.model, p.walker, Side::kLeft, {2, 3}, extra);
+    const Pose pose = pose_of(walking.model, p.walker, Side::kLeft, p.aim, {2, 3}, extra);
+    const KneedState shown = shown_state(p.walker, Side::kLeft, p.aim, extra);
     const JointPositions j = forward_kinematics(walking.model.body, pose).joints;
     const Eigen::Vector3d ahead(std::cos(0.7), std::sin(0.7), 0);
     const auto angle = [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
       const Eigen::Vector3d along = upper - lower;
       return std::atan2(along.dot(ahead), along.z());
     };
-    EXPECT_NEAR(angle(j[Joint::kLeftKnee], j[Joint::kLeftHip]), p.walker.q[kStanceThigh], 1e-9);
-    EXPECT_NEAR(angle(j[Joint::kLeftAnkle], j[Joint::kLeftKnee]), p.walker.q[kStanceShank], 1e-9);
-    EXPECT_NEAR(angle(j[Joint::kRightKnee], j[Joint::kRightHip]), p.walker.q[kSwingThigh], 1e-9);
-    EXPECT_NEAR(angle(j[Joint::kRightAnkle], j[Joint::kRightKnee]), p.walker.q[kSwingShank], 1e-9);
-    EXPECT_NEAR(angle(j[Joint::kPelvis], j[Joint::kNeck]), p.walker.q[kTorso], 1e-9);
+    EXPECT_NEAR(angle(j[Joint::kLeftKnee], j[Joint::kLeftHip]), shown.q[kStanceThigh], 1e-9);
+    EXPECT_NEAR(angle(j[Joint::kLeftAnkle], j[Joint::kLeftKnee]), shown.q[kStanceShank], 1e-9);
+    EXPECT_NEAR(angle(j[Joint::kRightKnee], j[Joint::kRightHip]), shown.q[kSwingThigh], 1e-9);
+    EXPECT_NEAR(angle(j[Joint::kRightAnkle], j[Joint::kRightKnee]), shown.q[kSwingShank], 1e-9);
+    EXPECT_NEAR(angle(j[Joint::kPelvis], j[Joint::kNeck]), shown.q[kTorso], 1e-9);
   }
 }
 
@@ -37,13 +38,41 @@ TEST(PoseOf, TheStandingFootKeepsItsBallThroughTheStep) {
   const MotionContext context = walking.context(1.0 / 30);
   const double ball_height = walking.model.body.lengths.ball_height;
   for (const WalkerParticle& p : walkers(context, 1.2, 50)) {
-    const Pose pose = pose_of(walking.model, p.walker, Side::kLeft, {2, 3}, Extras{});
+    const Pose pose = pose_of(walking.model, p.walker, Side::kLeft, p.aim, {2, 3}, Extras{});
     const Eigen::Vector3d toe =
         forward_kinematics(walking.model.body, pose).joints[Joint::kLeftToe];
-    // The joint lies a ball's height above the contact and tips over with the foot at most so far.
-    EXPECT_NEAR(toe.x(), 2, ball_height);
-    EXPECT_GE(toe.z(), 0);
-    EXPECT_LE(toe.z(), ball_height + 1e-9);
+    // The joint lies a ball's height above the contact, tips over with the foot, and leaves the
+    // place as the round foot rolls: a centimetre or two.
+    EXPECT_NEAR(toe.x(), 2, ball_height + 0.02);
+    EXPECT_NEAR(toe.z(), ball_height, 0.02);
+  }
+}
+
+// The foot that comes down stands where the pose before had its ankle: the pelvis goes on,
+// whichever foot it is reckoned from.
+TEST(LandingBall, IsThePlaceTheLandedAnkleHasRolledFrom) {
+  const Walking walking;
+  const MotionContext context = walking.context(1.0 / 30);
+  for (const WalkerParticle& p : walkers(context, 1.2, 20)) {
+    const double shank = p.walker.q[kStanceShank];
+    const Eigen::Vector2d ball = landing_ball(walking.model, p.pose, p.stance, shank);
+    EXPECT_LT((ball - p.ball).norm(), 1e-9);
+  }
+}
+
+TEST(RolledAnkle, IsTheFlatFootsUnderAnUprightShankAndRisesWithItsLean) {
+  const BodyModel model = test_model();
+  const BodyLengths& l = model.body.lengths;
+  EXPECT_LT((rolled_ankle(model, 0) - ankle_from_ball(l, 0)).norm(), 1e-12);
+  // As the walker's own ankle moves over its arc, by an independent route.
+  KneedState state;
+  for (const double shank : {-0.3, 0.2, 0.6}) {
+    state.q.setZero();
+    const Eigen::Vector2d upright = kneed_posture(model.walker, state).stance_ankle;
+    state.q[kStanceShank] = state.q[kStanceThigh] = shank;
+    const Eigen::Vector2d leaning = kneed_posture(model.walker, state).stance_ankle;
+    EXPECT_LT((rolled_ankle(model, shank) - rolled_ankle(model, 0) - (leaning - upright)).norm(),
+              1e-12);
   }
 }
 

@@ -36,7 +36,8 @@ struct Film {
 Film film(const std::function<double(size_t, const Eigen::Vector2d&)>& score) {
   const std::vector<Camera> cameras{side_camera()};
   const auto places = standing_places(cameras, 1.75, {});
-  Film out{{}, [=](size_t f, const Eigen::Vector2d& p, double) { return score(f, p); }};
+  Film out{{},
+           [=](size_t f, const Eigen::Vector2d& p, const Eigen::Vector2d&) { return score(f, p); }};
   for (size_t f = 0; f < 24; ++f)
     out.candidates.push_back(
         find_figures([&](const Eigen::Vector2d& p) { return score(f, p); }, places, {}, 1));

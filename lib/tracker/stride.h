@@ -1,0 +1,21 @@
+// How people's legs differ from the kneed walker's through a stride: the walker keeps its standing
+// knee against a stop, puts its weight over at once and stretches the swinging leg early; people
+// yield at the knee when a foot takes the load, bend the trailing knee before the toes leave the
+// ground, and stretch it late.
+//
+// The difference is that between a measured walk (subject 4 of the OpenCap validation, Uhlrich et
+// al., PLOS Comput. Biol. 19(10), 2023, trial walking1, 1.30 m/s, joint centres from motion
+// capture, strikes from force plates, both legs) and the prior's gait of the same speed.
+#pragma once
+
+namespace walktrack {
+
+// Added to the angles of the walker's thigh and shank (walker/kneed_walker.h), rad.
+struct LegDifference {
+  double thigh, shank;
+};
+
+// At a phase of the leg's own stride: 0 when its foot strikes, 1/2 when the other does. Periodic.
+LegDifference leg_difference(double phase);
+
+}  // namespace walktrack

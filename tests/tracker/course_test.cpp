@@ -1,0 +1,109 @@
+#include "tracker/course.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "body/kinematics.h"
+#include "core/conventions.h"
+#include "fixture.h"
+
+namespace walktrack {
+namespace {
+
+constexpr double kDt = 1.0 / 30;
+
+std::vector<WalkerParticle> propagated(const MotionContext& context, int count) {
+  std::vector<WalkerParticle> set = walkers(context, 1.3, count);
+  for (size_t i = 0; i < set.size(); ++i) {
+    Rng rng(5, Purpose::kTorque, 0, static_cast<uint32_t>(i));
+    arrive(context, set[i], rng);
+    propagate(context, set[i], rng);
+  }
+  return set;
+}
+
+std::vector<double> equal_weights(size_t count) { return std::vector<double>(count, 0.0); }
+
+TEST(CourseSpread, OfOneParticleIsItsPlaceAndNoSpread) {
+  const Walking walking;
+  const MotionContext context = walking.context(kDt);
+  const std::vector<WalkerParticle> one = propagated(context, 1);
+  const CourseSpread spread = course_spread(one, equal_weights(1));
+  EXPECT_NEAR(spread.mean[0], one[0].pose.root.x(), 1e-12);
+  EXPECT_NEAR(spread.mean[2], one[0].pose.heading, 1e-12);
+  EXPECT_EQ(spread.factor.norm(), 0);
+}
+
+TEST(CourseSpread, DeadParticlesCountForNothing) {
+  const Walking walking;
+  const MotionContext context = walking.context(kDt);
+  const std::vector<WalkerParticle> set = propagated(context, 2);
+  const double dead = -std::numeric_limits<double>::infinity();
+  EXPECT_NEAR(course_spread(set, std::vector<double>{0.0, dead}).mean[0], set[0].pose.root.x(),
+              1e-12);
+  EXPECT_EQ(course_spread(set, std::vector<double>{dead, dead}).factor.norm(), 0);
+}
+
+// The factor is the covariance's: an independent sum over two coordinates.
+TEST(CourseSpread, FactorGivesTheCovariance) {
+  const Walking walking;
+  const MotionContext context = walking.context(kDt);
+  const std::vector<WalkerParticle> set = propagated(context, 50);
+  const CourseSpread spread = course_spread(set, equal_weights(set.size()));
+  double shared = 0;
+  for (const WalkerParticle& p : set)
+    shared += (p.pose.root.y() - spread.mean[1]) * (p.pose.heading - spread.mean[2]) / 50;
+  const Eigen::Matrix<double, 5, 5> covariance = spread.factor * spread.factor.transpose();
+  EXPECT_NEAR(covariance(1, 2), shared, 1e-12);
+}
+
+// Many moves leave the distribution that they are reversible to as it is.
+TEST(ChangeCourse, KeepsMeanAndSpread) {
+  const Walking walking;
+  const MotionContext context = walking.context(kDt);
+  std::vector<WalkerParticle> set = propagated(context, 400);
+  const CourseSpread before = course_spread(set, equal_weights(set.size()));
+  for (size_t i = 0; i < set.size(); ++i) {
+    Rng rng(6, Purpose::kMoves, 0, static_cast<uint32_t>(i));
+    for (int k = 0; k < 20; ++k) change_course(context, before, 0.5, set[i], rng);
+  }
+  const CourseSpread after = course_spread(set, equal_weights(set.size()));
+  for (int k = 0; k < 5; ++k) {
+    const double sd = before.factor.row(k).norm();
+    EXPECT_NEAR(after.mean[k], before.mean[k], 4 * sd / std::sqrt(400.0)) << k;
+    // The standard error of a standard deviation is sd / sqrt(2 N).
+    EXPECT_NEAR(after.factor.row(k).norm(), sd, 4 * sd / std::sqrt(800.0)) << k;
+  }
+}
+
+// A turn about the root carries the whole figure, and the frame before, along: joints keep their
+// distances, and what moved between the frames still moves by as much.
+TEST(ChangeCourse, TurnsTheFigureRigidlyWithItsPast) {
+  const Walking walking;
+  const MotionContext context = walking.context(kDt);
+  WalkerParticle p = propagated(context, 1)[0];
+  CourseSpread spread;
+  spread.mean << p.pose.root.x() + 1, p.pose.root.y() - 2, p.pose.heading + 0.4, p.extra[kCrouch],
+      p.extra[kTilt];
+  const auto joints = [&](const Pose& pose) {
+    return forward_kinematics(walking.model.body, pose).joints;
+  };
+  const JointPositions now = joints(p.pose), before = joints(p.pose_before);
+  Rng rng(1, Purpose::kMoves);
+  change_course(context, spread, 1, p, rng);  // all the way to the mean: there is no spread
+  EXPECT_NEAR(p.pose.root.x(), spread.mean[0], 1e-12);
+  EXPECT_NEAR(p.pose.heading, spread.mean[2], 1e-12);
+  const JointPositions turned = joints(p.pose), turned_before = joints(p.pose_before);
+  for (const Joint j : {Joint::kLeftAnkle, Joint::kRightKnee, Joint::kNeck}) {
+    EXPECT_NEAR((turned[j] - turned[Joint::kPelvis]).norm(), (now[j] - now[Joint::kPelvis]).norm(),
+                1e-9);
+    EXPECT_NEAR((turned[j] - turned_before[j]).norm(), (now[j] - before[j]).norm(), 1e-9);
+  }
+  // The standing foot came along.
+  const Pose again = pose_of(walking.model, p.walker, p.stance, p.aim, p.ball, p.extra);
+  EXPECT_LT((again.root - p.pose.root).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace walktrack
