@@ -25,9 +25,9 @@ struct GateConfig {
   double lost_share = 0.1;   // of the frames after the walker was found
   double least_steps = 1;    // foot changes seen; who makes none does not walk
   double leg_swaps = 60;     // a minute
-  double foot_slide = 0.3;   // m, mean over stances
-  double penetration = 0.3;  // m
-  double jitter = 5000;      // m/s^3
+  double foot_slide = 0.15;  // m, mean over stances
+  double penetration = 0.1;  // m
+  double jitter = 2500;      // m/s^3
 };
 
 // The page to look at.

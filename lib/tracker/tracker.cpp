@@ -243,7 +243,7 @@ FrameRecord Tracker::advance(Filter& filter, const SceneEvidence& evidence, uint
 
 // What a figure out of the gait's book would score where the walker is believed to be.
 double Tracker::figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const {
-  return place_score(scene_, evidence, figures_.at(estimate.speed), estimate.pose.root.head<2>(),
+  return place_score(scene_, evidence, figures_.at(kUsualSpeed), estimate.pose.root.head<2>(),
                      estimate.pose.heading);
 }
 
