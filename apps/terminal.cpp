@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <string>
@@ -31,7 +32,7 @@ bool wants_colour() {
 // "45 s", "12 min", "3 h 20 min".
 std::string duration(double seconds) {
   if (seconds < 100) return fmt::format("{:.0f} s", seconds);
-  const int minutes = static_cast<int>(seconds / 60 + 0.5);
+  const int minutes = static_cast<int>(std::lround(seconds / 60));
   return minutes < 120 ? fmt::format("{} min", minutes)
                        : fmt::format("{} h {:02d} min", minutes / 60, minutes % 60);
 }

@@ -95,7 +95,7 @@ KineticsFrame frame_at(const LinkedBody& body, const LinkedState& state,
   out.com = momentum.com;
   out.kinetic_energy = momentum.kinetic_energy;
   out.potential_energy = -body.tree.mass() * gravity.dot(momentum.com);
-  const Vector3d root = joints[Joint::kPelvis];
+  const Vector3d& root = joints[Joint::kPelvis];
   out.ground =
       missing_wrench(inverse_dynamics(body.tree, state.q, state.u, state.u_dot, load), root);
   if (shares) {
