@@ -4,10 +4,18 @@
 
 #include <fmt/format.h>
 
+#include "body/pose_from_joints.h"
 #include "core/conventions.h"
 #include "io/csv.h"
 
 namespace walktrack {
+
+std::vector<AngleRow> angle_rows(const Motion& motion, const BodyLengths& lengths) {
+  std::vector<AngleRow> rows;
+  for (size_t i = 0; i < motion.time.size(); ++i)
+    rows.push_back({motion.time[i], pose_from_joints(motion.joints[i], lengths), {}, {}});
+  return rows;
+}
 
 std::string joint_angles_csv(const std::vector<AngleRow>& rows, double rate) {
   std::string text = fmt::format(

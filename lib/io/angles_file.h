@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "body/joint_angles.h"
+#include "body/motion.h"
+#include "body/subject.h"
 
 namespace walktrack {
 
@@ -17,6 +19,9 @@ struct AngleRow {
   std::optional<Pose> pose;             // nullopt: unknown
   std::optional<JointAngles> p05, p95;  // rad
 };
+
+// The poses that follow from joints alone (body/pose_from_joints.h), without bands.
+std::vector<AngleRow> angle_rows(const Motion& motion, const BodyLengths& lengths);
 
 // `rate` in Hz.
 std::string joint_angles_csv(const std::vector<AngleRow>& rows, double rate);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "body/pose_from_joints.h"
 #include "core/errors.h"
 #include "io/files.h"
 #include "io/motion_file.h"
@@ -33,14 +32,6 @@ double stature_of(const Motion& motion) {
     }
   }
   return count > 0 && sum > 0 ? sum / static_cast<double>(count) : Subject{}.height;
-}
-
-std::vector<AngleRow> angles_of(const Motion& motion, const Subject& subject) {
-  const BodyLengths lengths = body_lengths(subject);
-  std::vector<AngleRow> rows;
-  for (size_t i = 0; i < motion.time.size(); ++i)
-    rows.push_back({motion.time[i], pose_from_joints(motion.joints[i], lengths), {}, {}});
-  return rows;
 }
 
 RunRecord record_of(const AnalyseJob& job, const fs::path& file, const Subject& subject,
@@ -76,7 +67,7 @@ AnalyseOutcome analyse(const AnalyseJob& job) {
   analysed.rate = 1 / sample_period(analysed.motion);
   analysed.subject.height = job.height.value_or(stature_of(analysed.motion));
   analysed.subject.mass = job.mass.value_or(Subject{}.mass);
-  analysed.angles = angles_of(analysed.motion, analysed.subject);
+  analysed.angles = angle_rows(analysed.motion, body_lengths(analysed.subject));
   const ResultFolder folder(job.output, job.overwrite);
   const KineticsTotals totals = write_motion_tables(analysed, job.config.values.kinetics, folder);
   folder.finish(run_json(record_of(job, file, analysed.subject, totals)));

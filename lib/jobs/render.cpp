@@ -9,6 +9,7 @@
 #include "core/conventions.h"
 #include "core/errors.h"
 #include "core/parallel_for.h"
+#include "io/angles_file.h"
 #include "io/calibration.h"
 #include "io/files.h"
 #include "io/motion_file.h"
@@ -204,7 +205,9 @@ size_t render_scene(const RenderJob& job, const JobControl& control) {
   const std::vector<double> times = scene_times(stage, job.options.frame_rate);
   const Motion truth = truth_at(stage, times);
   write_file_atomically(job.output / "truth.csv", motion_csv(truth));
-  write_file_atomically(job.output / "angles.csv", angles_csv(truth, actor.body.lengths));
+  const std::vector<AngleRow> angles = angle_rows(truth, actor.body.lengths);
+  write_file_atomically(job.output / "angles.csv",
+                        joint_angles_csv(angles, job.options.frame_rate));
   write_file_atomically(job.output / "events.csv", events_csv(actor.motion, stage.duration));
   size_t frames = 0;
   for (const Filming& filming : cameras) {

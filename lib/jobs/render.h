@@ -1,8 +1,8 @@
 // `walktrack render`: a motion becomes a scene folder that `track` reads, with its truth:
 //   scene.yaml, <camera>.mp4, <camera>.yaml, <camera>_background.mp4 (with `images`, folders of
-//   %06d.png in place of .mp4), truth.csv (joints),
-//   angles.csv (degrees), events.csv, and on request labels/<camera>/%06d.png (0 = nobody, 1 + part
-//   + 100 walker), flow/<camera>/%06d.flo (Middlebury), depth/<camera>/%06d.pfm (m).
+//   %06d.png in place of .mp4), truth.csv (joints), angles.csv (io/angles_file.h, without bands),
+//   events.csv, and on request labels/<camera>/%06d.png (0 = nobody, 1 + part + 100 walker),
+//   flow/<camera>/%06d.flo (Middlebury), depth/<camera>/%06d.pfm (m).
 #pragma once
 
 #include <filesystem>

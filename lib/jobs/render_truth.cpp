@@ -1,17 +1,13 @@
 #include "jobs/render_truth.h"
 
-#include <array>
 #include <bit>
 #include <vector>
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "body/pose_from_joints.h"
-#include "core/conventions.h"
 #include "io/csv.h"
 #include "io/files.h"
-#include "metrics/angle_error.h"
 #include "metrics/gait.h"
 
 namespace walktrack {
@@ -27,23 +23,6 @@ void append(std::string& out, const void* data, size_t bytes) {
 }
 
 }  // namespace
-
-std::string angles_csv(const Motion& truth, const BodyLengths& lengths) {
-  std::string out = "t";
-  for (const std::string_view name : kAngleNames) out += fmt::format(",{}_deg", name);
-  out += "\n";
-  for (size_t i = 0; i < truth.time.size(); ++i) {
-    out += csv_number(truth.time[i]);
-    const auto pose = pose_from_joints(truth.joints[i], lengths);
-    const auto angles = pose ? angles_of(*pose) : std::array<double, kAngleCount>{};
-    for (const double angle : angles) {
-      out += ",";
-      if (pose) out += csv_number(deg_from_rad(angle));
-    }
-    out += "\n";
-  }
-  return out;
-}
 
 std::string events_csv(const Motion& whole, double duration) {
   std::string out = "t,side,event\n";

@@ -5,14 +5,9 @@
 #include <string>
 
 #include "body/motion.h"
-#include "body/subject.h"
 #include "synth/view.h"
 
 namespace walktrack {
-
-// t, then the angles of kAngleNames (metrics/angle_error.h) in degrees; empty where a leg is
-// unknown.
-std::string angles_csv(const Motion& truth, const BodyLengths& lengths);
 
 // t,side,event with side l or r and event strike or toe_off: those of the whole motion that lie
 // within the truth's time.
