@@ -78,8 +78,10 @@ constexpr std::array kNotes{
     "toe_off: the toe is furthest behind the pelvis (after Zeni et al. 2008).",
     "support_transfer: when the walker model's weight changed onto this foot. The model has no "
     "double support, so it comes between the strike and the other foot's toe-off.",
-    "p05, p95: value -/+ 1.645 standard deviations over the tracker's particles. They say how "
-    "certain the tracker is, given its model.",
+    "p05, p95: between these lie 90 % of the tracker's particles at the same contacts, and the "
+    "value. They say how certain the tracker is, given its model. Empty: too few particles or "
+    "steps "
+    "know.",
     "step: to the other foot's contact, along and across the direction of walking; stride: to the "
     "next contact of the same foot. symmetry: 100 (left - right) / mean of both."};
 

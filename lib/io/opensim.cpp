@@ -1,5 +1,9 @@
 #include "io/opensim.h"
 
+#include <algorithm>
+#include <array>
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "body/joint_angles.h"
@@ -17,6 +21,54 @@ constexpr const char* kAngleColumns =
     "hip_flexion_l\thip_adduction_l\thip_rotation_l\tknee_angle_l\tankle_angle_l\t"
     "lumbar_extension\tlumbar_bending\tlumbar_rotation";
 constexpr int kAngleColumnCount = 20;
+constexpr const char* kReactionColumns =
+    "time\tground_force_r_vx\tground_force_r_vy\tground_force_r_vz\t"
+    "ground_force_r_px\tground_force_r_py\tground_force_r_pz\t"
+    "ground_torque_r_x\tground_torque_r_y\tground_torque_r_z\t"
+    "ground_force_l_vx\tground_force_l_vy\tground_force_l_vz\t"
+    "ground_force_l_px\tground_force_l_py\tground_force_l_pz\t"
+    "ground_torque_l_x\tground_torque_l_y\tground_torque_l_z";
+constexpr int kReactionColumnCount = 19;
+constexpr const char* kMomentColumns =
+    "time\thip_flexion_r_moment\thip_adduction_r_moment\tknee_angle_r_moment\t"
+    "ankle_angle_r_moment\thip_flexion_l_moment\thip_adduction_l_moment\t"
+    "knee_angle_l_moment\tankle_angle_l_moment";
+constexpr int kMomentColumnCount = 9;
+constexpr std::array kRightThenLeft{Side::kRight, Side::kLeft};
+
+// Lines of `notes` must not hold '=': OpenSim would take them for keys.
+std::string storage_header(std::string_view name, size_t rows, int columns, bool degrees,
+                           std::string_view notes, std::string_view names) {
+  return fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\n\n{}\nendheader\n{}\n",
+                     name, rows, columns, degrees ? "yes" : "no", notes, names);
+}
+
+size_t known_rows(const Kinetics& kinetics) {
+  return static_cast<size_t>(std::count_if(kinetics.frames.begin(), kinetics.frames.end(),
+                                           [](const KineticsFrame& each) { return each.known; }));
+}
+
+// A foot's centre of pressure at every row; where nothing presses, the next one, else the last.
+std::vector<Eigen::Vector2d> centres_of(const Kinetics& kinetics, Side side) {
+  const auto at = [&](size_t i) {
+    return kinetics.frames[i].feet[static_cast<size_t>(side)].centre;
+  };
+  std::vector<Eigen::Vector2d> out(kinetics.frames.size(), Eigen::Vector2d::Zero());
+  std::optional<Eigen::Vector2d> last, next;
+  for (size_t i = 0; i < out.size(); ++i) {
+    if (at(i).allFinite()) last = at(i);
+    if (last) out[i] = *last;
+  }
+  for (size_t i = out.size(); i-- > 0;) {
+    if (at(i).allFinite()) next = at(i);
+    if (next) out[i] = *next;
+  }
+  return out;
+}
+
+void append_vector(std::string& text, const Eigen::Vector3d& world) {
+  for (const double value : opensim_from_world(world)) append_number(text, '\t', value);
+}
 
 std::string angle_row(double time, const Pose& pose) {
   std::string text = csv_number(time);
@@ -59,15 +111,59 @@ std::string trc_from_motion(const Motion& motion, double rate, const std::string
 
 std::string mot_from_poses(std::span<const double> times, std::span<const Pose> poses,
                            const std::string& name) {
-  std::string text = fmt::format(
-      "{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees=yes\n\n"
+  std::string text = storage_header(
+      name, times.size(), kAngleColumnCount, true,
       "Units are S.I. units (second, meters), angles are in degrees.\n"
       "Ground: x and z (right) level, y up. pelvis_tx, ty, tz: midpoint of the hip centres.\n"
       "Positive: pelvis_tilt backwards, pelvis_list right side down, pelvis_rotation to the left,\n"
-      "hip flexion, adduction, toes inwards; knee flexion; ankle dorsiflexion.\n"
-      "endheader\n{}\n",
-      name, times.size(), kAngleColumnCount, kAngleColumns);
+      "hip flexion, adduction, toes inwards; knee flexion; ankle dorsiflexion.",
+      kAngleColumns);
   for (size_t i = 0; i < times.size(); ++i) text += angle_row(times[i], poses[i]);
+  return text;
+}
+
+std::string mot_from_ground_reactions(const Kinetics& kinetics) {
+  std::string text = storage_header(
+      "ground_reaction", known_rows(kinetics), kReactionColumnCount, false,
+      "Units are S.I. units (second, meters, Newtons, Newton meters).\n"
+      "Ground: x and z (right) level, y up. Computed from the motion, not measured.\n"
+      "ground_force: of the ground on the foot, at its centre of pressure (p); r right, l left.",
+      kReactionColumns);
+  const auto right = centres_of(kinetics, Side::kRight), left = centres_of(kinetics, Side::kLeft);
+  for (size_t i = 0; i < kinetics.frames.size(); ++i) {
+    if (!kinetics.frames[i].known) continue;
+    text += csv_number(kinetics.time[i]);
+    for (const Side side : kRightThenLeft) {
+      const FootLoad& foot = kinetics.frames[i].feet[static_cast<size_t>(side)];
+      const Eigen::Vector2d& centre = (side == Side::kRight ? right : left)[i];
+      append_vector(text, foot.force);
+      append_vector(text, {centre.x(), centre.y(), 0});
+      append_vector(text, {0, 0, foot.free_moment});
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string sto_from_joint_moments(const Kinetics& kinetics) {
+  std::string text =
+      storage_header("joint_moments", known_rows(kinetics), kMomentColumnCount, false,
+                     "Units are S.I. units (second, Newton meters).\n"
+                     "Moments of the muscles, by inverse dynamics of the motion. Positive: hip "
+                     "flexion, adduction;\n"
+                     "knee flexion; ankle dorsiflexion.",
+                     kMomentColumns);
+  for (size_t i = 0; i < kinetics.frames.size(); ++i) {
+    if (!kinetics.frames[i].known) continue;
+    text += csv_number(kinetics.time[i]);
+    for (const Side side : kRightThenLeft) {
+      const LegLoads& leg = kinetics.frames[i].legs[static_cast<size_t>(side)];
+      for (const double moment :
+           {leg.hip_flexion, -leg.hip_abduction, leg.knee_flexion, leg.ankle_dorsiflexion})
+        append_number(text, '\t', moment);
+    }
+    text += "\n";
+  }
   return text;
 }
 

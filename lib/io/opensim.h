@@ -1,4 +1,5 @@
-// Files for OpenSim and its relatives: marker positions (.trc) and joint angles (.mot).
+// Files for OpenSim and its relatives: marker positions (.trc), joint angles and ground reactions
+// (.mot), joint moments (.sto).
 //
 // OpenSim's ground has x forward, y up, z to the right of x; the library's world has x, z up and y
 // to the left, so (x, y, z)_opensim = (x, z, -y)_world. Angles are those of body/joint_angles.h,
@@ -11,6 +12,7 @@
 
 #include "body/motion.h"
 #include "body/pose.h"
+#include "kinetics/kinetics.h"
 
 namespace walktrack {
 
@@ -22,5 +24,19 @@ std::string trc_from_motion(const Motion& motion, double rate, const std::string
 // a pose are left out.
 std::string mot_from_poses(std::span<const double> times, std::span<const Pose> poses,
                            const std::string& name);
+
+// Ground reactions as OpenSim's external loads take them, for the right (r) and the left (l) foot:
+//   ground_force_r_vx, vy, vz   N, of the ground on the foot
+//   ground_force_r_px, py, pz   m, centre of pressure; while nothing presses, where it does next
+//                               (else last), so that interpolation does not carry it across the
+//                               room
+//   ground_torque_r_x, y, z     N m, about the centre of pressure
+std::string mot_from_ground_reactions(const Kinetics& kinetics);
+
+// Moments of the muscles, N m, named and signed as OpenSim's inverse dynamics does
+// (<coordinate>_moment): hip_flexion, hip_adduction, knee_angle, ankle_angle of either leg.
+std::string sto_from_joint_moments(const Kinetics& kinetics);
+
+// Rows in which the body is unknown are left out of both.
 
 }  // namespace walktrack

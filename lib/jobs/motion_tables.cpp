@@ -77,6 +77,8 @@ KineticsTotals write_motion_tables(const AnalysedMotion& analysed, const Kinetic
   for (const Motion& member : analysed.members) members.push_back(forces(member));
   folder.write("kinetics.csv",
                kinetics_csv(result, members, analysed.subject, config, analysed.world));
+  folder.write("ground_reaction.mot", mot_from_ground_reactions(result));
+  folder.write("joint_moments.sto", sto_from_joint_moments(result));
   return result.totals;
 }
 

@@ -1,6 +1,6 @@
 // `walktrack track`: one scene becomes a result folder:
-//   joints.csv, uncertainty.csv, gait.json, gait.csv, kinetics.csv, angles.csv, angles.mot,
-//   joints.trc, overlay_<camera>.mp4, report.html, run.json
+//   joints.csv, uncertainty.csv, the tables of jobs/motion_tables.h, overlay_<camera>.mp4,
+//   report.html, run.json
 // Frames are streamed; what stays in memory is some kilobytes a frame of results.
 #pragma once
 

@@ -1,5 +1,6 @@
 #include "jobs/track_results.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -114,8 +115,10 @@ std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames) {
       ++at;
     const Spread& since = frames.records[at].estimate.since_transfer;
     const double now = time_of(frames, at);
+    // Few particles with another history pull the mean out of their own band.
+    const double usual = std::clamp(since.mean, since.p05, since.p95);
     out.push_back({stands_left(i) ? Side::kLeft : Side::kRight,
-                   {now - since.mean, now - since.p95, now - since.p05}});
+                   {now - usual, now - since.p95, now - since.p05}});
   }
   return out;
 }

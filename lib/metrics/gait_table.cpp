@@ -5,13 +5,17 @@
 #include <functional>
 #include <optional>
 
+#include "metrics/statistics.h"
+
 namespace walktrack {
 
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kBandSd = 1.6449;     // standard deviations from the mean to the 95th percentile
 constexpr double kSameContact = 0.25;  // s; under half of the shortest usual stride
+constexpr size_t kLeastForSpread = 3;  // steps; two say more of chance than of the walker
+constexpr size_t kLeastASide = 2;      // contacts of either side for a symmetry
+constexpr size_t kLeastMembers = 5;    // for a 5 % and a 95 % point that are not two members
 
 using Values = std::array<double, kContactColumnCount>;
 
@@ -89,7 +93,7 @@ double mean(const std::vector<double>& values) {
 }
 
 double deviation(const std::vector<double>& values) {
-  if (values.size() < 2) return kNone;
+  if (values.size() < kLeastForSpread) return kNone;
   const double middle = mean(values);
   double sum = 0;
   for (const double value : values) sum += (value - middle) * (value - middle);
@@ -125,23 +129,26 @@ std::array<double, kSummaryColumnCount> summarised(const Reading& reading,
 }
 
 std::array<double, kSymmetryCount> symmetries(const Reading& reading) {
-  const auto left = summarised(reading, Side::kLeft), right = summarised(reading, Side::kRight);
-  const auto asymmetry = [&](SummaryColumn which) {
-    return 200 * (left[which] - right[which]) / (left[which] + right[which]);
+  const auto asymmetry = [&](ContactColumn which) {
+    const auto left = column(reading, Side::kLeft, which),
+               right = column(reading, Side::kRight, which);
+    if (std::min(left.size(), right.size()) < kLeastASide) return kNone;
+    return 200 * (mean(left) - mean(right)) / (mean(left) + mean(right));
   };
-  return {asymmetry(kMeanStepLength), asymmetry(kMeanStepTime), asymmetry(kMeanStance)};
+  return {asymmetry(kStepLength), asymmetry(kStepTime), asymmetry(kStanceShare)};
 }
 
-// `value` with the spread of the finite ones among `others`, if they are at least half of them.
+// `value` with the 5 and 95 % points of the finite ones among `others`, if they are at least half
+// of them and kLeastMembers; stretched to hold the value.
 Banded banded(double value, const std::vector<double>& others) {
   std::vector<double> finite;
   std::copy_if(others.begin(), others.end(), std::back_inserter(finite),
                [](double other) { return std::isfinite(other); });
   Banded out{value, kNone, kNone};
-  if (!std::isfinite(value) || finite.size() < 2 || 2 * finite.size() < others.size()) return out;
-  const double half = kBandSd * deviation(finite);
-  out.p05 = value - half;
-  out.p95 = value + half;
+  if (!std::isfinite(value) || finite.size() < kLeastMembers || 2 * finite.size() < others.size())
+    return out;
+  out.p05 = std::min(value, quantile(finite, 0.05));
+  out.p95 = std::max(value, quantile(finite, 0.95));
   return out;
 }
 
@@ -179,19 +186,38 @@ void set_transfer(std::span<const SupportTransfer> transfers, ContactRow& row) {
   }
 }
 
-// f's numbers of the motion, with f's spread over the members.
+// A motion's reading and a member's, both cut down to what both know of the same contacts.
+struct Common {
+  Reading motion, member;
+};
+
+Common common_of(const Reading& motion, const Reading& member) {
+  Common out{motion, motion};
+  out.member.speed = member.speed;
+  for (size_t i = 0; i < motion.contacts.size(); ++i) {
+    const Contact* same = find_contact(member, motion.contacts[i]);
+    Values &ours = out.motion.contacts[i].at, &theirs = out.member.contacts[i].at;
+    theirs = same ? same->at : nothing();
+    for (size_t k = 0; k < kContactColumnCount; ++k)
+      if (std::isnan(ours[k]) || std::isnan(theirs[k])) ours[k] = theirs[k] = kNone;
+  }
+  return out;
+}
+
+// f's numbers of the motion, with bands over the members. A member that lacks a contact, or has one
+// too many, must not look like a walker of other steps: what counts is by how much it differs from
+// the motion over the contacts that both have.
 template <size_t N>
-std::array<Banded, N> banded_all(const Reading& reading, const std::vector<Reading>& members,
+std::array<Banded, N> banded_all(const Reading& reading, const std::vector<Common>& members,
                                  const std::function<std::array<double, N>(const Reading&)>& f) {
   const std::array<double, N> values = f(reading);
-  std::vector<std::array<double, N>> others;
-  for (const Reading& member : members) others.push_back(f(member));
-  std::array<Banded, N> out;
-  for (size_t k = 0; k < N; ++k) {
-    std::vector<double> list;
-    for (const auto& other : others) list.push_back(other[k]);
-    out[k] = banded(values[k], list);
+  std::array<std::vector<double>, N> others;
+  for (const Common& common : members) {
+    const std::array<double, N> ours = f(common.motion), theirs = f(common.member);
+    for (size_t k = 0; k < N; ++k) others[k].push_back(values[k] + (theirs[k] - ours[k]));
   }
+  std::array<Banded, N> out;
+  for (size_t k = 0; k < N; ++k) out[k] = banded(values[k], others[k]);
   return out;
 }
 
@@ -209,14 +235,16 @@ GaitTable gait_table(const Motion& motion, std::span<const Motion> members,
   }
   table.steps = column(reading, std::nullopt, kStepLength).size();
   table.strides = column(reading, std::nullopt, kStrideLength).size();
+  std::vector<Common> common;
+  for (const Reading& member : others) common.push_back(common_of(reading, member));
   const auto summary = [&](std::optional<Side> side) {
     return banded_all<kSummaryColumnCount>(
-        reading, others, [side](const Reading& each) { return summarised(each, side); });
+        reading, common, [side](const Reading& each) { return summarised(each, side); });
   };
   table.both = summary(std::nullopt);
   table.left = summary(Side::kLeft);
   table.right = summary(Side::kRight);
-  table.symmetry = banded_all<kSymmetryCount>(reading, others, symmetries);
+  table.symmetry = banded_all<kSymmetryCount>(reading, common, symmetries);
   return table;
 }
 

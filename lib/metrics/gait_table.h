@@ -7,9 +7,14 @@
 // NaN.
 //
 // Bands come from an ensemble: motions that the tracker holds for possible as well (a few particles
-// of every frame). Each is read like the motion itself; a band is the value -/+ 1.645 standard
-// deviations over the members that saw the same contact, NaN if fewer than half did. It says how
-// far the tracker is from certain, not how far its model is from the person.
+// of every frame). Each is read like the motion itself. A contact's band holds the value and lies
+// between the 5 and 95 % points of the members that saw the same contact; a summary's, of how much
+// the members differ from the motion over the contacts that both have. NaN if fewer than half of
+// the members, or fewer than five, know. It says how far the tracker is from certain, not how far
+// its model is from the person.
+//
+// What few steps cannot tell is NaN too: a symmetry needs two contacts of either side, a spread
+// from step to step needs three steps.
 //
 // Seconds, metres; shares of the stride in per cent; the ground is z = 0.
 #pragma once

@@ -1,8 +1,8 @@
 #include "io/opensim.h"
 
-#include <sstream>
-
+#include <algorithm>
 #include <map>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -129,6 +129,81 @@ TEST(Mot, ComposedAnglesPointTheThighWhereKinematicsDoes) {
         (skeleton.joints[knee(side)] - skeleton.joints[hip(side)]).normalized();
     EXPECT_LT((down - Eigen::Vector3d(truth.x(), truth.z(), -truth.y())).norm(), 1e-6);
   }
+}
+
+// A storage file's columns by name, and its rows.
+struct Storage {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;
+  std::vector<double> column(const std::string& name) const {
+    const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+    std::vector<double> out;
+    for (const auto& row : rows) out.push_back(row.at(static_cast<size_t>(at)));
+    return out;
+  }
+};
+
+// As OpenSim's DelimFileAdapter reads it: lines with '=' are keys, the names follow "endheader",
+// the first is "time", every row has as many cells as there are names.
+Storage read_storage(const std::string& text) {
+  std::istringstream stream(text);
+  std::map<std::string, std::string> keys;
+  std::string line;
+  while (std::getline(stream, line) && line != "endheader")
+    if (const size_t at = line.find('='); at != std::string::npos)
+      keys[line.substr(0, at)] = line.substr(at + 1);
+  Storage out;
+  std::getline(stream, line);
+  out.names = split(line, '\t');
+  while (std::getline(stream, line)) {
+    out.rows.emplace_back();
+    for (const std::string& cell : split(line, '\t')) out.rows.back().push_back(std::stod(cell));
+    EXPECT_EQ(out.rows.back().size(), out.names.size());
+  }
+  EXPECT_EQ(out.names.front(), "time");
+  EXPECT_EQ(keys["version"], "1");
+  EXPECT_EQ(keys["nRows"], std::to_string(out.rows.size()));
+  EXPECT_EQ(keys["nColumns"], std::to_string(out.names.size()));
+  EXPECT_EQ(keys.size(), 4u);  // with inDegrees: no sentence was taken for a key
+  return out;
+}
+
+// Four frames: nobody known, right foot in the air, right foot loaded, right foot in the air.
+Kinetics one_step() {
+  Kinetics out;
+  out.time = {0, 0.1, 0.2, 0.3};
+  out.frames.resize(4);
+  for (size_t i = 1; i < 4; ++i) out.frames[i].known = true;
+  FootLoad& foot = out.frames[2].feet[static_cast<size_t>(Side::kRight)];
+  foot.force = {10, 20, 700};
+  foot.centre = {1.5, 0.25};
+  foot.free_moment = 3;
+  LegLoads& leg = out.frames[2].legs[static_cast<size_t>(Side::kLeft)];
+  leg = {.hip_flexion = 1, .hip_abduction = 2, .knee_flexion = 3, .ankle_dorsiflexion = -4};
+  return out;
+}
+
+TEST(GroundReactions, AreInOpenSimsAxesWithAPointOfActionAtEveryRow) {
+  const Storage table = read_storage(mot_from_ground_reactions(one_step()));
+  using testing::ElementsAre;
+  EXPECT_THAT(table.column("time"), ElementsAre(0.1, 0.2, 0.3));  // the unknown row is left out
+  EXPECT_THAT(table.column("ground_force_r_vx"), ElementsAre(0, 10, 0));
+  EXPECT_THAT(table.column("ground_force_r_vy"), ElementsAre(0, 700, 0));
+  EXPECT_THAT(table.column("ground_force_r_vz"), ElementsAre(0, -20, 0));
+  EXPECT_THAT(table.column("ground_force_r_px"), ElementsAre(1.5, 1.5, 1.5));
+  EXPECT_THAT(table.column("ground_force_r_py"), ElementsAre(0, 0, 0));
+  EXPECT_THAT(table.column("ground_force_r_pz"), ElementsAre(-0.25, -0.25, -0.25));
+  EXPECT_THAT(table.column("ground_torque_r_y"), ElementsAre(0, 3, 0));
+  EXPECT_THAT(table.column("ground_force_l_px"), ElementsAre(0, 0, 0));  // never on the ground
+}
+
+TEST(JointMoments, HaveTheNamesAndSignsOfInverseDynamics) {
+  const Storage table = read_storage(sto_from_joint_moments(one_step()));
+  EXPECT_EQ(table.column("hip_flexion_l_moment")[1], 1);
+  EXPECT_EQ(table.column("hip_adduction_l_moment")[1], -2);
+  EXPECT_EQ(table.column("knee_angle_l_moment")[1], 3);
+  EXPECT_EQ(table.column("ankle_angle_l_moment")[1], -4);
+  EXPECT_EQ(table.column("knee_angle_r_moment")[1], 0);
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ class Analyse : public testing::Test {
 TEST_F(Analyse, WritesACompleteResult) {
   const AnalyseOutcome outcome = analyse(job(kDemo / "truth.csv"));
   EXPECT_GE(outcome.steps, 5u);
-  for (const char* name :
-       {"gait.json", "gait.csv", "angles.csv", "angles.mot", "joints.trc", "kinetics.csv"})
+  for (const char* name : {"gait.json", "gait.csv", "angles.csv", "angles.mot", "joints.trc",
+                           "kinetics.csv", "ground_reaction.mot", "joint_moments.sto"})
     EXPECT_TRUE(fs::exists(folder_ / name)) << name;
   EXPECT_TRUE(is_complete_result(folder_));
   const auto run = nlohmann::json::parse(read_text_file(folder_ / "run.json", size_t{1} << 20));
@@ -129,6 +129,27 @@ TEST_F(Analyse, AnglesGoAsOpenSimsInverseKinematicsDo) {
     // A few degrees of movement from joint centres that are good to a centimetre: the sign is told.
     for (const char* name : {"pelvis_list", "hip_adduction_r", "hip_adduction_l"})
       EXPECT_GT(agreement(ours.at(name), theirs.at(name)).correlation, 0.7) << trial << " " << name;
+  }
+}
+
+// Our right and left are the plates' 1 and 2, our y is their vertical. Exchanged, they would
+// correlate negatively; how large the forces are is force_plates_test's matter. The left foot
+// begins off the plates, so that some of its course is missing there.
+TEST_F(Analyse, GroundReactionsAreNamedAsTheForcePlatesAre) {
+  for (const std::string trial : {"opencapS4_walking1", "opencapS4_walkingTS1"}) {
+    const fs::path mocap = kData / "mocap" / (trial + ".csv"),
+                   plates = kData / "grf" / (trial + ".mot");
+    if (!fs::exists(mocap) || !fs::exists(plates)) GTEST_SKIP() << plates << " is absent";
+    AnalyseJob each = job(mocap);
+    each.overwrite = true;
+    analyse(each);
+    const auto ours = read_storage(folder_ / "ground_reaction.mot"), theirs = read_storage(plates);
+    ASSERT_GT(ours.at("time").size(), 100u);
+    const auto together = [&](const char* a, const char* b) {
+      return agreement(ours.at(a), theirs.at(b)).correlation;
+    };
+    EXPECT_GT(together("ground_force_r_vy", "ground_force_1_vy"), 0.8) << trial;
+    EXPECT_GT(together("ground_force_l_vy", "ground_force_2_vy"), 0.8) << trial;
   }
 }
 

@@ -1,7 +1,9 @@
 #include "jobs/track.h"
 
+#include <array>
 #include <atomic>
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -48,7 +50,12 @@ class Track : public testing::Test {
 };
 
 TEST_F(Track, SameSeedSameBytesForAnyThreadCount) {
+  constexpr std::array kTables{"joints.csv",       "uncertainty.csv", "gait.json",
+                               "gait.csv",         "angles.csv",      "angles.mot",
+                               "joints.trc",       "kinetics.csv",    "ground_reaction.mot",
+                               "joint_moments.sto"};
   std::string digest;
+  std::map<std::string, std::string> bytes;  // by table, of the first thread count
   for (const int threads : {1, 2, 8}) {
     const std::string name = "threads" + std::to_string(threads);
     TrackJob each = job(45, name);
@@ -57,6 +64,10 @@ TEST_F(Track, SameSeedSameBytesForAnyThreadCount) {
     const std::string found = run_json(name).at("digest");
     if (digest.empty()) digest = found;
     EXPECT_EQ(found, digest) << threads << " threads";
+    for (const char* table : kTables) {
+      const std::string text = read_text_file(folder_ / name / table, size_t{1} << 24);
+      EXPECT_EQ(bytes.try_emplace(table, text).first->second, text) << table << ", " << threads;
+    }
   }
   TrackJob other = job(45, "other");
   other.config.values.seed = 2;
