@@ -11,7 +11,7 @@ namespace walktrack {
 namespace po = boost::program_options;
 
 int run_evaluate(const Arguments& arguments) {
-  std::string truth, uncertainty;
+  std::string truth, uncertainty, plot;
   std::vector<std::string> estimates;
   double frame_rate = 0;
   bool json = false, markdown = false;
@@ -30,6 +30,8 @@ int run_evaluate(const Arguments& arguments) {
       "of a truth that counts frames; default: the estimate's");
   add("json", po::bool_switch(&json), "print JSON");
   add("markdown", po::bool_switch(&markdown), "print a Markdown table (the default)");
+  add("plot", po::value(&plot)->value_name("FILE.svg"),
+      "write a picture: errors over time and of each joint");
   line.operand("TRUTH.csv", &truth);
   line.operands("ESTIMATE", &estimates);
   if (!line.parse(arguments)) return kDone;
@@ -40,7 +42,9 @@ int run_evaluate(const Arguments& arguments) {
   job.estimates.assign(estimates.begin(), estimates.end());
   if (!uncertainty.empty()) job.uncertainty = uncertainty;
   if (frame_rate > 0) job.frame_rate = frame_rate;
+  if (!plot.empty()) refuse_existing(plot, line.common().overwrite);
   const auto results = evaluate(job);
+  if (!plot.empty()) write_file_atomically(plot, as_svg(truth, results));
   const std::string text = json ? as_json(truth, results) : as_markdown(truth, results);
   if (line.common().output.empty()) {
     fmt::print("{}", text);

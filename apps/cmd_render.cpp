@@ -19,8 +19,9 @@ int run_render(const Arguments& arguments) {
   CommandLine line({.name = "render",
                     .operands = "[MOTION.csv]",
                     .about = "Renders a motion (joints.csv, or a result folder of 'walktrack "
-                             "track'; without one the 'walk'\nof the options) as calibrated "
-                             "video with its truth: a scene folder that 'walktrack track' reads.",
+                             "track'; without one the 'walk'\nor 'gait' of the options) as "
+                             "calibrated video with its truth: a scene folder that\n'walktrack "
+                             "track' reads.",
                     .example = "walktrack render data/demo/truth.csv -o out/again"});
   line.options().add_options()("options", po::value(&options)->value_name("FILE"),
                                "what to render and how (YAML): cameras, light, clothes, ...");
@@ -32,13 +33,16 @@ int run_render(const Arguments& arguments) {
     RenderFile file = read_render_file(options);
     job.options = std::move(file.options);
     job.walker = std::move(file.subject);
+    job.gait = std::move(file.gait);
   }
   if (!motion.empty()) {
+    job.gait.reset();
     const std::filesystem::path given = motion;
     const bool is_result = std::filesystem::is_directory(given);
     job.walker.motion = read_motion(is_result ? given / "joints.csv" : given);
-  } else if (job.walker.motion.time.empty()) {
-    throw UsageError("nothing to render: name a MOTION.csv, or a 'walk' in the --options");
+  } else if (job.walker.motion.time.empty() && !job.gait) {
+    throw UsageError(
+        "nothing to render: name a MOTION.csv, or a 'walk' or 'gait' in the --options");
   }
   const Config config = line.config().values;
   if (!line.common().seed.empty()) job.options.seed = config.seed;

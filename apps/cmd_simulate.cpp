@@ -98,7 +98,7 @@ class PriorOptions {
 
   bool wanted_ = false;
   double speed_ = std::numeric_limits<double>::quiet_NaN();  // not given
-  PriorWalk walk_;
+  WalkPlan walk_;
   std::vector<std::string> changes_;
 };
 

@@ -3,8 +3,9 @@
 
     documents_test.py WALKTRACK SOURCE_FOLDER [--quick]
 
-Commands stand in fenced blocks of the kind `sh`; those of the kind `sh slow` are left out with --quick. Each has
-to end with 0, or with 4 (tracked, below a gate). Links between documents must lead somewhere.
+Commands stand in fenced blocks of the kind `sh`; those of the kind `sh slow` are left out with --quick, and those
+that read ../shared where that is absent, which is said. Each has to end with 0, or with 4 (tracked, below a gate).
+Links between documents must lead somewhere.
 """
 import os
 import pathlib
@@ -25,9 +26,12 @@ def blocks(text):
         yield text.count("\n", 0, found.start()) + 2, found.group(1), found.group(2).split(), found.group(3)
 
 
-def commands(document, quick):
+def commands(document, quick, shared):
     for line, kind, words, content in blocks(document.read_text()):
         if kind != "sh" or (quick and "slow" in words):
+            continue
+        if "../shared" in content and not shared.exists():
+            print(f"{document.name}:{line}: skipped: {shared} is absent")
             continue
         for number, command in enumerate(content.splitlines(), line):
             if command.strip() and not command.startswith(("#",) + RUN_BY_OTHERS):
@@ -42,19 +46,22 @@ def broken_links(document):
 
 def main():
     walktrack, source, quick = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), "--quick" in sys.argv
+    shared = source.parent / "shared"
     failures = [problem for name in DOCUMENTS for problem in broken_links(source / name)]
     passed = 0
     with tempfile.TemporaryDirectory() as temporary:
         tree = pathlib.Path(temporary) / "walktrack"
         shutil.copytree(source, tree, ignore=shutil.ignore_patterns("build", "out", ".git"))
         (tree / "out").mkdir()
+        if shared.exists():
+            (tree.parent / "shared").symlink_to(shared)
         (tree / "bin").mkdir()
         for place in ("bin", "build/release"):
             (tree / place).mkdir(parents=True, exist_ok=True)
             (tree / place / "walktrack").symlink_to(walktrack)
         environment = os.environ | {"PATH": f"{tree / 'bin'}:{os.environ['PATH']}"}
         for name in DOCUMENTS:
-            for line, command in commands(source / name, quick):
+            for line, command in commands(source / name, quick, shared):
                 result = subprocess.run(["bash", "-c", command], cwd=tree, env=environment, capture_output=True, text=True, check=False)
                 if result.returncode in (0, 4):
                     passed += 1

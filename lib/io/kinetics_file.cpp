@@ -72,11 +72,13 @@ double half_width(const std::vector<std::vector<double>>& members, size_t k) {
   return kBandSd * std::sqrt(squares / static_cast<double>(count - 1));
 }
 
+double rate_of(const Kinetics& kinetics) {
+  const size_t n = kinetics.time.size();
+  return n > 1 ? static_cast<double>(n - 1) / (kinetics.time.back() - kinetics.time.front()) : 0;
+}
+
 std::string header(const Kinetics& kinetics, const Subject& subject, const KineticsConfig& config) {
   const KineticsTotals& t = kinetics.totals;
-  const size_t n = kinetics.time.size();
-  const double rate =
-      n > 1 ? static_cast<double>(n - 1) / (kinetics.time.back() - kinetics.time.front()) : 0;
   return fmt::format(
       "# Inverse dynamics of the motion. SI units as named; world axes of the calibration; {:.6g} "
       "Hz.\n"
@@ -89,18 +91,15 @@ std::string header(const Kinetics& kinetics, const Subject& subject, const Kinet
       "# Totals: distance {:.3f} m, positive work of hips, knees and ankles {:.1f} J, negative "
       "{:.1f} "
       "J,\n# cost of transport {:.3f}, peak vertical load of a foot {:.2f} body weights\n",
-      rate, subject.height, subject.mass, config.cutoff_hz,
+      rate_of(kinetics), subject.height, subject.mass, config.cutoff_hz,
       config.cutoff_hz > 0 ? 0.5 / config.cutoff_hz : 0, t.distance, t.positive_work,
       t.negative_work, t.cost_of_transport, t.peak_load);
 }
 
-}  // namespace
-
-std::string kinetics_csv(const Kinetics& kinetics, std::span<const Kinetics> members,
-                         const Subject& subject, const KineticsConfig& config,
-                         const WorldFrame& world) {
+std::string table(std::string text, const Kinetics& kinetics, std::span<const Kinetics> members,
+                  const WorldFrame& world) {
   const std::vector<std::string> names = column_names();
-  std::string text = header(kinetics, subject, config) + "t";
+  text += "t";
   for (const std::string& name : names) text += fmt::format(",{0},{0}_p05,{0}_p95", name);
   text += "\n";
   for (size_t i = 0; i < kinetics.frames.size(); ++i) {
@@ -119,6 +118,42 @@ std::string kinetics_csv(const Kinetics& kinetics, std::span<const Kinetics> mem
     text += "\n";
   }
   return text;
+}
+
+}  // namespace
+
+std::string kinetics_csv(const Kinetics& kinetics, std::span<const Kinetics> members,
+                         const Subject& subject, const KineticsConfig& config,
+                         const WorldFrame& world) {
+  return table(header(kinetics, subject, config), kinetics, members, world);
+}
+
+std::string simulated_kinetics_csv(const Kinetics& kinetics, const Subject& subject) {
+  const std::string comment = fmt::format(
+      "# Truth of a simulated walk. SI units as named; world axes; {:.6g} Hz. Forces are means "
+      "over "
+      "the\n# time of a row, impulses of strike and toe-off included. Moments of joints are not "
+      "stated.\n"
+      "# Subject: height {:.3f} m, mass {:.2f} kg\n",
+      rate_of(kinetics), subject.height, subject.mass);
+  return table(comment, kinetics, {}, {});
+}
+
+GroundForces read_ground_forces(const std::filesystem::path& path) {
+  std::vector<std::string> names{"t"};
+  for (const char* side : {"l", "r"})
+    for (const char* axis : {"x", "y", "z"})
+      names.push_back(fmt::format("{}_grf_{}_n", side, axis));
+  const auto columns = read_csv_columns(path, names);
+  GroundForces out;
+  out.time = columns[0];
+  for (size_t row = 0; row < out.time.size(); ++row) {
+    const auto vector = [&](size_t first) {
+      return Vector3d(columns[first][row], columns[first + 1][row], columns[first + 2][row]);
+    };
+    out.feet.push_back({vector(1), vector(4)});
+  }
+  return out;
 }
 
 }  // namespace walktrack

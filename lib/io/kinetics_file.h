@@ -12,10 +12,12 @@
 // Rows without a known body are empty but for t.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 
 #include "camera/world_frame.h"
+#include "kinetics/force_error.h"
 #include "kinetics/kinetics.h"
 
 namespace walktrack {
@@ -24,5 +26,11 @@ namespace walktrack {
 std::string kinetics_csv(const Kinetics& kinetics, std::span<const Kinetics> members,
                          const Subject& subject, const KineticsConfig& config,
                          const WorldFrame& world);
+
+// The same table for forces that are known, of a walk in calibration axes.
+std::string simulated_kinetics_csv(const Kinetics& kinetics, const Subject& subject);
+
+// The ground reactions of such a table; rows without them are NaN. InputError for another table.
+GroundForces read_ground_forces(const std::filesystem::path& path);
 
 }  // namespace walktrack

@@ -21,7 +21,6 @@ constexpr double kLongest = 24 * 3600;                         // s
 constexpr double kSlowestRate = 0.1, kFastestRate = 1000;      // Hz
 constexpr int kLargestPicture = 16'384, kSmallestPicture = 8;  // px
 constexpr double kWalkMargin = 0.25;                           // s
-constexpr double kDefaultDuration = 4;                         // s, of a walk
 constexpr double kLargestFocal = 1e6;                          // px
 
 // Reads `key` into `target` if it is there.
@@ -119,7 +118,7 @@ Thing read_occluder(const YamlValue& value) {
 }
 
 // What subject and others share.
-void read_looks(const YamlValue& value, Walker& walker) {
+void read_looks(const YamlValue& value, FilmedWalker& walker) {
   take(value, "height", 0.5, 2.5, walker.height);
   take(value, "mass", 5, 300, walker.mass);
   take(value, "clothes", 0, 1000, walker.clothes);
@@ -148,10 +147,28 @@ Motion read_walk(const YamlValue& value, double height, double duration) {
   return made_walk(make_body(subject, {.head = true, .arms = true}), walk);
 }
 
-Walker read_other(const YamlValue& value, const fs::path& folder, double duration) {
+GaitWalk read_gait(const YamlValue& value) {
+  value.only_keys({"speed", "step_length", "start", "heading_deg", "speed_at"});
+  GaitWalk walk;
+  take(value, "speed", 0.2, 3, walk.plan.speed);
+  take(value, "step_length", 0.1, 2, walk.plan.step_length);
+  if (value.has("start")) walk.start = Eigen::Vector2d(value.at("start").numbers(2).data());
+  take_degrees(value, "heading_deg", 360, walk.heading);
+  if (!value.has("speed_at")) return walk;
+  for (const YamlValue& item : value.at("speed_at").items()) {
+    const auto change = item.numbers(2);
+    const double earliest = walk.plan.changes.empty() ? 0 : walk.plan.changes.back().time;
+    if (change[0] < earliest || change[1] <= 0)
+      item.fail(item.describe_found(), "[time, speed], times ascending, speeds above 0");
+    walk.plan.changes.push_back({change[0], change[1]});
+  }
+  return walk;
+}
+
+FilmedWalker read_other(const YamlValue& value, const fs::path& folder, double duration) {
   value.only_keys(
       {"motion", "walk", "height", "mass", "clothes", "arms", "turn_deg", "delay", "shift"});
-  Walker walker;
+  FilmedWalker walker;
   walker.clothes = 1;
   read_looks(value, walker);
   walker.motion = value.has("walk") ? read_walk(value.at("walk"), walker.height, duration)
@@ -164,7 +181,7 @@ Walker read_other(const YamlValue& value, const fs::path& folder, double duratio
 RenderFile read_render_file(const fs::path& path) {
   const YamlValue file = YamlValue::from_file(path.string());
   file.only_keys({"seed", "frame_rate", "start", "duration", "setting", "light", "sensor",
-                  "background_frames", "images", "subject", "walk", "cameras", "occluders",
+                  "background_frames", "images", "subject", "walk", "gait", "cameras", "occluders",
                   "others", "slope_deg", "initial", "truth"});
   const fs::path folder = fs::absolute(path).parent_path();
   RenderFile out;
@@ -186,9 +203,14 @@ RenderFile read_render_file(const fs::path& path) {
         {"height", "mass", "clothes", "arms", "turn_deg", "delay", "shift"});
     read_looks(file.at("subject"), out.subject);
   }
-  const double duration = options.duration.value_or(kDefaultDuration);
+  const double duration = options.duration.value_or(kDefaultWalkDuration);
   if (file.has("walk")) {
     out.subject.motion = read_walk(file.at("walk"), out.subject.height, duration);
+    options.duration = duration;
+  }
+  if (file.has("gait")) {
+    if (file.has("walk")) file.at("gait").fail("both 'walk' and 'gait'", "one of them");
+    out.gait = read_gait(file.at("gait"));
     options.duration = duration;
   }
   if (file.has("cameras")) {

@@ -7,6 +7,9 @@
 //   sensor: {exposure: 1, noise: 0.01, flicker: 0, blur_samples: 1, shutter: 0.5, jpeg_quality: 0}
 //   walk: {speed: 1.25, step_length: 0.7, start: [0, 0], heading_deg: 0, turn_deg_s: 0, phase: 0,
 //          arm_swing: 1}         # where there is no MOTION.csv (synth/made_walk.h)
+//   gait: {speed: 1.3, step_length: 0.7, start: [0, 0], heading_deg: 0, speed_at: [[2, 1.6]]}
+//                                # or this: the kneed walker by the table of gaits, truth with
+//                                forces
 //   subject: {height: 1.75, mass: 70, clothes: 0, arms: true}
 //   cameras:
 //     - {name: side, azimuth_deg: -90, distance: 5, height: 1.2, size: [640, 480], focal_px: 600,
@@ -20,14 +23,26 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
+#include "gait/walk_plan.h"
 #include "synth/render_options.h"
 
 namespace walktrack {
 
+// A walk that obeys mechanics.
+struct GaitWalk {
+  WalkPlan plan;
+  Eigen::Vector2d start{0, 0};  // m, under the hips at time 0
+  double heading = 0;           // rad, from world x towards y
+};
+
+inline constexpr double kDefaultWalkDuration = 4;  // s, of a `walk` or `gait`
+
 struct RenderFile {
   RenderOptions options;
-  Walker subject;  // its motion is empty if there is no `walk`
+  FilmedWalker subject;  // its motion is empty if there is no `walk`
+  std::optional<GaitWalk> gait;
 };
 
 // Paths in it are relative to the file; motions of others are read. InputErrors name file, line and

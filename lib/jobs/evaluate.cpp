@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.h"
+#include "io/kinetics_file.h"
 #include "io/motion_file.h"
+#include "metrics/joint_error.h"
 
 namespace walktrack {
 
@@ -55,6 +57,24 @@ std::optional<JointUncertainty> uncertainty_of(const EvaluateJob& job, const fs:
   return read_uncertainty(beside);
 }
 
+std::optional<GroundForces> forces_beside(const fs::path& joints) {
+  const fs::path file = joints.parent_path() / "kinetics.csv";
+  if (!fs::exists(file)) return std::nullopt;
+  return read_ground_forces(file);
+}
+
+ErrorSeries series_of(const std::string& name, const Motion& truth, const Motion& estimate) {
+  constexpr double kMm = 1000;
+  JointErrors errors = joint_errors(truth, estimate);
+  ErrorSeries out{name, std::move(errors.time), std::move(errors.by_frame), {}};
+  for (double& error : out.error_mm) error *= kMm;
+  for (size_t j = 0; j < kJointCount; ++j) {
+    const ErrorStatistics& joint = errors.by_joint[j].absolute;
+    out.joint_mm[j] = joint.count > 0 ? kMm * joint.mean : std::nan("");
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string as_markdown(const std::string& truth_name, const std::vector<EvaluatedEstimate>& all) {
@@ -70,7 +90,7 @@ std::string as_markdown(const std::string& truth_name, const std::vector<Evaluat
   }
   out += "\n" + rule + "\n";
   for (const Figure& row : rows) {
-    if (empty_row(all, row.key)) continue;
+    if (row.detail || empty_row(all, row.key)) continue;
     out += fmt::format("| {:<{}} |", row.label, width);
     for (const EvaluatedEstimate& estimate : all) {
       const size_t column = std::max<size_t>(estimate.name.size(), 8);
@@ -100,9 +120,20 @@ std::string as_json(const std::string& truth_name, const std::vector<EvaluatedEs
   return out.dump(2) + "\n";
 }
 
+std::string as_svg(const std::string& truth_name, const std::vector<EvaluatedEstimate>& all) {
+  std::vector<ErrorSeries> series;
+  for (const EvaluatedEstimate& estimate : all) {
+    if (!estimate.series)
+      throw UsageError("the plot needs a truth of joints; " + truth_name + " has none");
+    series.push_back(*estimate.series);
+  }
+  return error_plot_svg("Errors against " + truth_name, series);
+}
+
 std::vector<EvaluatedEstimate> evaluate(const EvaluateJob& job) {
   if (job.uncertainty && job.estimates.size() != 1)
     throw UsageError("--uncertainty goes with one estimate; with several, name their folders");
+  const std::optional<GroundForces> true_forces = forces_beside(job.truth);
   std::vector<EvaluatedEstimate> out;
   for (const fs::path& given : job.estimates) {
     const fs::path file = fs::is_directory(given) ? given / "joints.csv" : given;
@@ -111,7 +142,14 @@ std::vector<EvaluatedEstimate> evaluate(const EvaluateJob& job) {
       throw InputError(describe({file.string(), 0, ""}, "fewer than two rows", "a motion"));
     const double rate = job.frame_rate.value_or(1 / sample_period(estimate));
     const Truth truth = read_truth(job.truth, rate);
-    out.push_back({given.string(), figures(truth, estimate, uncertainty_of(job, file))});
+    out.push_back({given.string(), figures(truth, estimate, uncertainty_of(job, file)), {}});
+    const std::optional<GroundForces> forces = forces_beside(file);
+    if (true_forces && forces) {
+      for (Figure& figure : force_figures(*true_forces, *forces))
+        out.back().figures.push_back(std::move(figure));
+    }
+    if (const Motion* joints = std::get_if<Motion>(&truth))
+      out.back().series = series_of(given.string(), *joints, estimate);
   }
   return out;
 }

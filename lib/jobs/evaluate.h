@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "body/motion.h"
+#include "io/error_plot.h"
+#include "kinetics/force_error.h"
 #include "metrics/coverage.h"
 #include "metrics/references.h"
 
@@ -30,25 +32,33 @@ struct Figure {
   std::string label;  // for people
   double value;       // NaN = there is none
   int decimals;
+  bool detail = false;  // not in the table for people
 };
 
 // Every figure that this truth can say about the estimate, in a fixed order of keys.
 std::vector<Figure> figures(const Truth& truth, const Motion& estimate,
                             const std::optional<JointUncertainty>& uncertainty);
 
+// Those of ground reactions (kinetics/force_error.h).
+std::vector<Figure> force_figures(const GroundForces& truth, const GroundForces& estimate);
+
 struct EvaluatedEstimate {
   std::string name;
   std::vector<Figure> figures;
+  std::optional<ErrorSeries> series;  // of a truth of joints
 };
 
 // Figures by rows, estimates by columns; keys that one of them lacks stay empty.
 std::string as_markdown(const std::string& truth_name, const std::vector<EvaluatedEstimate>& all);
 std::string as_json(const std::string& truth_name, const std::vector<EvaluatedEstimate>& all);
 
+// The errors as a picture (io/error_plot.h). UsageError for a truth without joints.
+std::string as_svg(const std::string& truth_name, const std::vector<EvaluatedEstimate>& all);
+
 struct EvaluateJob {
-  std::filesystem::path truth;
+  std::filesystem::path truth;  // a kinetics.csv beside it is the truth of forces
   // joints.csv files, or result folders of `track` that hold one; an uncertainty.csv beside it is
-  // used when the truth has joints.
+  // used when the truth has joints, a kinetics.csv when there is a truth of forces.
   std::vector<std::filesystem::path> estimates;
   std::optional<std::filesystem::path> uncertainty;  // instead, for a single estimate
   std::optional<double> frame_rate;  // Hz, of the truth's frames; otherwise the estimate's rate

@@ -5,6 +5,7 @@
 
 #include "core/conventions.h"
 #include "jobs/evaluate.h"
+#include "kinetics/kinetics.h"
 #include "metrics/angle_error.h"
 #include "metrics/gait.h"
 #include "metrics/joint_error.h"
@@ -22,6 +23,9 @@ class Figures {
  public:
   void add(std::string key, std::string label, double value, int decimals) {
     list_.push_back({std::move(key), std::move(label), value, decimals});
+  }
+  void add_detail_mm(const std::string& key, double metres) {
+    list_.push_back({key + "_mm", key + ", mm", kMm * metres, 1, true});
   }
   void add_mm(const std::string& key, const std::string& label, double metres) {
     add(key + "_mm", label + ", mm", kMm * metres, 1);
@@ -54,8 +58,11 @@ void add_joint_errors(const Motion& truth, const Motion& estimate, Figures& out)
   out.add_share("swapped", "frames with legs exchanged", any ? e.swapped_share : kNone);
   for (size_t j = 0; j < kJointCount; ++j) {
     const std::string name(kJointNames[j]);
-    const ErrorStatistics& joint = e.by_joint[j];
-    out.add_mm("error_" + name, "  " + name, joint.count > 0 ? joint.mean : kNone);
+    const JointErrors::OfJoint& joint = e.by_joint[j];
+    const auto mean = [](const ErrorStatistics& of) { return of.count > 0 ? of.mean : kNone; };
+    out.add_mm("error_" + name, "  " + name, mean(joint.absolute));
+    out.add_detail_mm("error_relative_" + name, mean(joint.pelvis_relative));
+    out.add_detail_mm("error_procrustes_" + name, mean(joint.procrustes));
   }
 }
 
@@ -85,6 +92,17 @@ void add_gait(const std::string& prefix, const std::string& of, const Gait& gait
 
 void add_gait_errors(const Gait& truth, const Gait& estimate, Figures& out) {
   add_gait("truth_", " of the truth", truth, out);
+  const auto add_error = [&](const char* key, const char* label, double found, double expected) {
+    out.add(key, label, found > 0 && expected > 0 ? found - expected : kNone, 3);
+  };
+  add_error("speed_error_m_s", "speed, error, m/s", estimate.speed, truth.speed);
+  add_error("step_length_error_m", "mean step, error, m", estimate.mean_step_length,
+            truth.mean_step_length);
+  add_error("step_time_error_s", "mean step time, error, s", estimate.mean_step_time,
+            truth.mean_step_time);
+  if (!truth.steps.empty() && !estimate.steps.empty())
+    out.add("step_width_error_m", "mean step width, error, m",
+            estimate.mean_step_width - truth.mean_step_width, 3);
   const EventErrors events = event_errors(truth.events, estimate.events);
   const bool any = events.matched > 0;
   out.add("event_error_ms", "gait events, mean |error|, ms",
@@ -160,6 +178,18 @@ std::vector<Figure> figures(const Truth& truth, const Motion& estimate,
   add_plausibility(estimate, gait, out);
   if (const Motion* joints = std::get_if<Motion>(&truth); joints && uncertainty)
     add_coverage(*joints, *uncertainty, out);
+  return out.take();
+}
+
+std::vector<Figure> force_figures(const GroundForces& truth, const GroundForces& estimate) {
+  const double cutoff = KineticsConfig{}.cutoff_hz;
+  const ForceErrors e = force_errors(truth, estimate, cutoff);
+  const std::string below = fmt::format(" below {:g} Hz, rms, N", cutoff);
+  Figures out;
+  out.add("force_vertical_rms_n", "vertical ground force" + below,
+          e.count > 0 ? e.vertical_rms : kNone, 0);
+  out.add("force_horizontal_rms_n", "horizontal ground force" + below,
+          e.count > 0 ? e.horizontal_rms : kNone, 0);
   return out.take();
 }
 

@@ -12,8 +12,10 @@
 #include "io/angles_file.h"
 #include "io/calibration.h"
 #include "io/files.h"
+#include "io/kinetics_file.h"
 #include "io/motion_file.h"
 #include "jobs/frame_writer.h"
+#include "jobs/gait_motion.h"
 #include "jobs/render_truth.h"
 #include "synth/sensor.h"
 #include "synth/stage.h"
@@ -38,6 +40,13 @@ struct Filming {
     return (static_cast<double>(frame) - camera.start_frame) / rate + camera.delay;
   }
 };
+
+Subject subject_of(const FilmedWalker& walker) {
+  Subject subject;
+  subject.height = walker.height;
+  subject.mass = walker.mass;
+  return subject;
+}
 
 size_t frames_in(double duration, double rate) {
   return static_cast<size_t>(std::floor(duration * rate + kRoundingShare)) + 1;
@@ -192,13 +201,36 @@ std::vector<Filming> film_crew(const RenderOptions& options, const Stage& stage,
   return out;
 }
 
+// Forces at the scene's times, with the walker where the stage has put it.
+std::string kinetics_truth(const RenderJob& job, WalkedGait walked, std::vector<double> times) {
+  const FilmedWalker& walker = job.walker;
+  const Subject subject = subject_of(walker);
+  walked.world_from_plane = Eigen::Translation3d(walker.shift.x(), walker.shift.y(), 0) *
+                            Eigen::AngleAxisd(walker.turn, Eigen::Vector3d::UnitZ()) *
+                            walked.world_from_plane;
+  const std::vector<double> of_scene = times;
+  for (double& time : times) time += job.options.start - walker.delay;
+  Kinetics truth = ground_kinetics(walked, times, 1 / job.options.frame_rate);
+  truth.time = of_scene;
+  return simulated_kinetics_csv(truth, subject);
+}
+
 }  // namespace
 
-size_t render_scene(const RenderJob& job, const JobControl& control) {
+size_t render_scene(const RenderJob& given, const JobControl& control) {
+  RenderJob job = given;
   const int threads = job.threads > 0 ? job.threads : hardware_threads();
   refuse_existing(job.output / "scene.yaml", job.overwrite);
   fs::create_directories(job.output);
   fs::remove(job.output / "scene.yaml");
+  fs::remove(job.output / "kinetics.csv");
+  std::optional<WalkedGait> walked;
+  if (job.gait) {
+    const double end = job.options.duration.value_or(kDefaultWalkDuration) + job.options.start;
+    walked = walked_gait(*job.gait, subject_of(job.walker), job.options.slope,
+                         std::max(0.0, end - job.walker.delay));
+    job.walker.motion = walked->motion;
+  }
   const Stage stage = make_stage(job.walker, job.options, calibrations(job.options));
   const std::vector<Filming> cameras = film_crew(job.options, stage, threads);
   const Actor& actor = stage.actors.front();
@@ -209,6 +241,8 @@ size_t render_scene(const RenderJob& job, const JobControl& control) {
   write_file_atomically(job.output / "angles.csv",
                         joint_angles_csv(angles, job.options.frame_rate));
   write_file_atomically(job.output / "events.csv", events_csv(actor.motion, stage.duration));
+  if (walked)
+    write_file_atomically(job.output / "kinetics.csv", kinetics_truth(job, *walked, times));
   size_t frames = 0;
   for (const Filming& filming : cameras) {
     film(job, stage, filming, threads, control);

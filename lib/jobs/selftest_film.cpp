@@ -147,7 +147,7 @@ TrialResult judged(const TrackOutcome& outcome, const Motion& truth, const fs::p
   if (!outcome.trouble.empty()) result.what += "; " + outcome.trouble;
   if (outcome.tracked == 0) return result;
   const auto errors = joint_errors(truth, read_motion(output / "joints.csv"));
-  const double error = errors.by_joint[static_cast<size_t>(Joint::kPelvis)].median;
+  const double error = errors.by_joint[static_cast<size_t>(Joint::kPelvis)].absolute.median;
   if (!std::isfinite(error)) return result;
   result.what += fmt::format("; pelvis {:.2f} m off", error);
   if (error > kTrackedWithin) result.end = TrialEnd::kDegraded;

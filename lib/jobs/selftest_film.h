@@ -19,7 +19,7 @@ namespace walktrack {
 using Frames = std::vector<cv::Mat>;
 
 struct Film {
-  Walker walker;                       // whom it shows
+  FilmedWalker walker;                 // whom it shows
   RenderOptions options;               // one camera; its size, rate and slope matter
   int enlarge = 1;                     // frames and focal length times this, after rendering
   std::function<void(Frames&)> spoil;  // what happens to the frames then

@@ -28,11 +28,9 @@ double mean_distance(const ScoredPoints& a, const ScoredPoints& b) {
   return (a - b).colwise().norm().mean();
 }
 
-double distance_after_similarity(const ScoredPoints& truth, const ScoredPoints& estimate) {
-  const Eigen::Matrix4d truth_from_estimate = Eigen::umeyama(estimate, truth, true);
-  const ScoredPoints moved = (truth_from_estimate.topLeftCorner<3, 3>() * estimate).colwise() +
-                             Vector3d(truth_from_estimate.topRightCorner<3, 1>());
-  return mean_distance(truth, moved);
+// The similarity that moves the estimate onto the truth best.
+Eigen::Affine3d similarity(const ScoredPoints& truth, const ScoredPoints& estimate) {
+  return Eigen::Affine3d(Eigen::umeyama(estimate, truth, true));
 }
 
 bool swapped(const JointPositions& truth, const JointPositions& estimate) {
@@ -48,12 +46,27 @@ bool swapped(const JointPositions& truth, const JointPositions& estimate) {
   return false;
 }
 
+// Distances of all frames so far.
+struct Distances {
+  std::vector<double> absolute, pelvis_relative, procrustes;
+};
+
 void add_each_joint(const JointPositions& truth, const JointPositions& estimate,
-                    std::array<std::vector<double>, kJointCount>& distances) {
+                    const Eigen::Affine3d& aligned, std::array<Distances, kJointCount>& distances) {
+  const Vector3d offset = estimate[Joint::kPelvis] - truth[Joint::kPelvis];
   for (size_t j = 0; j < kJointCount; ++j) {
     const Vector3d error = estimate.at[j] - truth.at[j];
-    if (known(error)) distances[j].push_back(error.norm());
+    if (!known(error)) continue;
+    distances[j].absolute.push_back(error.norm());
+    distances[j].pelvis_relative.push_back((error - offset).norm());
+    distances[j].procrustes.push_back((aligned * estimate.at[j] - truth.at[j]).norm());
   }
+}
+
+JointErrors::OfJoint statistics_of(Distances distances) {
+  return {error_statistics(std::move(distances.absolute)),
+          error_statistics(std::move(distances.pelvis_relative)),
+          error_statistics(std::move(distances.procrustes))};
 }
 
 // The horizontal direction in which the pelvis goes in the second about a row; nullopt where it
@@ -124,8 +137,8 @@ JointErrors joint_errors(const Motion& truth, const Motion& estimate) {
   const Motion found = at_times_of(truth, estimate);
   JointErrors out;
   size_t usable = 0, filled = 0, swaps = 0;
-  std::vector<double> absolute, relative, aligned;
-  std::array<std::vector<double>, kJointCount> distances;
+  Distances frames;
+  std::array<Distances, kJointCount> distances;
   SignedErrors errors;
   for (size_t i = 0; i < truth.time.size(); ++i) {
     if (!scored_joints_known(truth.joints[i])) continue;
@@ -134,13 +147,17 @@ JointErrors joint_errors(const Motion& truth, const Motion& estimate) {
     if (!is_filled && filled == 0) continue;
     if (filled == 0) out.start = truth.time[i];
     ++out.frames;
+    out.time.push_back(truth.time[i]);
+    out.by_frame.push_back(std::numeric_limits<double>::quiet_NaN());
     if (!is_filled) continue;
     ++filled;
     const ScoredPoints a = scored_points(truth.joints[i]), b = scored_points(found.joints[i]);
-    absolute.push_back(mean_distance(a, b));
-    relative.push_back(mean_distance(a.colwise() - a.col(0), b.colwise() - b.col(0)));
-    aligned.push_back(distance_after_similarity(a, b));
-    add_each_joint(truth.joints[i], found.joints[i], distances);
+    const Eigen::Affine3d aligned = similarity(a, b);
+    out.by_frame.back() = mean_distance(a, b);
+    frames.absolute.push_back(out.by_frame.back());
+    frames.pelvis_relative.push_back(mean_distance(a.colwise() - a.col(0), b.colwise() - b.col(0)));
+    frames.procrustes.push_back(mean_distance(a, aligned * b));
+    add_each_joint(truth.joints[i], found.joints[i], aligned, distances);
     errors.add(truth, i, found.joints[i]);
     if (swapped(truth.joints[i], found.joints[i])) ++swaps;
   }
@@ -150,11 +167,11 @@ JointErrors joint_errors(const Motion& truth, const Motion& estimate) {
     out.swapped_share = static_cast<double>(swaps) / static_cast<double>(filled);
   }
   errors.write_to(out);
-  out.absolute = error_statistics(std::move(absolute));
-  out.pelvis_relative = error_statistics(std::move(relative));
-  out.procrustes = error_statistics(std::move(aligned));
-  for (size_t j = 0; j < kJointCount; ++j)
-    out.by_joint[j] = error_statistics(std::move(distances[j]));
+  const JointErrors::OfJoint all = statistics_of(std::move(frames));
+  out.absolute = all.absolute;
+  out.pelvis_relative = all.pelvis_relative;
+  out.procrustes = all.procrustes;
+  for (size_t j = 0; j < kJointCount; ++j) out.by_joint[j] = statistics_of(std::move(distances[j]));
   return out;
 }
 

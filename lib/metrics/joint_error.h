@@ -8,6 +8,7 @@
 
 #include <array>
 #include <limits>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -31,7 +32,13 @@ struct JointErrors {
   // onto the true one; after the similarity (rotation, translation, scale) that fits the seven best
   // in each frame (Procrustes; Umeyama 1991).
   ErrorStatistics absolute, pelvis_relative, procrustes;
-  std::array<ErrorStatistics, kJointCount> by_joint;  // absolute; count 0 where never both known
+  // The same of each joint; count 0 where never both known.
+  struct OfJoint {
+    ErrorStatistics absolute, pelvis_relative, procrustes;
+  };
+  std::array<OfJoint, kJointCount> by_joint;
+  // The absolute error of each frame, NaN where it is not filled.
+  std::vector<double> time, by_frame;
   // Mean of estimated minus true pelvis: along the true way of walking, to its left, up. The way is
   // that of a second of the pelvis; NaN if nobody comes forward in it.
   Eigen::Vector3d mean_offset = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());

@@ -35,7 +35,7 @@ struct RenderCamera {
   double delay = 0;                  // s; it films that much late, and nothing says so
 };
 
-struct Walker {
+struct FilmedWalker {
   Motion motion;
   double height = 1.75;
   double mass = 70;
@@ -65,7 +65,7 @@ struct RenderOptions {
   int background_frames = 30;         // of the empty scene, a video of its own; 0 = none
   std::vector<RenderCamera> cameras;  // none = one at the side
   std::vector<Thing> occluders;       // that stand in the scene, also in the empty one
-  std::vector<Walker> others;         // further walkers
+  std::vector<FilmedWalker> others;   // further walkers
   double slope = 0;                   // gravity tilts by this angle along the first steps, > 0 down
   bool state_initial = false;         // scene.yaml tells where the walker is at time 0
   bool labels = false, flow = false, depth = false;  // write them for every frame

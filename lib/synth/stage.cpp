@@ -28,7 +28,7 @@ struct Path {
   double reach() const { return 0.5 * (high - low).norm(); }
 };
 
-Motion placed(const Walker& walker, double start) {
+Motion placed(const FilmedWalker& walker, double start) {
   Motion motion = walker.motion;
   const Eigen::AngleAxisd turn(walker.turn, Vector3d::UnitZ());
   const Vector3d shift(walker.shift.x(), walker.shift.y(), 0);
@@ -38,7 +38,7 @@ Motion placed(const Walker& walker, double start) {
   return motion;
 }
 
-Actor make_actor(const Walker& walker, double start) {
+Actor make_actor(const FilmedWalker& walker, double start) {
   Motion motion = placed(walker, start);
   Body body = body_from_motion(motion, walker.height);
   if (!walker.arms) body = make_body(body.subject, {.head = true, .arms = false});
@@ -104,11 +104,11 @@ double farthest_from(const Vector2d& centre, const std::vector<Camera>& cameras,
 
 }  // namespace
 
-Stage make_stage(const Walker& walker, const RenderOptions& options,
+Stage make_stage(const FilmedWalker& walker, const RenderOptions& options,
                  const std::vector<std::optional<Camera>>& calibrated) {
   Stage stage;
   stage.actors.push_back(make_actor(walker, options.start));
-  for (const Walker& other_walker : options.others)
+  for (const FilmedWalker& other_walker : options.others)
     stage.actors.push_back(make_actor(other_walker, options.start));
   const Motion& motion = stage.actors.front().motion;
   stage.duration = options.duration.value_or(motion.time.back());

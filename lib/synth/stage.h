@@ -29,7 +29,7 @@ struct Stage {
 
 // Takes cameras with a calibration as `calibrated` gives them (in the order of options.cameras).
 // Throws InputError when the motion has no row with both legs between start and end.
-Stage make_stage(const Walker& walker, const RenderOptions& options,
+Stage make_stage(const FilmedWalker& walker, const RenderOptions& options,
                  const std::vector<std::optional<Camera>>& calibrated);
 
 // The parts of all actors that are there at a time, in their order: an actor whose joints are

@@ -3,11 +3,13 @@
 #include <cmath>
 #include <filesystem>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/errors.h"
 #include "io/files.h"
+#include "io/kinetics_file.h"
 #include "io/motion_file.h"
 #include "tests/metrics/test_walk.h"
 
@@ -85,6 +87,71 @@ TEST_F(Evaluate, UsesTheUncertaintyBesideAnEstimate) {
   EXPECT_THROW(evaluate(job), UsageError);
 }
 
+TEST_F(Evaluate, GaitParametersHaveErrors) {
+  TestWalk longer;
+  longer.speed *= 1.1;
+  EvaluateJob job;
+  job.truth = write("truth.csv", motion_csv(walk_motion({})));
+  job.estimates = {write("estimate.csv", motion_csv(walk_motion(longer)))};
+  const auto result = evaluate(job);
+  EXPECT_NEAR(figure(result[0], "step_length_error_m"), 0.1 * 1.2 * 0.55, 0.005);
+  for (const char* key : {"speed", "step_length", "step_width"}) {
+    const std::string unit = std::string(key) == "speed" ? "_m_s" : "_m";
+    EXPECT_NEAR(figure(result[0], std::string(key) + "_error" + unit),
+                figure(result[0], key + unit) - figure(result[0], "truth_" + (key + unit)), 1e-12);
+  }
+  EXPECT_NEAR(figure(result[0], "step_time_error_s"), 0, 0.01);
+}
+
+// A kinetics.csv beside the truth and one beside the estimate.
+TEST_F(Evaluate, ComparesGroundForcesWhereBothAreThere) {
+  const Motion walk = walk_motion({});
+  const auto forces = [&](double extra) {
+    Kinetics of;
+    for (const double time : walk.time) {
+      KineticsFrame frame;
+      frame.known = true;
+      frame.com.setZero();
+      frame.feet[0].force = {extra, 0, 700 + 2 * extra};
+      of.time.push_back(time);
+      of.frames.push_back(frame);
+    }
+    return simulated_kinetics_csv(of, Subject{});
+  };
+  EvaluateJob job;
+  job.truth = write("scene/truth.csv", motion_csv(walk));
+  job.estimates = {folder_ / "out"};
+  write("out/joints.csv", motion_csv(walk));
+  write("out/kinetics.csv", forces(15));
+  const auto keys = [](const EvaluatedEstimate& estimate) {
+    std::vector<std::string> out;
+    for (const Figure& one : estimate.figures) out.push_back(one.key);
+    return out;
+  };
+  EXPECT_THAT(keys(evaluate(job)[0]), testing::Not(testing::Contains("force_vertical_rms_n")));
+  write("scene/kinetics.csv", forces(0));
+  const auto result = evaluate(job);
+  EXPECT_NEAR(figure(result[0], "force_vertical_rms_n"), 30, 1e-3);
+  EXPECT_NEAR(figure(result[0], "force_horizontal_rms_n"), 15, 1e-3);
+}
+
+TEST_F(Evaluate, ThePlotShowsEveryEstimateAndNeedsJoints) {
+  const Motion truth = walk_motion({});
+  EvaluateJob job;
+  job.truth = write("truth.csv", motion_csv(truth));
+  job.estimates = {write("good.csv", motion_csv(truth)),
+                   write("bad.csv", motion_csv(moved_by(truth, {0.03, 0.04, 0})))};
+  const auto results = evaluate(job);
+  ASSERT_TRUE(results[1].series);
+  EXPECT_NEAR(results[1].series->error_mm.back(), 50, 1e-2);
+  EXPECT_NEAR(results[1].series->joint_mm[static_cast<size_t>(Joint::kLeftKnee)], 50, 1e-2);
+  const std::string svg = as_svg("truth.csv", results);
+  EXPECT_THAT(svg, testing::HasSubstr("good.csv"));
+  EXPECT_THAT(svg, testing::HasSubstr("bad.csv"));
+  job.truth = write("ground.csv", "t,x,y\n0.5,0.6,0.3\n1.0,1.2,0.3\n");
+  EXPECT_THROW(as_svg("ground.csv", evaluate(job)), UsageError);
+}
+
 TEST_F(Evaluate, FootPlantsAndGroundPointsAreRecognisedByTheirHeaders) {
   const TestWalk walk;
   EvaluateJob job;
@@ -117,13 +184,16 @@ TEST_F(Evaluate, SaysWhatItFoundInAFileThatIsNoTruth) {
 }
 
 TEST(EvaluateOutput, MarkdownAndJsonHoldTheSameFigures) {
-  const std::vector<EvaluatedEstimate> all{{"a", {{"x_mm", "x, mm", 1.25, 1}}},
-                                           {"b", {{"y_s", "y, s", std::nan(""), 2}}}};
+  const std::vector<EvaluatedEstimate> all{
+      {"a", {{"x_mm", "x, mm", 1.25, 1}, {"z_mm", "z, mm", 7, 1, true}}, {}},
+      {"b", {{"y_s", "y, s", std::nan(""), 2}}, {}}};
   const std::string table = as_markdown("truth.csv", all);
   EXPECT_NE(table.find("| x, mm     |      1.2 |        - |"), std::string::npos) << table;
-  EXPECT_EQ(table.find("y, s"), std::string::npos);  // nobody has it
+  EXPECT_EQ(table.find("y, s"), std::string::npos);   // nobody has it
+  EXPECT_EQ(table.find("z, mm"), std::string::npos);  // a detail
   const auto json = nlohmann::json::parse(as_json("truth.csv", all));
   EXPECT_EQ(json["estimates"][0]["x_mm"], 1.25);
+  EXPECT_EQ(json["estimates"][0]["z_mm"], 7);
   EXPECT_TRUE(json["estimates"][1]["y_s"].is_null());
 }
 

@@ -9,7 +9,7 @@
 namespace walktrack {
 namespace {
 
-Recording walked(const PriorWalk& walk, double seconds, double slope = 0) {
+Recording walked(const WalkPlan& walk, double seconds, double slope = 0) {
   SimulateJob job;
   job.model = default_model("kneed");
   job.model.kneed.slope = slope;
@@ -54,15 +54,6 @@ TEST(PriorWalk, ChangesSpeedOnTheWayWithoutFalling) {
   EXPECT_NEAR(*std::max_element(all.begin(), all.end()), 1.7, 0.12);
   EXPECT_NEAR(all.back(), 1.0, 0.08);
   EXPECT_EQ(recording.changes.size(), static_cast<size_t>(recording.steps));
-}
-
-TEST(PriorWalk, SpeedRampsAndHolds) {
-  const PriorWalk walk{.speed = 1, .changes = {{2, 1.6}, {3, 0.7}}, .acceleration = 0.3};
-  EXPECT_EQ(wanted_speed(walk, 0), 1);
-  EXPECT_EQ(wanted_speed(walk, 2), 1);
-  EXPECT_NEAR(wanted_speed(walk, 3), 1.3, 1e-15);  // on its way when the next change comes
-  EXPECT_NEAR(wanted_speed(walk, 4), 1.0, 1e-15);
-  EXPECT_NEAR(wanted_speed(walk, 9), 0.7, 1e-15);
 }
 
 TEST(PriorWalk, IsForTheKneedWalkerAlone) {

@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "body/kinematics.h"
+#include "core/conventions.h"
 #include "core/errors.h"
 #include "io/csv.h"
 #include "io/files.h"
@@ -178,6 +179,57 @@ TEST_F(Render, AWalkerWhoIsNotThereAllTheTimeIsUnknownThen) {
   const Motion truth = read_motion(job_.output / "truth.csv");
   EXPECT_FALSE(known(truth.joints[5][Joint::kPelvis]));
   EXPECT_TRUE(known(truth.joints[6][Joint::kPelvis]));
+}
+
+TEST_F(Render, AGaitComesWithItsForcesInTheScenesPlaceAndTime) {
+  job_.gait = GaitWalk{.plan = {.speed = 1.2, .changes = {}}};
+  job_.walker.motion = {};
+  job_.walker.turn = 0.5 * kPi;
+  job_.walker.shift = {3, 1};
+  job_.options.duration = 0.5;
+  job_.overwrite = true;
+  render_scene(job_, {});
+  const Motion truth = read_motion(job_.output / "truth.csv");
+  EXPECT_LT((truth.joints[0][Joint::kPelvis].head<2>() - Eigen::Vector2d(3, 1)).norm(), 1e-4);
+  const CsvTable table = read_csv(job_.output / "kinetics.csv");
+  ASSERT_EQ(table.rows.size(), truth.time.size());
+  for (size_t i = 0; i < truth.time.size(); ++i) {
+    const auto cell = [&](const char* name) {
+      return table.number(table.rows[i], table.column(name));
+    };
+    EXPECT_NEAR(cell("t"), truth.time[i], 1e-6);
+    // The centre of mass is above the hips, within a stooping trunk's reach.
+    EXPECT_NEAR(cell("com_x_m"), truth.joints[i][Joint::kPelvis].x(), 1e-4);
+    EXPECT_NEAR(cell("com_y_m"), truth.joints[i][Joint::kPelvis].y(), 0.15);
+    EXPECT_NEAR(cell("l_grf_x_n"), 0, 1e-6);  // the walk goes along y now
+  }
+  // Another motion in its place takes the forces away.
+  job_.gait.reset();
+  job_.walker.motion = gliding_motion();
+  render_scene(job_, {});
+  EXPECT_FALSE(fs::exists(job_.output / "kinetics.csv"));
+}
+
+TEST_F(Render, ReadsGaitsAndRefusesWhatTheyAreNot) {
+  fs::create_directories(folder_);
+  const fs::path file = folder_ / "options.yaml";
+  write_file_atomically(file,
+                        "gait: {speed: 1.1, step_length: 0.6, start: [1, 2], heading_deg: 90, "
+                        "speed_at: [[1, 1.4], [3, 0.9]]}\n");
+  const RenderFile read = read_render_file(file);
+  ASSERT_TRUE(read.gait);
+  EXPECT_EQ(read.gait->plan.speed, 1.1);
+  EXPECT_EQ(read.gait->plan.step_length, 0.6);
+  EXPECT_EQ(read.gait->start.y(), 2);
+  EXPECT_NEAR(read.gait->heading, 0.5 * kPi, 1e-12);
+  ASSERT_EQ(read.gait->plan.changes.size(), 2u);
+  EXPECT_EQ(read.gait->plan.changes[1].speed, 0.9);
+  for (const char* text :
+       {"gait: {pace: 1}\n", "gait: {speed: 1}\nwalk: {speed: 1}\n",
+        "gait: {speed_at: [[3, 1], [1, 1]]}\n", "gait: {speed_at: [[1, 0]]}\n"}) {
+    write_file_atomically(file, text);
+    EXPECT_THROW(read_render_file(file), InputError) << text;
+  }
 }
 
 TEST_F(Render, ReadsEveryOptionAndRefusesUnknownOnes) {

@@ -1,5 +1,7 @@
 #include "metrics/joint_error.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
@@ -18,7 +20,7 @@ TEST(JointErrors, VanishForThePerfectEstimate) {
   EXPECT_EQ(e.filled_share, 1);
   EXPECT_EQ(e.swapped_share, 0);
   EXPECT_EQ(e.frames, truth.time.size());
-  EXPECT_EQ(e.by_joint[static_cast<size_t>(Joint::kLeftWrist)].count, 0u);
+  EXPECT_EQ(e.by_joint[static_cast<size_t>(Joint::kLeftWrist)].absolute.count, 0u);
 }
 
 TEST(JointErrors, EachKindForgivesItsTransform) {
@@ -76,8 +78,35 @@ TEST(JointErrors, OneWrongJointCountsASeventh) {
   });
   const JointErrors e = joint_errors(truth, bad);
   EXPECT_NEAR(e.absolute.mean, 0.01, 1e-12);
-  EXPECT_NEAR(e.by_joint[static_cast<size_t>(Joint::kRightKnee)].mean, 0.07, 1e-12);
-  EXPECT_NEAR(e.by_joint[static_cast<size_t>(Joint::kNeck)].mean, 1, 1e-12);
+  EXPECT_NEAR(e.by_joint[static_cast<size_t>(Joint::kRightKnee)].absolute.mean, 0.07, 1e-12);
+  EXPECT_NEAR(e.by_joint[static_cast<size_t>(Joint::kNeck)].absolute.mean, 1, 1e-12);
+}
+
+TEST(JointErrors, OfEachJointForgiveTheSameTransforms) {
+  const Motion truth = walk_motion({});
+  const Motion moved = changed(truth, [](JointPositions& joints, size_t) {
+    for (Vector3d& p : joints.at) p = 1.1 * (p + Vector3d(0.03, 0, 0.04));
+  });
+  const JointErrors errors = joint_errors(truth, moved);
+  const auto& toe = errors.by_joint[static_cast<size_t>(Joint::kLeftToe)];
+  EXPECT_GT(toe.absolute.mean, 0.05);
+  EXPECT_GT(toe.pelvis_relative.mean, 0.08);  // 10 % of some 0.9 m
+  EXPECT_NEAR(toe.procrustes.mean, 0, 1e-12);
+}
+
+TEST(JointErrors, OverTimeAreTheFramesErrorsWithHoles) {
+  const Motion truth = walk_motion({});
+  const Motion bad = changed(truth, [](JointPositions& joints, size_t i) {
+    if (i < 3 || i == 10) joints = unknown_joints();
+    for (Vector3d& p : joints.at) p.x() += i == 20 ? 0.05 : 0.01;
+  });
+  const JointErrors e = joint_errors(truth, bad);
+  ASSERT_EQ(e.by_frame.size(), truth.time.size() - 3);
+  ASSERT_EQ(e.time.size(), e.by_frame.size());
+  EXPECT_EQ(e.time.front(), truth.time[3]);
+  EXPECT_TRUE(std::isnan(e.by_frame[7]));
+  EXPECT_NEAR(e.by_frame[17], 0.05, 1e-12);
+  EXPECT_NEAR(e.by_frame[18], 0.01, 1e-12);
 }
 
 TEST(JointErrors, ExchangedLegsAreSwappedWhereTheFeetAreApart) {

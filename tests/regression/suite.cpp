@@ -84,7 +84,6 @@ FigureValues values_of(const SuiteResult& result) {
   FigureValues out;
   for (const Figure& figure : figures(result.truth, result.estimate, result.uncertainty))
     out[figure.key] = figure.value;
-  out["speed_error_m_s"] = out.at("speed_m_s") - out.at("truth_speed_m_s");
   out["log_evidence"] = result.log_evidence;
   return out;
 }

@@ -1,0 +1,62 @@
+#include "io/error_plot.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace walktrack {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+ErrorSeries series(const std::string& name, std::vector<double> errors) {
+  ErrorSeries out{name, {}, std::move(errors), {}};
+  for (size_t i = 0; i < out.error_mm.size(); ++i) out.time.push_back(0.5 * static_cast<double>(i));
+  out.joint_mm.fill(std::nan(""));
+  out.joint_mm[static_cast<size_t>(Joint::kLeftKnee)] = 25;
+  return out;
+}
+
+size_t count(const std::string& text, const std::string& part) {
+  size_t n = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+TEST(ErrorPlot, HasACurveABarAndANameForEachEstimate) {
+  const std::string svg =
+      error_plot_svg("truth", {series("first", {10, 20, 30}), series("a < b & c", {5, 5, 5})});
+  EXPECT_EQ(count(svg, "<path"), 2u);
+  EXPECT_THAT(svg, HasSubstr(">first<"));
+  EXPECT_THAT(svg, HasSubstr("a &lt; b &amp; c"));
+  EXPECT_THAT(svg, HasSubstr(">lknee<"));
+  EXPECT_THAT(svg, Not(HasSubstr(">head<")));     // nobody knows it
+  EXPECT_EQ(count(svg, "fill=\"#0072b2\""), 2u);  // in the legend and as a bar
+  EXPECT_EQ(count(svg, "http"), 1u);              // the name space; nothing is fetched
+}
+
+// The panel is 220 px high from 102 px on: 30 mm are three of its four ticks of 10 mm... of a
+// highest of 40; time runs from 60 to 880 px.
+TEST(ErrorPlot, DrawsErrorsToScaleFromZeroUp) {
+  const std::string svg = error_plot_svg("truth", {series("first", {0, 40, 20})});
+  EXPECT_THAT(svg, HasSubstr("d=\"M60.0 302.0L470.0 82.0L880.0 192.0\""));
+}
+
+TEST(ErrorPlot, BreaksTheCurveWhereNobodyWasFound) {
+  const std::string svg = error_plot_svg("truth", {series("first", {10, std::nan(""), 20, 20})});
+  const size_t path = svg.find("<path");
+  EXPECT_EQ(count(svg.substr(path, svg.find("/>", path) - path), "M"), 2u);
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+}
+
+TEST(ErrorPlot, NothingKnownIsAnEmptyPicture) {
+  const std::string svg = error_plot_svg("truth", {series("first", {})});
+  EXPECT_THAT(svg, HasSubstr("</svg>"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg, Not(HasSubstr("inf")));
+}
+
+}  // namespace
+}  // namespace walktrack
