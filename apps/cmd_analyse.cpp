@@ -18,7 +18,7 @@ int run_analyse(const Arguments& arguments) {
                     .about = "Gait events and parameters, joint angles, ground reactions and joint "
                              "moments of a motion\n(joints.csv, or a folder that holds one; z up, "
                              "ground at z = 0), in the folder --output.\n'track' writes the same "
-                             "tables, with bands.",
+                             "tables and page, with bands.",
                     .example = "walktrack analyse data/demo/truth.csv -o out/analysis"});
   auto add = line.options().add_options();
   add("height", po::value(&height)->value_name("M"),
@@ -39,8 +39,8 @@ int run_analyse(const Arguments& arguments) {
   const AnalyseOutcome outcome = analyse(job);
   Terminal(line.common())
       .control()
-      .say(fmt::format("{} steps at {:.2f} m/s; open {}/gait.json", outcome.steps, outcome.speed,
-                       line.required_output()));
+      .say(fmt::format("{} steps at {:.2f} m/s; open {}", outcome.steps, outcome.speed,
+                       outcome.look_at.string()));
   return kDone;
 }
 

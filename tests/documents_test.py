@@ -5,7 +5,7 @@
 
 Commands stand in fenced blocks of the kind `sh`; those of the kind `sh slow` are left out with --quick, and those
 that read ../shared where that is absent, which is said. Each has to end with 0, or with 4 (tracked, below a gate).
-Links between documents must lead somewhere.
+A backslash joins lines. Links between documents must lead somewhere.
 """
 import os
 import pathlib
@@ -33,7 +33,7 @@ def commands(document, quick, shared):
         if "../shared" in content and not shared.exists():
             print(f"{document.name}:{line}: skipped: {shared} is absent")
             continue
-        for number, command in enumerate(content.splitlines(), line):
+        for number, command in enumerate(content.replace("\\\n", "").splitlines(), line):
             if command.strip() and not command.startswith(("#",) + RUN_BY_OTHERS):
                 yield number, command
 

@@ -4,10 +4,10 @@ const axis = (label, size) => ({label, labelSize: 16, labelGap: 2, gap: 4, label
 
 const faded = (hex, alpha) => hex + Math.round(alpha * 255).toString(16).padStart(2, '0');
 
-function chart(parent, caption, description, height, options, values) {
+function chart(parent, caption, description, height, options, values, remark = '') {
   const holder = element('div', {className: 'chart', role: 'img'});
   holder.setAttribute('aria-label', description);
-  parent.append(element('figure', {}, element('figcaption', {}, element('b', {}, caption)), holder));
+  parent.append(element('figure', {}, element('figcaption', {}, element('b', {}, caption), element('small', {}, remark)), holder));
   const plot = new uPlot({width: Math.max(200, holder.clientWidth), height, legend: {show: false},
     cursor: {show: false}, padding: [8, 18, 0, 0], ...options}, values, holder);
   const fit = () => plot.setSize({width: Math.max(200, holder.clientWidth), height});
@@ -22,6 +22,9 @@ const normal = (() => {
   return {percent: rows.map((r) => +r[0]), column: (name) => rows.map((r) => +r[head.indexOf(name)]),
     source: data.normal_csv.split('\n').filter((l) => l[0] === '#').map((l) => l.slice(2)).join(' ')};
 })();
+
+// Whom the range is of, as its source says: no adults.
+const normalAges = 'healthy 4- to 17-year-olds';
 
 // The published range at every per cent of the cycle.
 function normalAt(name) {
@@ -76,7 +79,7 @@ function cycleChart(parent, cycles, name, [caption, label, comparable]) {
   };
   chart(parent, caption, `${caption} over the gait cycle, left and right`, 230,
     {series, bands, scales: {x: {time: false, range: [0, 100]}}, hooks: {draw: [marks]},
-      axes: [axis('% of the gait cycle', 24), axis(label, 40)]}, values);
+      axes: [axis('% of the gait cycle', 24), axis(label, 40)]}, values, comparable ? `grey: ${normalAges}` : '');
 }
 
 function cycleKey(strides, extra) {
@@ -90,10 +93,10 @@ function startCycles() {
     byId('cycle-charts').append(element('p', {}, 'No whole stride, from one strike of a foot to its next, was tracked without a gap.'));
     return;
   }
-  byId('cycle-charts').before(cycleKey(strides, [element('i', {className: 'normal'}), 'normal range (mean ± 1 SD)']));
+  byId('cycle-charts').before(cycleKey(strides, [element('i', {className: 'normal'}), `${normalAges} (mean ± 1 SD)`]));
   for (const [name, what] of Object.entries(angles)) cycleChart(byId('cycle-charts'), data.angles, name, what);
-  byId('motion-range').append(table(['mean curve, °', 'least', 'greatest', 'range', 'greatest at %', 'at strike', 'normal mean'], rangeRows()));
-  byId('normal-note').textContent = 'Bold: mean of the strides; thin: each stride; coloured band: 5–95 % of the filter’s particles; dashes: toe-off. ' +
+  byId('motion-range').append(table(['mean curve, °', 'least', 'greatest', 'range', 'greatest at %', 'at strike', `mean of ${normalAges}`], rangeRows()));
+  byId('normal-note').textContent = `Bold: mean of the strides; thin: each stride; ${analysed ? '' : 'coloured band: 5–95 % of the filter’s particles; '}dashes: toe-off. ` +
     `${normal.source} The definitions differ (see the limits below): compare shape and range before level.`;
 }
 
@@ -135,22 +138,22 @@ function timeChart(caption, description, values, label, more = {}) {
     u.ctx.fillStyle = '#00000012';
     data.joints.mean_mm.forEach((row, i) => {
       if (row) return;
-      const from = u.valToPos((i - 0.5) / data.rate, 'x', true), to = u.valToPos((i + 0.5) / data.rate, 'x', true);
+      const from = u.valToPos(times[i] - 0.5 / data.rate, 'x', true), to = u.valToPos(times[i] + 0.5 / data.rate, 'x', true);
       u.ctx.fillRect(from, u.bbox.top, to - from, u.bbox.height);
     });
   };
   const now = (u) => {
-    const x = u.valToPos(clock.frame / data.rate, 'x', true);
+    const x = u.valToPos(times[clock.frame] ?? 0, 'x', true);
     u.ctx.strokeStyle = '#0b5a8a'; u.ctx.lineWidth = 1;
     u.ctx.beginPath(); u.ctx.moveTo(x, u.bbox.top); u.ctx.lineTo(x, u.bbox.top + u.bbox.height); u.ctx.stroke();
   };
   const plot = chart(byId('time-charts'), caption, description, 130,
     {series: [{}, ...values.map(([, stroke, width = 1.5]) => ({stroke, width, points: {show: false}}))],
-      scales: {x: {time: false, range: [0, Math.max(times[lastFrame] || 0, 0.1)]}, ...more.scales},
+      scales: {x: {time: false, range: [times[0] ?? 0, Math.max(times[lastFrame] ?? 0, (times[0] ?? 0) + 0.1)]}, ...more.scales},
       hooks: {draw: [lost, now, ...(more.draw ?? [])]}, axes: [axis('s', 24), axis(label, 44)]},
     [times, ...values.map(([v]) => v)]);
   clock.listeners.push(() => plot.redraw(false));
-  plot.over.addEventListener('click', (event) => clock.show(plot.posToVal(event.offsetX, 'x') * data.rate));
+  plot.over.addEventListener('click', (event) => clock.show(frameAt(plot.posToVal(event.offsetX, 'x'))));
 }
 
 // Bars of the feet on the ground.
@@ -167,6 +170,7 @@ function startTimes() {
   const none = times.map(() => null);
   timeChart('Feet on the ground', 'When each foot stood, left above right', [[none, colours.trunk]], 'right  left',
     {scales: {y: {range: [0.1, 1.7]}}, draw: [contacts]});
+  if (analysed) return;
   timeChart('Speed over the ground', 'Speed over time', [[series.speed, colours.trunk]], 'm/s');
   timeChart('Left foot carries the body: probability', 'Probability of left stance', [[series.left_stance, colours.left]], '', {scales: {y: {range: [-0.05, 1.05]}}});
   timeChart(`Effective number of particles (of ${run.config.filter.particles})`, 'Effective sample size over time',

@@ -42,14 +42,17 @@ function leaves(value, path = '') {
 
 const frames = data.joints.mean_mm.length;
 const lastFrame = Math.max(0, frames - 1);
-const times = Array.from({length: frames}, (_, i) => i / data.rate);
+const times = data.times;
+const frameAt = (time) => (time - (times[0] ?? 0)) * data.rate;
+// Of a motion that came from elsewhere there is no film, no filter and no gate.
+const analysed = run.command === 'analyse';
 const jointIndex = Object.fromEntries(data.joints.names.map((name, i) => [name, i]));
 
 // Metres, or null where nobody was tracked or the body has no such joint.
 function joint(frame, name, which = 'mean_mm') {
   const row = data.joints[which][frame];
   const at = 3 * jointIndex[name];
-  return row && at + 2 < row.length ? [row[at] / 1000, row[at + 1] / 1000, row[at + 2] / 1000] : null;
+  return row && at + 2 < row.length && row[at] !== null ? [row[at] / 1000, row[at + 1] / 1000, row[at + 2] / 1000] : null;
 }
 
 // The one frame that film, figure and charts show. Listeners are told of changes.

@@ -1,3 +1,4 @@
+if (analysed) byId('scene-note').textContent = 'In space: the figure, footprints where a foot stands (filled while it does), a ground grid of 1 m. Keys: space plays, arrow keys step.';
 verdict();
 keyFigures();
 gaitTables();

@@ -68,7 +68,7 @@ function startPlayer() {
         clips[0].dataset.name + '.mp4.';
     };
   } else {
-    film.append(element('div', {className: 'message'}, 'This run wrote no overlay film.'));
+    film.append(element('div', {className: 'message'}, analysed ? 'A motion, not a film, was analysed.' : 'This run wrote no overlay film.'));
   }
 
   const scrubber = byId('scrubber');
@@ -89,8 +89,8 @@ function startPlayer() {
   });
   clock.listeners.push((frame, source) => {
     scrubber.value = frame;
-    const tracked = data.joints.mean_mm[frame] ? '' : '  not tracked';
-    byId('now').textContent = `frame ${frame}  ${fixed(frame / data.rate, 2)} s${tracked}`;
+    const tracked = data.joints.mean_mm[frame] ? '' : analysed ? '  empty' : '  not tracked';
+    byId('now').textContent = `frame ${frame}  ${fixed(times[frame] ?? 0, 2)} s${tracked}`;
     if (source !== 'play') seek(frame);
   });
   return clips.length ? drawStrip(clips[0]) : Promise.resolve();
@@ -112,7 +112,14 @@ async function drawStrip(clip) {
       await sought;
       const width = 320, height = Math.round(width * video.videoHeight / video.videoWidth);
       const canvas = element('canvas', {width, height});
-      canvas.getContext('2d').drawImage(video, 0, 0, width, height);
+      const context = canvas.getContext('2d');
+      // A browser may say that it has sought before it has the picture: nothing is drawn then.
+      const drawn = () => context.getImageData(0, 0, 1, 1).data[3] > 0;
+      for (let tries = 0; tries < 40; ++tries) {
+        context.drawImage(video, 0, 0, width, height);
+        if (drawn()) break;
+        await new Promise((done) => setTimeout(done, 50));
+      }
       const button = element('button', {type: 'button'}, canvas, `${fixed(frame / data.rate, 2)} s`);
       button.setAttribute('aria-label', `Show frame ${frame}`);
       button.onclick = () => clock.show(frame);

@@ -87,7 +87,7 @@ function startSpace() {
   function drawContacts() {
     const round = new OGL.Cylinder(gl, {radiusTop: 1, radiusBottom: 1, height: 0.004, radialSegments: 24});
     return data.contacts.map((contact) => {
-      const frame = Math.min(lastFrame, Math.max(0, Math.round((contact.on + contact.off) / 2 * data.rate)));
+      const frame = Math.min(lastFrame, Math.max(0, Math.round(frameAt((contact.on + contact.off) / 2))));
       const side = contact.side[0], ankle = joint(frame, side + 'ankle'), toe = joint(frame, side + 'toe');
       const mesh = add(round, material(colours[contact.side], 0.35, 0));
       mesh.position.set(...up([contact.x, contact.y, 0.004]));
@@ -147,7 +147,7 @@ function startSpace() {
       mesh.scale.set(name === 'head' ? 0.11 : 0.04);
     }
     for (const {name, mesh} of clouds) placeCloud(name, mesh, frame);
-    const t = frame / data.rate;
+    const t = times[frame] ?? 0;
     for (const contact of contacts)
       contact.mesh.program.uniforms.opacity.value = t >= contact.on && t <= contact.off ? 0.9 : 0.3;
     const pelvis = joint(frame, 'pelvis');

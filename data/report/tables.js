@@ -9,10 +9,11 @@ function banded(band, digits, factor = 1) {
 }
 
 function verdict() {
-  const good = run.status === 'tracked';
+  const good = run.status === 'tracked' || analysed;
   const words = {'tracked': 'Tracked; every quality gate passed', 'not found': 'Nobody was found walking',
     'below gates': 'Tracked, but below a quality gate', 'interrupted': 'Interrupted; what was done is shown',
-    'cut short': 'Cut short by a broken video; what came before is shown'}[run.status] ?? run.status;
+    'cut short': 'Cut short by a broken video; what came before is shown',
+    'analysed': 'Analysed: gait, angles and forces of a motion that was there already'}[run.status] ?? run.status;
   byId('title').textContent = data.title;
   byId('verdict').className = 'verdict ' + (good ? 'good' : 'bad');
   byId('verdict').textContent = [words, ...run.notes].join(': ');
@@ -34,8 +35,9 @@ function keyFigures() {
     mean('cadence_steps_per_min', 0, '/min', 'cadence'),
     mean('step_width_m', 2, 'm', 'step width'),
     mean('stance_percent', 0, '%', 'stance of the stride'),
-    figure(`${run.numbers.tracked_frames}`, `of ${run.numbers.frames}`, 'frames tracked'),
-    figure(fixed(run.numbers.frames / run.timing.seconds, 1), '/s', `frames, ${plural(run.timing.threads, 'thread')}`));
+    figure(`${run.numbers.tracked_frames}`, `of ${run.numbers.frames}`, analysed ? 'frames with both legs' : 'frames tracked'));
+  if (!analysed)
+    byId('key-figures').append(figure(fixed(run.numbers.frames / run.timing.seconds, 1), '/s', `frames, ${plural(run.timing.threads, 'thread')}`));
 }
 
 const summaryRows = [
@@ -61,7 +63,7 @@ function gaitTables() {
     table(['foot', 'strike, s', 'toe-off, s', 'step length, m', 'step width, m', 'step time, s', 'stance, %'],
       contacts.map((c) => [c.side, banded(c.foot_strike_s, 3), banded(c.toe_off_s, 3), banded(c.step_length_m, 3),
         banded(c.step_width_m, 3), banded(c.step_time_s, 3), banded(c.stance_percent, 1)])),
-    element('p', {className: 'note'}, 'Small print: 5–95 % of the filter’s particles. ' + data.gait.notes.join(' ')));
+    element('p', {className: 'note'}, (analysed ? '' : 'Small print: 5–95 % of the filter’s particles. ') + data.gait.notes.join(' ')));
 }
 
 function quality() {
@@ -80,8 +82,8 @@ function quality() {
     if (last && last[1] === i - 1) last[1] = i; else spans.push([i, i]);
   });
   byId('lost-spans').textContent = spans.length
-    ? 'Not tracked: ' + spans.map(([a, b]) => `frames ${a}–${b} (${fixed(a / data.rate, 2)}–${fixed((b + 1) / data.rate, 2)} s)`).join(', ') + '.'
-    : 'Every frame is tracked.';
+    ? (analysed ? 'Empty: ' : 'Not tracked: ') + spans.map(([a, b]) => `frames ${a}–${b} (${fixed(times[a], 2)}–${fixed(times[b] + 1 / data.rate, 2)} s)`).join(', ') + '.'
+    : analysed ? '' : 'Every frame is tracked.';
 }
 
 function origin() {
@@ -90,13 +92,13 @@ function origin() {
   const code = (text) => element('code', {}, text);
   byId('origin-table').append(table(['', ''], [
     ['Program', `${run.program.name} ${run.program.version}, commit ${run.program.commit}, ${run.program.build}, ${run.program.compiler}`],
-    ['Scene', code(`${run.scene.file}  sha256 ${run.scene.sha256}`)],
-    ['Cameras', data.cameras.map((c) => `${c.name}, ${c.size_px.join(' × ')} px`).join('; ')],
+    [analysed ? 'Motion' : 'Scene', code(`${run.scene.file}  sha256 ${run.scene.sha256}`)],
+    ['Cameras', data.cameras.map((c) => `${c.name}, ${c.size_px.join(' × ')} px`).join('; ') || 'none'],
     ['Subject', `stature ${data.subject.height_m} m, mass ${data.subject.mass_kg} kg`],
-    ['Frames', `${run.numbers.frames} at ${data.rate} Hz`],
+    ['Frames', `${run.numbers.frames} at ${+data.rate.toPrecision(5)} Hz`],
     ['Seed', `${run.seed}`],
     ['Settings changed', changed || 'none: the defaults'],
-    ['Time', `${fixed(run.timing.seconds, 1)} s on ${run.timing.threads} threads: ${stages}`],
+    ['Time', `${fixed(run.timing.seconds, 1)} s on ${plural(run.timing.threads, 'thread')}${stages && ': ' + stages}`],
     ['Command', code(run.timing.command_line.join(' '))],
     ['Digest of the result', code(run.digest)],
   ]));

@@ -1,5 +1,7 @@
 #include "jobs/analyse.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "core/errors.h"
@@ -7,13 +9,16 @@
 #include "io/motion_file.h"
 #include "io/run_record.h"
 #include "io/sha256.h"
-#include "jobs/motion_tables.h"
+#include "jobs/report.h"
+#include "jobs/track_quality.h"
+#include "metrics/joint_error.h"
 
 namespace walktrack {
 
 namespace {
 
 namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
 constexpr size_t kMaxMotionBytes = size_t{1} << 30;
 
@@ -34,7 +39,15 @@ double stature_of(const Motion& motion) {
   return count > 0 && sum > 0 ? sum / static_cast<double>(count) : Subject{}.height;
 }
 
-RunRecord record_of(const AnalyseJob& job, const fs::path& file, const Subject& subject,
+size_t whole_frames(const Motion& motion) {
+  return static_cast<size_t>(
+      std::count_if(motion.joints.begin(), motion.joints.end(), [](const JointPositions& joints) {
+        return std::all_of(kScoredJoints.begin(), kScoredJoints.end(),
+                           [&](Joint joint) { return known(joints[joint]); });
+      }));
+}
+
+RunRecord record_of(const AnalyseJob& job, const fs::path& file, const AnalysedMotion& analysed,
                     const KineticsTotals& totals) {
   RunRecord record;
   record.command = "analyse";
@@ -44,13 +57,16 @@ RunRecord record_of(const AnalyseJob& job, const fs::path& file, const Subject& 
   record.status = "analysed";
   if (!job.mass)
     record.notes.push_back("the subject's mass is not known: forces are those of 70 kg");
-  record.numbers = {{"height_m", subject.height},
-                    {"mass_kg", subject.mass},
+  record.numbers = {{"frames", static_cast<double>(analysed.motion.time.size())},
+                    {"tracked_frames", static_cast<double>(whole_frames(analysed.motion))},
+                    {"height_m", analysed.subject.height},
+                    {"mass_kg", analysed.subject.mass},
                     {"distance_m", totals.distance},
                     {"positive_work_j", totals.positive_work},
                     {"negative_work_j", totals.negative_work},
                     {"cost_of_transport", totals.cost_of_transport},
                     {"peak_foot_load_body_weights", totals.peak_load}};
+  record.quality = quality_of_motion(analysed.motion, analysed.rate);
   record.digest = record.scene_digest;
   record.command_line = job.command_line;
   return record;
@@ -59,6 +75,7 @@ RunRecord record_of(const AnalyseJob& job, const fs::path& file, const Subject& 
 }  // namespace
 
 AnalyseOutcome analyse(const AnalyseJob& job) {
+  const auto start = Clock::now();
   const fs::path file = fs::is_directory(job.motion) ? job.motion / "joints.csv" : job.motion;
   AnalysedMotion analysed;
   analysed.motion = read_motion(file);
@@ -70,9 +87,13 @@ AnalyseOutcome analyse(const AnalyseJob& job) {
   analysed.angles = angle_rows(analysed.motion, body_lengths(analysed.subject));
   const ResultFolder folder(job.output, job.overwrite);
   const KineticsTotals totals = write_motion_tables(analysed, job.config.values.kinetics, folder);
-  folder.finish(run_json(record_of(job, file, analysed.subject, totals)));
+  RunRecord record = record_of(job, file, analysed, totals);
+  record.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const std::string text = run_json(record);
+  const fs::path report = write_report(folder, {file, analysed, {}, {}, text, {}});
+  folder.finish(text);
   const Gait gait = gait_from_motion(analysed.motion);
-  return {gait.steps.size(), gait.speed};
+  return {gait.steps.size(), gait.speed, report};
 }
 
 }  // namespace walktrack

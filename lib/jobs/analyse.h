@@ -1,6 +1,6 @@
 // `walktrack analyse`: gait, joint angles and forces of a motion that is already there (motion
-// capture, another tracker, an edited joints.csv) as a result folder: gait.json, gait.csv,
-// angles.csv, angles.mot, joints.trc, kinetics.csv, run.json. Without particles there are no bands.
+// capture, another tracker, an edited joints.csv) as a result folder: the tables of
+// jobs/motion_tables.h, report.html, run.json. Without particles there are no bands.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,8 @@ struct AnalyseJob {
 
 struct AnalyseOutcome {
   size_t steps = 0;
-  double speed = 0;  // m/s
+  double speed = 0;               // m/s
+  std::filesystem::path look_at;  // the file to open first
 };
 
 // InputError for what is no motion, UsageError for an output that may not be overwritten.

@@ -27,7 +27,8 @@ bool is_scene(const fs::path& path) {
   std::error_code ignored;
   if (fs::file_size(path, ignored) > kMostSceneBytes) return false;
   const std::string text = read_text_file(path, kMostSceneBytes);
-  return text.starts_with("cameras:") || text.find("\ncameras:") != std::string::npos;
+  const bool cameras = text.starts_with("cameras:") || text.find("\ncameras:") != std::string::npos;
+  return cameras && text.find("video:") != std::string::npos;  // what to render has cameras too
 }
 
 // "a/b/scene.yaml" is "a/b", other files keep their stem.

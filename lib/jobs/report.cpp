@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/files.h"
+#include "io/motion_file.h"
 #include "jobs/report_curves.h"
 
 namespace walktrack {
@@ -40,29 +41,34 @@ Json camera_json(const SceneCamera& scene_camera) {
           {"corners", corners}};
 }
 
-// All joints of a frame in one list x, y, z, x, ...: mm.
-template <typename Value>
-Json frame_row(const FrameRecord& record, Value value) {
-  if (!record.tracked) return {};
+// A frame's joints in one list x, y, z, x, ...: mm; null where none is known.
+Json frame_row(const JointPositions& joints, size_t count) {
   Json row = Json::array();
-  for (size_t j = 0; j < record.estimate.joint_count; ++j) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) row.push_back(millimetres(value(j, axis)));
+  bool any = false;
+  for (size_t j = 0; j < count; ++j) {
+    any = any || known(joints.at[j]);
+    for (const double value : joints.at[j]) row.push_back(millimetres(value));
   }
-  return row;
+  return any ? row : Json();
 }
 
-Json motion_json(const TrackedFrames& frames) {
-  Json mean = Json::array(), low = Json::array(), high = Json::array();
-  for (const FrameRecord& record : frames.records) {
-    const FrameEstimate& e = record.estimate;
-    const auto spread = [&](size_t j, Eigen::Index a) -> const Spread& {
-      return e.spread[j][static_cast<size_t>(a)];
-    };
-    mean.push_back(frame_row(record, [&](size_t j, Eigen::Index a) { return e.joints.at[j][a]; }));
-    low.push_back(frame_row(record, [&](size_t j, Eigen::Index a) { return spread(j, a).p05; }));
-    high.push_back(frame_row(record, [&](size_t j, Eigen::Index a) { return spread(j, a).p95; }));
-  }
-  return {{"names", kJointNames}, {"mean_mm", mean}, {"p05_mm", low}, {"p95_mm", high}};
+Json motion_json(const Motion& motion, const JointUncertainty& uncertainty) {
+  const auto count = static_cast<size_t>(listed_joint_count(motion));
+  const auto rows = [&](const std::vector<JointPositions>& frames) {
+    Json out = Json::array();
+    for (const JointPositions& joints : frames) out.push_back(frame_row(joints, count));
+    return out;
+  };
+  return {{"names", kJointNames},
+          {"mean_mm", rows(motion.joints)},
+          {"p05_mm", rows(uncertainty.p05)},
+          {"p95_mm", rows(uncertainty.p95)}};
+}
+
+Json times_json(const std::vector<double>& times) {
+  Json out = Json::array();
+  for (const double time : times) out.push_back(std::round(1e6 * time) / 1e6);
+  return out;
 }
 
 Json contacts_json(const Gait& gait) {
@@ -80,25 +86,26 @@ Json contacts_json(const Gait& gait) {
 }  // namespace
 
 std::filesystem::path write_report(const ResultFolder& folder, const ReportInput& input) {
-  const Motion motion = motion_of(input.frames);
-  const Gait gait = gait_from_motion(motion);
+  const AnalysedMotion& analysed = input.analysed;
+  const Gait gait = gait_from_motion(analysed.motion);
   Json cameras = Json::array();
-  for (const SceneCamera& camera : input.scene.cameras) cameras.push_back(camera_json(camera));
+  for (const SceneCamera& camera : input.cameras) cameras.push_back(camera_json(camera));
   Json data;
   data["run"] = Json::parse(input.run_json);
   data["gait"] = Json::parse(read_text_file(folder.file("gait.json"), kMaxTableBytes));
-  data["subject"] = {{"height_m", input.scene.subject.height},
-                     {"mass_kg", input.scene.subject.mass}};
-  data["rate"] = input.frames.frame_rate;
+  data["subject"] = {{"height_m", rounded(analysed.subject.height)},
+                     {"mass_kg", rounded(analysed.subject.mass)}};
+  data["rate"] = analysed.rate;
+  data["times"] = times_json(analysed.motion.time);
   data["cameras"] = cameras;
-  data["joints"] = motion_json(input.frames);
+  data["joints"] = motion_json(analysed.motion, input.uncertainty);
   data["contacts"] = contacts_json(gait);
   data["angles"] = cycles_json(angle_signals(folder), gait);
-  data["loads"] = cycles_json(load_signals(folder, input.scene), gait);
+  data["loads"] = cycles_json(load_signals(folder, analysed), gait);
   data["normal_csv"] = normal_gait_csv();
   ReportPage page;
-  page.title = input.scene.file.parent_path().filename().string() + " / " +
-               input.scene.file.filename().string();
+  const std::filesystem::path source = std::filesystem::absolute(input.source);
+  page.title = source.parent_path().filename().string() + " / " + source.filename().string();
   data["title"] = page.title;
   page.data_json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   page.clips = input.clips;

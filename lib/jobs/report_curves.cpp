@@ -98,10 +98,10 @@ std::vector<Signal> angle_signals(const ResultFolder& folder) {
   return out;
 }
 
-std::vector<Signal> load_signals(const ResultFolder& folder, const Scene& scene) {
+std::vector<Signal> load_signals(const ResultFolder& folder, const AnalysedMotion& analysed) {
   const auto table = folder.file("kinetics.csv");
-  const double mass = scene.subject.mass, weight = mass * scene.gravity.norm();
-  const Eigen::Vector3d up = scene.world.rotation.transpose() * Eigen::Vector3d::UnitZ();
+  const double mass = analysed.subject.mass, weight = mass * analysed.gravity.norm();
+  const Eigen::Vector3d up = analysed.world.rotation.transpose() * Eigen::Vector3d::UnitZ();
   std::vector<Signal> out;
   for (const Side side : kSides) {
     const char letter = side == Side::kLeft ? 'l' : 'r';

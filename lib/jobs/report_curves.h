@@ -8,7 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "io/result_folder.h"
-#include "io/scene.h"
+#include "jobs/motion_tables.h"
 #include "metrics/gait.h"
 
 namespace walktrack {
@@ -24,7 +24,7 @@ struct Signal {
 std::vector<Signal> angle_signals(const ResultFolder& folder);
 
 // Of kinetics.csv: vertical load of each foot in body weights, moments in N m/kg.
-std::vector<Signal> load_signals(const ResultFolder& folder, const Scene& scene);
+std::vector<Signal> load_signals(const ResultFolder& folder, const AnalysedMotion& analysed);
 
 // [{name, side, count, mean, p05, p95: [101 numbers], strides: [{from, to, toe_off, values}]}]:
 // each signal cut at the strikes of its side. Bands are means of the strides' bands.

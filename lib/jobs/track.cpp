@@ -237,14 +237,17 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   outcome.status = judge(run, quality, video, control, outcome.trouble);
   outcome.tracked = count(run.frames).tracked;
   const auto writing = Clock::now();
+  const AnalysedMotion analysed = analysed_motion(run.frames, job.scene);
+  const JointUncertainty uncertainty = uncertainty_of(run.frames);
   const WrittenTables tables =
-      write_tables(run.frames, job.scene, job.config.values.kinetics, folder);
+      write_tables(analysed, uncertainty, job.config.values.kinetics, folder);
   std::vector<ReportClip> clips;
   if (job.overlay && outcome.frames > 0) clips = write_overlays(job, run.frames, folder, control);
   run.watch.add("output", writing);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const std::string record = run_json(record_of(run, outcome, quality, tables, seconds));
-  outcome.look_at = write_report(folder, {job.scene, run.frames, record, clips});
+  outcome.look_at = write_report(
+      folder, {job.scene.file, analysed, uncertainty, job.scene.cameras, record, clips});
   const bool partial =
       outcome.status == TrackStatus::kInterrupted || outcome.status == TrackStatus::kCutShort;
   partial ? folder.finish_partial(record) : folder.finish(record);

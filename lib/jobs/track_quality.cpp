@@ -1,6 +1,7 @@
 #include "jobs/track_quality.h"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -40,32 +41,38 @@ double lost_percent(const TrackedFrames& frames) {
 
 }  // namespace
 
-Quality quality_of(const TrackedFrames& frames, const GateConfig& gates) {
-  const Motion motion = motion_of(frames);
+Quality quality_of_motion(const Motion& motion, double rate) {
   const Plausibility p = plausibility(motion, gait_from_motion(motion));
-  const double minutes = static_cast<double>(frames.records.size()) / frames.frame_rate / 60;
+  const double minutes = static_cast<double>(motion.time.size()) / rate / 60;
   const auto swaps = static_cast<double>(leg_swaps(motion));
   return {
+      measure("leg_swaps_per_min", "Legs swapped between frames", minutes > 0 ? swaps / minutes : 0,
+              "/min", 1),
+      measure("foot_slide_mm", "Sliding of a standing foot, mean of stances",
+              1000 * p.mean_foot_slide, "mm", 0),
+      measure("worst_foot_slide_mm", "Sliding of a standing foot, worst stance",
+              1000 * p.worst_foot_slide, "mm", 0),
+      measure("penetration_mm", "Deepest foot in the ground", 1000 * p.penetration, "mm", 0),
+      measure("jitter_m_s3", "Jitter: mean third derivative of the joints", p.jitter, "m/s³", 0),
+  };
+}
+
+Quality quality_of(const TrackedFrames& frames, const GateConfig& gates) {
+  Quality out{
       at_most(
           measure("lost_percent", "Lost after the walker was found", lost_percent(frames), "%", 1),
           100 * gates.lost_share),
       at_least(measure("foot_changes", "Changes of the standing foot", foot_changes(frames), "", 0),
-               gates.least_steps),
-      at_most(measure("leg_swaps_per_min", "Legs swapped between frames",
-                      minutes > 0 ? swaps / minutes : 0, "/min", 1),
-              gates.leg_swaps),
-      at_most(measure("foot_slide_mm", "Sliding of a standing foot, mean of stances",
-                      1000 * p.mean_foot_slide, "mm", 0),
-              1000 * gates.foot_slide),
-      measure("worst_foot_slide_mm", "Sliding of a standing foot, worst stance",
-              1000 * p.worst_foot_slide, "mm", 0),
-      at_most(
-          measure("penetration_mm", "Deepest foot in the ground", 1000 * p.penetration, "mm", 0),
-          1000 * gates.penetration),
-      at_most(measure("jitter_m_s3", "Jitter: mean third derivative of the joints", p.jitter,
-                      "m/s³", 0),
-              gates.jitter),
-  };
+               gates.least_steps)};
+  const std::map<std::string, double> limits{{"leg_swaps_per_min", gates.leg_swaps},
+                                             {"foot_slide_mm", 1000 * gates.foot_slide},
+                                             {"penetration_mm", 1000 * gates.penetration},
+                                             {"jitter_m_s3", gates.jitter}};
+  for (QualityMeasure& m : quality_of_motion(motion_of(frames), frames.frame_rate)) {
+    const auto limit = limits.find(m.name);
+    out.push_back(limit == limits.end() ? std::move(m) : at_most(std::move(m), limit->second));
+  }
+  return out;
 }
 
 std::string first_failure(const Quality& quality) {

@@ -15,8 +15,11 @@ namespace walktrack {
 
 using Quality = std::vector<QualityMeasure>;
 
-// In the order that they are shown in. Feet, ground and trembling are judged by
-// metrics/plausibility.h, swapped legs by metrics/leg_swaps.h.
+// What any motion shows, without gates: feet, ground and trembling are judged by
+// metrics/plausibility.h, swapped legs by metrics/leg_swaps.h. `rate` in Hz.
+Quality quality_of_motion(const Motion& motion, double rate);
+
+// The same of a track with its gates, after what was lost, in the order that they are shown in.
 Quality quality_of(const TrackedFrames& frames, const GateConfig& gates);
 
 // What the first failed gate says against the result; empty if all passed.

@@ -123,18 +123,20 @@ std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames) {
   return out;
 }
 
-WrittenTables write_tables(const TrackedFrames& frames, const Scene& scene,
+AnalysedMotion analysed_motion(const TrackedFrames& frames, const Scene& scene) {
+  return {motion_of(frames), ensemble_of(frames), support_transfers_of(frames),
+          angles_of(frames), frames.frame_rate,   scene.subject,
+          scene.gravity,     scene.world};
+}
+
+WrittenTables write_tables(const AnalysedMotion& analysed, const JointUncertainty& uncertainty,
                            const KineticsConfig& config, const ResultFolder& folder) {
-  const Motion motion = motion_of(frames);
-  const std::string joints = motion_csv(motion, scene.world);
-  const std::string uncertainty = uncertainty_csv(motion, uncertainty_of(frames), scene.world);
+  const std::string joints = motion_csv(analysed.motion, analysed.world);
+  const std::string bands = uncertainty_csv(analysed.motion, uncertainty, analysed.world);
   folder.write("joints.csv", joints);
-  folder.write("uncertainty.csv", uncertainty);
-  const KineticsTotals totals = write_motion_tables(
-      {motion, ensemble_of(frames), support_transfers_of(frames), angles_of(frames),
-       frames.frame_rate, scene.subject, scene.gravity, scene.world},
-      config, folder);
-  return {result_digest(joints, uncertainty), totals};
+  folder.write("uncertainty.csv", bands);
+  const KineticsTotals totals = write_motion_tables(analysed, config, folder);
+  return {result_digest(joints, bands), totals};
 }
 
 std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames& frames,

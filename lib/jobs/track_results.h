@@ -32,7 +32,8 @@ struct WrittenTables {
   std::string digest;  // of joints.csv and uncertainty.csv
   KineticsTotals totals;
 };
-WrittenTables write_tables(const TrackedFrames& frames, const Scene& scene,
+AnalysedMotion analysed_motion(const TrackedFrames& frames, const Scene& scene);
+WrittenTables write_tables(const AnalysedMotion& analysed, const JointUncertainty& uncertainty,
                            const KineticsConfig& config, const ResultFolder& folder);
 
 // Reads the film again and draws the mean pose and the particles' spread into it, one video a

@@ -96,6 +96,12 @@ TEST(CommandLine, NamesMistakes) {
        "--shard: found '3/2', allowed: i/n"},
       {{"batch", "/tmp", "-o", "/tmp/x", "--jobs", "0"}, 2, "--jobs: found less than 1"},
       {{"batch", "/tmp"}, 2, "--output is missing"},
+      {{"calibrate"}, 2, "--output is missing"},
+      {{"calibrate", "-o", "/tmp/x"}, 2, "--views"},
+      {{"calibrate", "--model", "flat", "-o", "/tmp/x"}, 2, "found flat, allowed: pinhole, brown"},
+      {{"calibrate", "--board", "letters"}, 2, "--board: found letters, allowed: chessboard or"},
+      {{"calibrate", "--size", "9by6"}, 2, "--size: found '9by6', allowed: COLUMNSxROWS"},
+      {{"calibrate", "--size", "9x6"}, 2, "--spacing: found 0, allowed: metres between"},
       {{"check"}, 2, "SCENE.yaml is missing"},
       {{"check", "/nowhere.yaml"}, 3, "/nowhere.yaml: no such file"},
   };
@@ -144,6 +150,34 @@ TEST(BatchCommand, GoesOnListsFailuresAndExitsWithOne) {
   EXPECT_THAT(result.err, HasSubstr("0 complete, 0 degraded, 2 failed, 0 left; see "));
   EXPECT_THAT(read_file(out + "/failures.txt"), StartsWith("bad one: exit "));
   EXPECT_THAT(read_file(out + "/failures.txt"), HasSubstr("\nother: exit "));
+}
+
+class CalibrateCommand : public testing::Test {
+ protected:
+  ProgramResult run(const std::string& points) const {
+    const std::string demo = std::string(WALKTRACK_SOURCE_DIR) + "/data/demo/";
+    return run_walktrack({"calibrate", "--camera", demo + "side.yaml", "--points", points,
+                          "--floor", demo + "side.mp4", "-o", out_});
+  }
+  const TemporaryFolder folder_;
+  const std::string out_ = folder_ / "out";
+};
+
+TEST_F(CalibrateCommand, PlacesTheDemosCameraAndOverwritesOnlyWhenTold) {
+  const std::string points = std::string(WALKTRACK_SOURCE_DIR) + "/data/demo/side_points.csv";
+  const ProgramResult result = run(points);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("640x480 px"));
+  EXPECT_TRUE(std::filesystem::exists(out_ + "/cam0.yaml"));
+  EXPECT_EQ(run(points).exit_code, 2);
+}
+
+TEST_F(CalibrateCommand, UnreadableOrTooFewPointsAreInputThatEndsWithThree) {
+  EXPECT_EQ(run("/nowhere.csv").exit_code, 3);
+  const ProgramResult few = run(folder_.write("few.csv", "u,v,x,y,z\n10,20,0,0,0\n30,20,1,0,0\n"));
+  EXPECT_EQ(few.exit_code, 3);
+  EXPECT_THAT(few.err, HasSubstr("few.csv"));
+  EXPECT_FALSE(std::filesystem::exists(out_ + "/cam0.yaml"));
 }
 
 }  // namespace

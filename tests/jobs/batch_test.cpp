@@ -67,7 +67,8 @@ class BatchTest : public testing::Test {
 TEST_F(BatchTest, FindsScenesInNaturalOrderOutsideTheOutput) {
   add("trial10", "ok");
   add("trial9", "ok");
-  folder_.write("in/a/walker.yaml", "# note\ncameras: []\n");
+  folder_.write("in/a/walker.yaml", "# note\ncameras: [{name: c, video: c.mp4}]\n");
+  folder_.write("in/a/render.yaml", "walk: {speed: 1}\ncameras: [{name: c, distance: 5}]\n");
   folder_.write("in/a/scene_one.yaml", "broken: [");
   folder_.write("in/a/cam.yaml", "image_width: 3\n");
   folder_.write("in/out/x/scene.yaml", "cameras: []\n");

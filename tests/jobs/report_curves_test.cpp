@@ -37,12 +37,12 @@ std::vector<std::pair<std::string, double>> kinetics_columns() {
 TEST(LoadSignals, AreVerticalInTheWorldAndPerWeightAndMass) {
   const TemporaryFolder place;
   place.write("kinetics.csv", table(kinetics_columns(), 3));
-  Scene scene;  // 70 kg
+  AnalysedMotion analysed;  // 70 kg
   // A calibration whose y axis points down.
-  scene.world = world_frame_on_ground({0, -1, 0}, 0);
+  analysed.world = world_frame_on_ground({0, -1, 0}, 0);
   const ResultFolder folder(place.path() / "out", false);
   std::filesystem::rename(place / "kinetics.csv", folder.file("kinetics.csv"));
-  const auto signals = load_signals(folder, scene);
+  const auto signals = load_signals(folder, analysed);
   ASSERT_EQ(signals.size(), 8u);
   EXPECT_EQ(signals[0].name, "vertical_load");
   EXPECT_NEAR(signals[0].value[0], 1, 1e-9);  // 686.4655 N / (70 kg 9.80665 m/s^2)

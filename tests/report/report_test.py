@@ -6,6 +6,7 @@ numbers of run.json, and can be used with keys, on a telephone and on paper.
 
 With PICTURES, a folder, leaves screenshots there. Exit code 77 (skipped) where there is no Chromium.
 """
+import csv
 import json
 import pathlib
 import re
@@ -14,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import urllib.parse
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from browser import Browser, find_chromium  # noqa: E402
@@ -62,12 +64,12 @@ class Report(unittest.TestCase):
         self.assertIn("report.html", result.stderr)
         return out
 
-    def open(self, page, width=1200):
+    def open(self, page, width=1200, ready=READY):
         browser = self.browser
         browser.problems.clear()
         browser.requests.clear()
         browser.size(width, 900)
-        browser.open(page, READY)
+        browser.open(page, ready)
 
     def texts(self, selector):
         return self.browser.value(f"[...document.querySelectorAll({json.dumps(selector)})].map((e) => e.textContent)")
@@ -101,13 +103,15 @@ class Report(unittest.TestCase):
         self.assertEqual(settings["filter.particles"], "60")
         self.film_and_figure()
         self.keys()
-        self.small_and_on_paper()
+        self.small_and_on_paper("report", range(2, 9))
         self.check_quiet(out / "report.html")
 
     def film_and_figure(self):
         value = self.browser.value
         self.assertEqual(value("document.querySelector('#film video').videoWidth"), 640)
         self.assertEqual(len(self.texts("#strip button")), 5)
+        opaque = "[...document.querySelectorAll('#strip canvas')].map((c) => c.getContext('2d').getImageData(9, 9, 1, 1).data[3])"
+        self.assertEqual(value(opaque), [255] * 5)
         self.assertEqual(self.texts("#cameras button"), ["side", "front"])
         # The figure is drawn: many pixels of the left leg's blue, whatever its shade.
         blue = """(() => { const c = document.querySelector('#space canvas'), d = document.createElement('canvas');
@@ -138,18 +142,78 @@ class Report(unittest.TestCase):
         shown = value("document.querySelector('#film video').currentTime")
         self.assertAlmostEqual(shown, (before - 1 + 0.5) / 30, delta=0.5 / 30)
 
-    def small_and_on_paper(self):
+    def small_and_on_paper(self, name, pages):
         if pictures:
-            self.browser.picture(pictures / "report_desk.png")
-        paper = self.folder / "report.pdf"
+            self.browser.picture(pictures / f"{name}_desk.png")
+        paper = self.folder / f"{name}.pdf"
         self.browser.paper(paper)
-        self.assertIn(len(re.findall(rb"/Type\s*/Page\b", paper.read_bytes())), range(2, 9))
+        self.assertIn(len(re.findall(rb"/Type\s*/Page\b", paper.read_bytes())), pages)
         self.browser.size(390, 844, 2, True)
         self.browser.value("new Promise((done) => setTimeout(done, 300))")
         self.assertLessEqual(self.browser.value("document.documentElement.scrollWidth"), 390)
         if pictures:
-            self.browser.picture(pictures / "report_phone.png")
-            shutil.copy(paper, pictures / "report.pdf")
+            self.browser.picture(pictures / f"{name}_phone.png")
+            shutil.copy(paper, pictures / f"{name}.pdf")
+
+    def test_shows_an_analysed_motion(self):
+        """Motion capture has no film, no bands and, here, no zero in its times."""
+        lines = (demo / "truth.csv").read_text().splitlines()
+        motion = self.folder / "captured.csv"
+        motion.write_text("\n".join([lines[0]] + [f"{float(t) + 7:.6f},{rest}" for t, rest in
+                                                  (line.split(",", 1) for line in lines[1:])]) + "\n")
+        out = self.folder / "analysed"
+        result = run("analyse", motion, "-o", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.open(out / "report.html")
+        summary = json.loads((out / "gait.json").read_text())["summary"]
+        tiles = self.texts("#key-figures li")
+        for tile, (column, digits) in zip(tiles, [("speed_m_s", 2), ("step_length_m", 2), ("cadence_steps_per_min", 0)]):
+            self.assertTrue(tile.startswith(f"{summary['both'][column]['value']:.{digits}f} "), tile)
+        self.assertIn("Analysed", self.texts("#verdict")[0])
+        self.assertIn("not a film", self.texts("#film")[0])
+        self.assertEqual(len(self.texts("#cycle-charts canvas")), 4)
+        self.assertIn("4- to 17-year-olds", self.texts("#cycle-charts figcaption")[0])
+        self.assertEqual(len(self.texts("#time-charts canvas")), 1)
+        self.browser.value("clock.show(15)")
+        self.assertIn("frame 15  7.50 s", self.texts("#now")[0])
+        self.small_and_on_paper("analysed", range(2, 7))
+        self.check_quiet(out / "report.html")
+
+    def test_batch_overview_leads_to_every_report(self):
+        many = self.folder / "many"
+        for name, frames in (("first walk", 30), ("broken", 20), ("third", 12)):
+            scene(many / name, frames)
+        (many / "broken/side.mp4").unlink()
+        (many / "broken/side.mp4").write_text("no film")
+        out = self.folder / "many_out"
+        result = run("batch", many, "-o", out, "--jobs", 1, *QUICK)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.open(out / "batch.html", ready="document.readyState === 'complete'")
+        with (out / "summary.csv").open() as file:
+            table = list(csv.DictReader(file))
+        self.assertEqual(self.texts("tbody th"), [row["sequence"] for row in table])
+        self.assertEqual(self.texts("tbody td:nth-child(2)"), [row["state"] for row in table])
+        self.assertEqual(self.texts("tbody td:last-child"), [row["reason"] for row in table])
+        states = [row["state"] for row in table]
+        self.assertEqual(states.count("failed"), 1)
+        for tile in self.texts(".tiles li"):
+            count, state = re.fullmatch(r"(\d+)(\w+)", tile).groups()
+            self.assertEqual(int(count), states.count(state))
+        self.sorts()
+        self.small_and_on_paper("batch", (1, 2))
+        self.check_quiet(out / "batch.html")
+        for row, link in zip(table, self.browser.value("[...document.querySelectorAll('tbody a')].map((a) => a.href)")):
+            path = pathlib.Path(urllib.parse.unquote(urllib.parse.urlparse(link).path))
+            self.assertEqual(path.exists(), True, link)
+            self.assertEqual(path.name == "report.html", row["state"] != "failed", link)
+
+    def sorts(self):
+        """By name down and up again with the keyboard."""
+        names = self.texts("tbody th")
+        self.browser.value("document.querySelector('thead button').focus()")
+        for expected in (sorted(names), sorted(names, reverse=True), sorted(names)):
+            self.browser.key("Enter", "Enter", "\r")
+            self.assertEqual(self.texts("tbody th"), expected)
 
     def test_large_films_are_played_from_beside_the_page(self):
         out = self.track(scene(self.folder / "large", 30), "large_out", "--set", "report.embed_mb=0")
