@@ -1,4 +1,8 @@
-if (analysed) byId('scene-note').textContent = 'In space: the figure, footprints where a foot stands (filled while it does), a ground grid of 1 m. Keys: space plays, arrow keys step.';
+if (analysed) {
+  document.querySelector('.film').hidden = true;
+  document.querySelector('.stage').classList.add('alone');
+  byId('scene-note').textContent = 'In space: the figure, footprints where a foot stands (filled while it does), a ground grid of 1 m. Keys: space plays, arrow keys step.';
+}
 verdict();
 keyFigures();
 gaitTables();

@@ -68,7 +68,7 @@ function startPlayer() {
         clips[0].dataset.name + '.mp4.';
     };
   } else {
-    film.append(element('div', {className: 'message'}, analysed ? 'A motion, not a film, was analysed.' : 'This run wrote no overlay film.'));
+    film.append(element('div', {className: 'message'}, 'This run wrote no overlay film.'));
   }
 
   const scrubber = byId('scrubber');

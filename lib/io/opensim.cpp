@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -36,16 +37,27 @@ constexpr const char* kMomentColumns =
 constexpr int kMomentColumnCount = 9;
 constexpr std::array kRightThenLeft{Side::kRight, Side::kLeft};
 
-// Lines of `notes` must not hold '=': OpenSim would take them for keys.
-std::string storage_header(std::string_view name, size_t rows, int columns, bool degrees,
-                           std::string_view notes, std::string_view names) {
-  return fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\n\n{}\nendheader\n{}\n",
-                     name, rows, columns, degrees ? "yes" : "no", notes, names);
+// Rows per second, from the closest two: spans may be left out.
+double rate_of(std::span<const double> times) {
+  double period = std::numeric_limits<double>::infinity();
+  for (size_t i = 1; i < times.size(); ++i) period = std::min(period, times[i] - times[i - 1]);
+  return 1 / period;
 }
 
-size_t known_rows(const Kinetics& kinetics) {
-  return static_cast<size_t>(std::count_if(kinetics.frames.begin(), kinetics.frames.end(),
-                                           [](const KineticsFrame& each) { return each.known; }));
+// Lines of `notes` must not hold '=': OpenSim would take them for keys.
+std::string storage_header(std::string_view name, std::span<const double> times, int columns,
+                           bool degrees, std::string_view notes, std::string_view names) {
+  return fmt::format(
+      "{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\n\n{}\nRows: {:.6g} per second.\n"
+      "endheader\n{}\n",
+      name, times.size(), columns, degrees ? "yes" : "no", notes, rate_of(times), names);
+}
+
+std::vector<double> known_times(const Kinetics& kinetics) {
+  std::vector<double> out;
+  for (size_t i = 0; i < kinetics.frames.size(); ++i)
+    if (kinetics.frames[i].known) out.push_back(kinetics.time[i]);
+  return out;
 }
 
 // A foot's centre of pressure at every row; where nothing presses, the next one, else the last.
@@ -112,7 +124,7 @@ std::string trc_from_motion(const Motion& motion, double rate, const std::string
 std::string mot_from_poses(std::span<const double> times, std::span<const Pose> poses,
                            const std::string& name) {
   std::string text = storage_header(
-      name, times.size(), kAngleColumnCount, true,
+      name, times, kAngleColumnCount, true,
       "Units are S.I. units (second, meters), angles are in degrees.\n"
       "Ground: x and z (right) level, y up. pelvis_tx, ty, tz: midpoint of the hip centres.\n"
       "Positive: pelvis_tilt backwards, pelvis_list right side down, pelvis_rotation to the left,\n"
@@ -124,7 +136,7 @@ std::string mot_from_poses(std::span<const double> times, std::span<const Pose> 
 
 std::string mot_from_ground_reactions(const Kinetics& kinetics) {
   std::string text = storage_header(
-      "ground_reaction", known_rows(kinetics), kReactionColumnCount, false,
+      "ground_reaction", known_times(kinetics), kReactionColumnCount, false,
       "Units are S.I. units (second, meters, Newtons, Newton meters).\n"
       "Ground: x and z (right) level, y up. Computed from the motion, not measured.\n"
       "ground_force: of the ground on the foot, at its centre of pressure (p); r right, l left.",
@@ -147,7 +159,7 @@ std::string mot_from_ground_reactions(const Kinetics& kinetics) {
 
 std::string sto_from_joint_moments(const Kinetics& kinetics) {
   std::string text =
-      storage_header("joint_moments", known_rows(kinetics), kMomentColumnCount, false,
+      storage_header("joint_moments", known_times(kinetics), kMomentColumnCount, false,
                      "Units are S.I. units (second, Newton meters).\n"
                      "Moments of the muscles, by inverse dynamics of the motion. Positive: hip "
                      "flexion, adduction;\n"

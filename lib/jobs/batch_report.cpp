@@ -45,7 +45,7 @@ std::string headings_html() {
   std::string row = "<th>sequence</th><th>state</th>";
   for (const BatchFigure& figure : kBatchFigures)
     row += fmt::format("<th class=\"number\">{}</th>", figure.heading);
-  return row + "<th class=\"number\">time, s</th><th>reason</th>";
+  return row + "<th class=\"number\">time, s</th>";
 }
 
 // What to look at: the report, else the folder.
@@ -58,14 +58,16 @@ std::string link_to(const Sequence& sequence) {
 std::string row_html(const Sequence& sequence, const SequenceResult& result) {
   const std::string_view state = state_name(result.state);
   std::string row =
-      fmt::format("<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td class=\"{}\">{}</td>",
+      fmt::format("<tr><th scope=\"row\"><a href=\"{}\">{}</a></th><td class=\"{}\">{}",
                   link_to(sequence), html_text(one_line(sequence.name)), state, state);
+  if (!result.reason.empty())
+    row += fmt::format("<small>{}</small>", html_text(one_line(result.reason)));
+  row += "</td>";
   for (size_t i = 0; i < kBatchFigures.size(); ++i)
     row += fmt::format("<td class=\"number\">{}</td>",
                        number(result.figures[i], kBatchFigures[i].digits));
-  return row + fmt::format("<td class=\"number\">{}</td><td class=\"word\">{}</td></tr>\n",
-                           result.seconds > 0 ? fmt::format("{:.1f}", result.seconds) : "",
-                           html_text(one_line(result.reason)));
+  return row + fmt::format("<td class=\"number\">{}</td></tr>\n",
+                           result.seconds > 0 ? fmt::format("{:.1f}", result.seconds) : "");
 }
 
 std::string states_html(const std::vector<SequenceResult>& results) {

@@ -204,6 +204,7 @@ TEST(JointMoments, HaveTheNamesAndSignsOfInverseDynamics) {
   EXPECT_EQ(table.column("knee_angle_l_moment")[1], 3);
   EXPECT_EQ(table.column("ankle_angle_l_moment")[1], -4);
   EXPECT_EQ(table.column("knee_angle_r_moment")[1], 0);
+  EXPECT_THAT(sto_from_joint_moments(one_step()), HasSubstr("\nRows: 10 per second.\n"));
 }
 
 }  // namespace
