@@ -77,6 +77,7 @@ TEST_F(Render, WritesASceneThatReadsBackWithItsTruth) {
   ASSERT_EQ(scene.cameras.size(), 2u);
   EXPECT_EQ(scene.cameras[1].start_frame, 2);
   EXPECT_EQ(scene.cameras[1].frame_rate, 60);
+  EXPECT_NEAR(scene.cameras[1].camera.distortion[0], -0.1, 1e-9);
   ASSERT_TRUE(scene.initial.has_value());
   EXPECT_NEAR(*scene.initial->speed, 1.2, 0.01);
   const Motion truth = read_motion(scene.truth);
@@ -138,6 +139,76 @@ TEST_F(Render, ImagesAreTheFramesToTheLastBit) {
   render_scene(job_, {});
   EXPECT_TRUE(fs::exists(job_.output / "side/000006.png"));
   EXPECT_FALSE(fs::exists(job_.output / "side/000007.png"));
+}
+
+// Three cameras in one place, pictures without noise.
+TEST_F(Render, CamerasFilmWhenTheyAreToldTo) {
+  job_.options.images = true;
+  job_.options.sensor.noise = 0;
+  job_.options.start = 0.1;  // the motion is there before and after the scene
+  job_.options.duration = 0.2;
+  RenderCamera early = job_.options.cameras[0], late = early;
+  early.name = "early";
+  early.start_frame = 2;
+  late.name = "late";
+  late.delay = 1 / 30.0;
+  job_.options.cameras.push_back(early);
+  job_.options.cameras.push_back(late);
+  render_scene(job_, {});
+  const auto picture = [&](const char* camera, int frame) {
+    const fs::path file =
+        job_.output / camera / (std::string("00000") + char('0' + frame) + ".png");
+    return content(file);
+  };
+  EXPECT_NE(picture("side", 2), picture("side", 3));
+  // `early` says that its frame 2 is the scene's first, `late` says nothing.
+  for (int i = 0; i <= 6; ++i) EXPECT_EQ(picture("early", i + 2), picture("side", i)) << i;
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(picture("late", i), picture("side", i + 1)) << i;
+  const Scene scene = read_scene(job_.output / "scene.yaml");
+  EXPECT_EQ(scene.cameras[1].start_frame, 2);
+  EXPECT_EQ(scene.cameras[2].start_frame, 0);
+}
+
+TEST_F(Render, FiveAndTwoHundredFortyFramesASecond) {
+  for (const double rate : {5.0, 240.0}) {
+    job_.options.frame_rate = rate;
+    job_.options.cameras[0].width_px = 32;
+    job_.options.cameras[0].height_px = 24;
+    job_.overwrite = true;
+    const auto frames = static_cast<size_t>(std::floor(0.5 * rate)) + 1;
+    EXPECT_EQ(render_scene(job_, {}), frames);
+    const Motion truth = read_motion(job_.output / "truth.csv");
+    ASSERT_EQ(truth.time.size(), frames);
+    EXPECT_NEAR(truth.time[1], 1 / rate, 1e-6);
+    const Scene scene = read_scene(job_.output / "scene.yaml");
+    EXPECT_EQ(scene.frame_rate, rate);
+    EXPECT_NEAR(FrameSource(scene.cameras[0].video).facts().frame_rate, rate, 1e-3 * rate);
+  }
+}
+
+TEST_F(Render, AStrongerCodecLosesMore) {
+  job_.options.images = true;
+  job_.options.duration = 0;
+  job_.overwrite = true;
+  const auto film = [&](int quality) {
+    job_.options.jpeg_quality = quality;
+    render_scene(job_, {});
+    return cv::imread((job_.output / "side/000000.png").string());
+  };
+  const cv::Mat exact = film(0);
+  const double fine = cv::norm(exact, film(95)), coarse = cv::norm(exact, film(10));
+  EXPECT_GT(fine, 0);
+  EXPECT_GT(coarse, 1.5 * fine);
+}
+
+TEST_F(Render, TheBackgroundIsTheSceneWithoutAnybody) {
+  job_.options.images = true;
+  job_.options.sensor.noise = 0;
+  job_.walker.delay = 0.2;
+  render_scene(job_, {});
+  const std::string background = content(job_.output / "side_background/000002.png");
+  EXPECT_EQ(content(job_.output / "side/000005.png"), background);  // nobody is there yet
+  EXPECT_NE(content(job_.output / "side/000006.png"), background);
 }
 
 TEST_F(Render, LabelsShowThePartsAndTheFlowMovesWithThem) {
