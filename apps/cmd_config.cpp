@@ -24,12 +24,7 @@ int run_config(const Arguments& arguments) {
   }
   const std::string text = config_as_yaml(
       line.config(), changed ? ConfigScope::kChanged : ConfigScope::kEverything, true);
-  if (line.common().output.empty()) {
-    fmt::print("{}", text);
-  } else {
-    refuse_existing(line.common().output, line.common().overwrite);
-    write_file_atomically(line.common().output, text);
-  }
+  line.hand_over(text);
   return kDone;
 }
 

@@ -46,12 +46,7 @@ int run_evaluate(const Arguments& arguments) {
   const auto results = evaluate(job);
   if (!plot.empty()) write_file_atomically(plot, as_svg(truth, results));
   const std::string text = json ? as_json(truth, results) : as_markdown(truth, results);
-  if (line.common().output.empty()) {
-    fmt::print("{}", text);
-  } else {
-    refuse_existing(line.common().output, line.common().overwrite);
-    write_file_atomically(line.common().output, text);
-  }
+  line.hand_over(text);
   return kDone;
 }
 

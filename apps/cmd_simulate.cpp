@@ -26,12 +26,7 @@ void write_extremes(const CommandLine& line) {
   job.threads = hardware_threads();
   const std::string& output = line.common().output;
   if (!output.empty()) refuse_existing(output, line.common().overwrite);
-  const std::string table = stability_csv(job, stability_table(job));
-  if (output.empty()) {
-    fmt::print("{}", table);
-  } else {
-    write_file_atomically(output, table);
-  }
+  line.hand_over(stability_csv(job, stability_table(job)));
 }
 
 // The body in 3-D takes the same options as far as they mean something to it.

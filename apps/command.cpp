@@ -4,6 +4,7 @@
 #include <fmt/ostream.h>
 
 #include "core/errors.h"
+#include "io/files.h"
 #include "manual.h"
 
 namespace walktrack {
@@ -153,6 +154,15 @@ std::string CommandLine::required_output() const {
     throw UsageError(fmt::format("--output is missing; see 'walktrack {} --help'", help_.name));
   }
   return common_.output;
+}
+
+void CommandLine::hand_over(const std::string& text) const {
+  if (common_.output.empty()) {
+    fmt::print("{}", text);
+  } else {
+    refuse_existing(common_.output, common_.overwrite);
+    write_file_atomically(common_.output, text);
+  }
 }
 
 }  // namespace walktrack

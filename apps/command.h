@@ -73,6 +73,8 @@ class CommandLine {
   ConfigWithOrigin config() const;
   // --output, or UsageError when it is missing.
   std::string required_output() const;
+  // Writes a result that is one text to --output, or prints it where that is missing.
+  void hand_over(const std::string& text) const;
 
  private:
   struct Operand {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "body/axes.h"
 #include "body/pose_from_joints.h"
 
 namespace walktrack {
@@ -31,22 +32,6 @@ bool has_arms(std::span<const JointPositions> joints) {
   return true;
 }
 
-Matrix3d frame(const Vector3d& up, const Vector3d& left) {
-  Matrix3d out;
-  out.col(2) = up.normalized();
-  out.col(1) = (left - out.col(2) * out.col(2).dot(left)).normalized();
-  out.col(0) = out.col(1).cross(out.col(2));
-  return out;
-}
-
-Matrix3d foot_frame(const Vector3d& forward, const Vector3d& left) {
-  Matrix3d out;
-  out.col(0) = forward.normalized();
-  out.col(1) = (left - out.col(0) * out.col(0).dot(left)).normalized();
-  out.col(2) = out.col(0).cross(out.col(1));
-  return out;
-}
-
 Vector3d top_of_trunk(const JointPositions& joints) {
   return known(joints[Joint::kNeck]) ? joints[Joint::kNeck] : joints[Joint::kHead];
 }
@@ -61,7 +46,7 @@ Vector3d left_of_trunk(const JointPositions& joints) {
 Matrix3d pelvis_frame(const JointPositions& joints) {
   const Vector3d left = (joints[Joint::kLeftHip] - joints[Joint::kRightHip]).normalized();
   const Vector3d up = top_of_trunk(joints) - joints[Joint::kPelvis];
-  return frame(up - left * left.dot(up), left);
+  return axes_with_z(up - left * left.dot(up), left);
 }
 
 struct ArmJoints {
@@ -78,10 +63,10 @@ Matrix3d link_axes(const JointPositions& joints, Segment segment) {
     return leg_hinge_axis(joints, side, pelvis_frame(joints).col(1));
   };
   const auto along = [&](Joint top, Joint bottom, const Vector3d& sideways) {
-    return frame(joints[top] - joints[bottom], sideways);
+    return axes_with_z(joints[top] - joints[bottom], sideways);
   };
   const auto foot = [&](Side side) {
-    return foot_frame(joints[toe(side)] - joints[ankle(side)], leg_axis(side));
+    return axes_with_x(joints[toe(side)] - joints[ankle(side)], leg_axis(side));
   };
   const Side side = segment == Segment::kLeftThigh || segment == Segment::kLeftShank ||
                             segment == Segment::kLeftFoot || segment == Segment::kLeftUpperArm ||
@@ -93,7 +78,7 @@ Matrix3d link_axes(const JointPositions& joints, Segment segment) {
     case Segment::kPelvis:
       return pelvis_frame(joints);
     case Segment::kTrunk:
-      return frame(top_of_trunk(joints) - joints[Joint::kPelvis], left_of_trunk(joints));
+      return axes_with_z(top_of_trunk(joints) - joints[Joint::kPelvis], left_of_trunk(joints));
     case Segment::kLeftThigh:
     case Segment::kRightThigh:
       return along(hip(side), knee(side), leg_axis(side));

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "body/axes.h"
 #include "body/pose_from_joints.h"
 #include "core/errors.h"
 
@@ -17,26 +18,14 @@ using Eigen::Vector3d;
 
 constexpr double kHingeWeight = 0.3;  // of the trunk's left against a bent elbow's own axis
 
-// Right-handed axes with z along `up` and y as near to `left` as that allows.
-Matrix3d axes(const Vector3d& up, const Vector3d& left) {
-  Matrix3d out;
-  out.col(2) = up.normalized();
-  out.col(1) = (left - out.col(2) * out.col(2).dot(left)).normalized();
-  out.col(0) = out.col(1).cross(out.col(2));
-  return out;
-}
-
 // Axes of a foot: x along the sole. The ball's height under the ankle is the body's, so the line
 // from ankle to ball is turned by the angle that it has to the sole.
 Matrix3d foot_axes(const Body& body, const Vector3d& ankle_to_ball, const Vector3d& left) {
   const double drop = body.lengths.ankle_height - body.lengths.ball_height;
   const double reach = ankle_to_ball.norm();
   const double below = std::asin(std::clamp(drop / reach, -1.0, 1.0));
-  Matrix3d line;
-  line.col(0) = ankle_to_ball / reach;
-  line.col(1) = (left - line.col(0) * line.col(0).dot(left)).normalized();
-  line.col(2) = line.col(0).cross(line.col(1));
-  return line * Eigen::AngleAxisd(-below, Vector3d::UnitY()).toRotationMatrix();
+  return axes_with_x(ankle_to_ball, left) *
+         Eigen::AngleAxisd(-below, Vector3d::UnitY()).toRotationMatrix();
 }
 
 struct LegSegments {
@@ -68,10 +57,11 @@ void set_leg(const Body& body, const JointPositions& joints, Side side, const Ve
              Skeleton& out) {
   const LegSegments s = leg_segments(side);
   const Vector3d hinge = leg_hinge_axis(joints, side, left);
-  axes_of(out, s.thigh) = axes(joints[hip(side)] - joints[knee(side)], hinge);
-  axes_of(out, s.shank) = axes(joints[knee(side)] - joints[ankle(side)], hinge);
+  axes_of(out, s.thigh) = axes_with_z(joints[hip(side)] - joints[knee(side)], hinge);
+  axes_of(out, s.shank) = axes_with_z(joints[knee(side)] - joints[ankle(side)], hinge);
   const Vector3d ball = joints[toe(side)] - joints[ankle(side)];
-  axes_of(out, s.foot) = known(ball) ? foot_axes(body, ball, hinge) : axes(Vector3d::UnitZ(), left);
+  axes_of(out, s.foot) =
+      known(ball) ? foot_axes(body, ball, hinge) : axes_with_z(Vector3d::UnitZ(), left);
 }
 
 bool set_arm(const JointPositions& joints, Side side, const Vector3d& left, Skeleton& out) {
@@ -82,8 +72,8 @@ bool set_arm(const JointPositions& joints, Side side, const Vector3d& left, Skel
   // Elbows flex forwards, about the right-pointing axis.
   const Vector3d bend = fore.normalized().cross(upper.normalized());
   const Vector3d hinge = bend + kHingeWeight * left;
-  axes_of(out, s.upper) = axes(upper, hinge);
-  axes_of(out, s.fore) = axes(fore, hinge);
+  axes_of(out, s.upper) = axes_with_z(upper, hinge);
+  axes_of(out, s.fore) = axes_with_z(fore, hinge);
   return true;
 }
 
@@ -173,7 +163,7 @@ std::optional<Skeleton> skeleton_from_joints(const Body& body, const JointPositi
   }
   const Vector3d spine = joints[Joint::kNeck] - out.joints[Joint::kPelvis];
   const Vector3d up = known(spine) ? spine : Vector3d(Vector3d::UnitZ());
-  axes_of(out, Segment::kTrunk) = axes(up, trunk_left(joints, left));
+  axes_of(out, Segment::kTrunk) = axes_with_z(up, trunk_left(joints, left));
   // The pelvis keeps its own left: the trunk's direction leans it, the hips list it.
   Matrix3d& pelvis = axes_of(out, Segment::kPelvis);
   pelvis.col(1) = left;

@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
-#include "camera/camera.h"
+#include "tests/camera/made_camera.h"
 
 namespace walktrack {
 
@@ -30,18 +28,9 @@ inline std::vector<SampleCamera> sample_lenses() {
 
 // 3.2 m above the ground, 6 m off the origin, looking at it; 640 x 480.
 inline Camera sample_camera(const SampleCamera& lens) {
-  Camera camera;
-  camera.width_px = 640;
-  camera.height_px = 480;
-  camera.focal_px = {520, 530};
-  camera.centre_px = {315, 245};
-  const Eigen::Vector3d centre(1.0, -6.0, 3.2);
-  const Eigen::Vector3d ahead = (Eigen::Vector3d(0.2, 0, 1) - centre).normalized();
-  const Eigen::Vector3d right = ahead.cross(Eigen::Vector3d::UnitZ()).normalized();
-  camera.rotation << right.transpose(), ahead.cross(right).transpose(), ahead.transpose();
-  camera.translation = -camera.rotation * centre;
-  set_distortion(camera, lens.coefficients, lens.fisheye);
-  return camera;
+  return looking_at(
+      walktrack::lens({640, 480}, {520, 530}, {315, 245}, lens.coefficients, lens.fisheye),
+      {1.0, -6.0, 3.2}, {0.2, 0, 1});
 }
 
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "io/calibration.h"
 #include "tests/camera/sample_cameras.h"
 #include "tests/io/sample_files.h"
+#include "tests/message_of.h"
 
 namespace walktrack {
 namespace {
@@ -35,15 +36,6 @@ const std::string kTsai =
     "\t<Intrinsic focal=\"5.5\" kappa1=\"5.0e-03\" cx=\"324.2\" cy=\"282.5\" sx=\"1.09\"/>\n"
     "\t<Extrinsic tx=\"800\" ty=\"-3000\" tz=\"35000\" rx=\"2.0\" ry=\"-0.9\" rz=\"-0.4\"/>\n"
     "</Camera>\n";
-
-std::string message_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no InputError";
-}
 
 TEST(TomlCalibration, FindsTheCameraByEitherName) {
   for (const char* name : {"cam_01", "left"}) {

@@ -5,6 +5,7 @@
 
 #include "core/errors.h"
 #include "io/parameters.h"
+#include "tests/message_of.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -12,20 +13,11 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string message_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "no UsageError";
-}
-
 std::string message_for_file(const std::string& content) {
   const TemporaryFolder folder;
   const std::string file = folder.write("c.yaml", content);
   ConfigWithOrigin config;
-  return message_of([&] { apply_config_file(config, file); });
+  return message_of<UsageError>([&] { apply_config_file(config, file); });
 }
 
 TEST(ConfigFile, NamesLineKeyFoundAndAllowed) {

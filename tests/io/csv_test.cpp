@@ -6,21 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "tests/message_of.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
 namespace {
 
 using testing::HasSubstr;
-
-std::string message_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no InputError";
-}
 
 TEST(Csv, ReadsCommentsBlanksAndLineEnds) {
   const CsvTable table = csv_from_text("# note\r\n\nt, x ,side\r\n0,1.5,l\n1,,r", "f.csv");

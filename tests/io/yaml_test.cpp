@@ -3,20 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "tests/message_of.h"
 
 namespace walktrack {
 namespace {
 
 YamlValue parse(const std::string& text) { return YamlValue::from_text(text, "f.yaml"); }
-
-std::string message_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no InputError";
-}
 
 TEST(Yaml, ReadsTypedValues) {
   const YamlValue root = parse("a: 1.5\nb: [1, 2]\nc: {d: word}\ne: 7\n");

@@ -15,6 +15,7 @@
 #include "core/errors.h"
 #include "io/calibration.h"
 #include "io/files.h"
+#include "tests/camera/made_camera.h"
 #include "tests/observation/board_film.h"
 #include "tests/run_program.h"
 
@@ -29,26 +30,14 @@ using testing::HasSubstr;
 
 constexpr Board kBoard{BoardKind::kChessboard, 8, 5, 0.04};
 
-Camera lens(std::span<const double> coefficients, bool fisheye) {
-  Camera camera;
-  camera.width_px = 480;
-  camera.height_px = 360;
-  camera.focal_px = {400, 404};
-  camera.centre_px = {244, 176};
-  set_distortion(camera, coefficients, fisheye);
-  return camera;
+Camera small_lens(std::span<const double> coefficients, bool fisheye) {
+  return lens({480, 360}, {400, 404}, {244, 176}, coefficients, fisheye);
 }
 
-Camera brown_lens() { return lens(std::array{-0.15, 0.03, 0.001, -0.001}, false); }
+Camera brown_lens() { return small_lens(std::array{-0.15, 0.03, 0.001, -0.001}, false); }
 
 // 2.6 m from the origin, looking down at it.
-Camera placed(Camera camera) {
-  const Vector3d at(0.4, -2.4, 1.0), ahead = (Vector3d(0.1, 0, 0) - at).normalized();
-  const Vector3d right = ahead.cross(Vector3d::UnitZ()).normalized();
-  camera.rotation << right.transpose(), ahead.cross(right).transpose(), ahead.transpose();
-  camera.translation = -camera.rotation * at;
-  return camera;
-}
+Camera placed(const Camera& camera) { return looking_at(camera, {0.4, -2.4, 1.0}, {0.1, 0, 0}); }
 
 // A board on the floor: x along its rows, z up.
 cv::Mat floor_picture(const BoardFilm& film, const Camera& camera, const Board& board) {
@@ -119,7 +108,7 @@ TEST_F(Calibrate, FindsTheLensThatTookTheViews) {
         LensCase{
             "rational", LensModel::kRational, {0.1, -0.05, 0.0005, 0.001, 0.01, 0.3, -0.02, 0}},
         LensCase{"fisheye", LensModel::kFisheye, {-0.02, 0.005, -0.002, 0.0005}}}) {
-    const Camera camera = lens(each.coefficients, each.model == LensModel::kFisheye);
+    const Camera camera = small_lens(each.coefficients, each.model == LensModel::kFisheye);
     CalibrateJob job = views_job(camera, board_poses(camera, kBoard));
     job.model = each.model;
     job.overwrite = true;
@@ -216,7 +205,7 @@ TEST_F(Calibrate, TooFewOrEqualViewsAreRefused) {
 }
 
 TEST_F(Calibrate, FacingViewsAreRefused) {
-  const Camera camera = lens({}, false);
+  const Camera camera = small_lens({}, false);
   std::vector<BoardPose> poses;
   for (const double u : {200.0, 240.0, 280.0})
     for (const double v : {160.0, 200.0})

@@ -14,6 +14,7 @@
 #include "io/video.h"
 #include "io/video_writer.h"
 #include "jobs/check_parts.h"
+#include "tests/camera/made_camera.h"
 #include "tests/io/sample_files.h"
 #include "tests/io/sample_video.h"
 
@@ -27,16 +28,7 @@ using testing::HasSubstr;
 
 // 64 x 48 px, at `centre`, looking at the middle of the room.
 Camera room_camera(const Vector3d& centre) {
-  Camera camera;
-  camera.width_px = 64;
-  camera.height_px = 48;
-  camera.focal_px = {60, 60};
-  camera.centre_px = {31.5, 23.5};
-  const Vector3d ahead = (Vector3d(0, 0, 0.9) - centre).normalized();
-  const Vector3d right = ahead.cross(Vector3d::UnitZ()).normalized();
-  camera.rotation << right.transpose(), ahead.cross(right).transpose(), ahead.transpose();
-  camera.translation = -camera.rotation * centre;
-  return camera;
+  return looking_at(lens({64, 48}, {60, 60}, {31.5, 23.5}), centre, {0, 0, 0.9});
 }
 
 // Three cameras about a room and their videos, then one fault.

@@ -15,6 +15,7 @@
 #include "core/rng.h"
 #include "jobs/evaluate.h"
 #include "synth/made_walk.h"
+#include "tests/body/changed_motion.h"
 
 namespace walktrack {
 namespace {
@@ -30,15 +31,9 @@ Motion true_walk() {
   return made_walk(make_body(Subject{}, {.head = true, .arms = false}), walk);
 }
 
-template <typename F>
-Motion with(Motion motion, F change) {
-  for (size_t i = 0; i < motion.joints.size(); ++i) change(motion.joints[i], i);
-  return motion;
-}
-
 Motion noisy(const Motion& motion, double sd, uint64_t seed) {
   Rng rng(seed, Purpose::kTest);
-  return with(motion, [&](JointPositions& joints, size_t) {
+  return changed(motion, [&](JointPositions& joints, size_t) {
     for (Vector3d& p : joints.at)
       for (double& x : p) x += sd * rng.normal();
   });
@@ -98,20 +93,6 @@ std::vector<std::string> left_bands(const std::map<std::string, double>& found) 
 
 Motion good() { return noisy(true_walk(), kNoise, 1); }
 
-void exchange(JointPositions& joints) {
-  for (const auto& of : {hip, knee, ankle, toe})
-    std::swap(joints[of(Side::kLeft)], joints[of(Side::kRight)]);
-}
-
-// The knee on the other side of the line from hip to ankle: flexion with the wrong sign.
-void flip_knees(JointPositions& joints) {
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const Vector3d line = (joints[ankle(side)] - joints[hip(side)]).normalized();
-    const Vector3d out = joints[knee(side)] - joints[hip(side)];
-    joints[knee(side)] = joints[hip(side)] + 2 * line * line.dot(out) - out;
-  }
-}
-
 TEST(PlantedFaults, GoodEstimatesStayInTheBands) {
   for (uint64_t seed = 1; seed <= 5; ++seed)
     EXPECT_THAT(left_bands(figures_of(noisy(true_walk(), kNoise, seed))), testing::IsEmpty());
@@ -122,10 +103,10 @@ TEST(PlantedFaults, EachLeavesABand) {
   const Vector3d start = base.joints[0][Joint::kPelvis];
   using Change = std::function<void(JointPositions&, size_t)>;
   const std::map<std::string, Change> faults{
-      {"legs exchanged", [](JointPositions& j, size_t) { exchange(j); }},
+      {"legs exchanged", [](JointPositions& j, size_t) { exchange_legs(j); }},
       {"legs exchanged for a second",
        [](JointPositions& j, size_t i) {
-         if (i >= 60 && i < 90) exchange(j);
+         if (i >= 60 && i < 90) exchange_legs(j);
        }},
       {"wrong sign of the knees' flexion", [](JointPositions& j, size_t) { flip_knees(j); }},
       {"one frame late", [&](JointPositions& j, size_t i) { j = base.joints[i == 0 ? 0 : i - 1]; }},
@@ -163,7 +144,7 @@ TEST(PlantedFaults, EachLeavesABand) {
        }},
   };
   for (const auto& [name, change] : faults)
-    EXPECT_THAT(left_bands(figures_of(with(base, change))), testing::Not(testing::IsEmpty()))
+    EXPECT_THAT(left_bands(figures_of(changed(base, change))), testing::Not(testing::IsEmpty()))
         << name;
 }
 

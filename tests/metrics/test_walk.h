@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "body/motion.h"
+#include "tests/body/changed_motion.h"
 
 namespace walktrack {
 
@@ -56,18 +57,6 @@ inline Motion walk_motion(const TestWalk& walk) {
     motion.joints.push_back(walk_joints(walk, motion.time.back()));
   }
   return motion;
-}
-
-// The same motion with f(joints, row) applied to each row.
-template <typename F>
-Motion changed(Motion motion, F f) {
-  for (size_t i = 0; i < motion.joints.size(); ++i) f(motion.joints[i], i);
-  return motion;
-}
-
-inline void exchange_sides(JointPositions& joints) {
-  for (const auto& of : {hip, knee, ankle, toe})
-    std::swap(joints[of(Side::kLeft)], joints[of(Side::kRight)]);
 }
 
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/conventions.h"
+#include "tests/camera/made_camera.h"
 #include "tests/observation/board_film.h"
 
 namespace walktrack {
@@ -13,14 +14,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-Camera lens() {
-  Camera camera;
-  camera.width_px = 480;
-  camera.height_px = 360;
-  camera.focal_px = {420, 425};
-  camera.centre_px = {243, 176};
-  set_distortion(camera, std::array{-0.1, 0.02, 0.001, -0.001});
-  return camera;
+Camera usual_lens() {
+  return lens({480, 360}, {420, 425}, {243, 176}, std::array{-0.1, 0.02, 0.001, -0.001});
 }
 
 constexpr Board kChess{BoardKind::kChessboard, 7, 5, 0.04};  // one end differs
@@ -51,7 +46,7 @@ double worst_miss(const Camera& camera, const BoardFilm& film, const Board& boar
 constexpr double kWorstCorner = 0.3;  // px
 
 TEST(Board, CornersAreFoundToAFractionOfAPixelInTheirOrder) {
-  const Camera camera = lens();
+  const Camera camera = usual_lens();
   const BoardFilm film(camera);
   for (const BoardPose& pose : board_poses(camera, kUneven))
     EXPECT_LT(worst_miss(camera, film, kUneven, pose), kWorstCorner);
@@ -60,7 +55,7 @@ TEST(Board, CornersAreFoundToAFractionOfAPixelInTheirOrder) {
 // The centre of a circle's picture is not the picture of its centre: at 40 px a circle and tilts of
 // 35 degrees they lie up to a quarter of a pixel apart.
 TEST(Board, CirclesAreFoundToAThirdOfAPixelInTheirOrder) {
-  const Camera camera = lens();
+  const Camera camera = usual_lens();
   const BoardFilm film(camera);
   int found = 0;
   for (const BoardPose& pose : board_poses(camera, kCircles)) {
@@ -73,7 +68,7 @@ TEST(Board, CirclesAreFoundToAThirdOfAPixelInTheirOrder) {
 }
 
 TEST(Board, AnUnevenChessboardKeepsItsOriginHoweverItLies) {
-  const Camera camera = lens();
+  const Camera camera = usual_lens();
   const BoardFilm film(camera);
   EXPECT_TRUE(has_one_origin(kUneven));
   EXPECT_FALSE(has_one_origin(kChess));
@@ -85,7 +80,7 @@ TEST(Board, AnUnevenChessboardKeepsItsOriginHoweverItLies) {
 }
 
 TEST(Board, ABoardThatIsCutIsNotFound) {
-  const Camera camera = lens();
+  const Camera camera = usual_lens();
   const BoardFilm film(camera);
   for (const Board& board : {kUneven, kCircles}) {
     const BoardPose whole = board_pose(camera, board, {240, 180}, 0.9, 0.2, 0.2, 0);
@@ -96,7 +91,7 @@ TEST(Board, ABoardThatIsCutIsNotFound) {
 }
 
 TEST(Board, AnotherSizeIsNotFoundNorOneInAnEmptyPicture) {
-  const Camera camera = lens();
+  const Camera camera = usual_lens();
   const BoardFilm film(camera);
   const BoardPose pose = board_pose(camera, kUneven, {240, 180}, 0.9, 0.2, 0.2, 0);
   Board other = kUneven;

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/rng.h"
+#include "tests/camera/made_camera.h"
 #include "tests/observation/board_film.h"
 
 namespace walktrack {
@@ -17,14 +18,8 @@ using Eigen::Vector3d;
 
 constexpr Board kBoard{BoardKind::kChessboard, 8, 5, 0.04};
 
-Camera lens(std::span<const double> coefficients, bool fisheye = false) {
-  Camera camera;
-  camera.width_px = 640;
-  camera.height_px = 480;
-  camera.focal_px = {510, 515};
-  camera.centre_px = {325, 236};
-  set_distortion(camera, coefficients, fisheye);
-  return camera;
+Camera usual_lens(std::span<const double> coefficients, bool fisheye = false) {
+  return lens({640, 480}, {510, 515}, {325, 236}, coefficients, fisheye);
 }
 
 PixelPoints seen(Camera camera, const BoardPose& pose) {
@@ -57,7 +52,7 @@ const Case kCases[] = {
 // Single precision of OpenCV's points (3e-5 px) is what is left of exact views.
 TEST(FitLens, ExactViewsGiveTheLensBackForEachModel) {
   for (const Case& each : kCases) {
-    const Camera camera = lens(each.coefficients, each.model == LensModel::kFisheye);
+    const Camera camera = usual_lens(each.coefficients, each.model == LensModel::kFisheye);
     const auto fit = fit_lens(kBoard, views_of(camera), 640, 480, each.model);
     ASSERT_TRUE(fit) << each.name;
     EXPECT_LT(fit->rms_px, 1e-2) << each.name;
@@ -73,7 +68,7 @@ TEST(FitLens, ExactViewsGiveTheLensBackForEachModel) {
 }
 
 TEST(FitLens, NoiseComesBackAsMissesAndAsTheFocalLengthsDeviation) {
-  const Camera camera = lens(kCases[1].coefficients);
+  const Camera camera = usual_lens(kCases[1].coefficients);
   constexpr double kNoise = 0.2;  // px
   Rng rng(1, Purpose::kTest);
   std::vector<PixelPoints> views = views_of(camera);
@@ -89,7 +84,7 @@ TEST(FitLens, NoiseComesBackAsMissesAndAsTheFocalLengthsDeviation) {
 }
 
 TEST(FitLens, FacingViewsShowInTheAngleBetweenBoardsOrTheDeviation) {
-  const Camera camera = lens({});
+  const Camera camera = usual_lens({});
   Rng rng(1, Purpose::kTest);
   std::vector<PixelPoints> views;
   for (const double u : {250.0, 320.0, 390.0, 300.0, 350.0}) {
@@ -113,7 +108,7 @@ TEST(FitPlace, ExactPointsGiveThePlaceBackForEachLens) {
   std::vector<Vector3d> solid = flat;
   solid.push_back({0.5, 0.5, 1.6});
   for (const Case& each : kCases) {
-    const Camera camera = placed(lens(each.coefficients, each.model == LensModel::kFisheye));
+    const Camera camera = placed(usual_lens(each.coefficients, each.model == LensModel::kFisheye));
     for (const auto& world : {flat, solid}) {
       PixelPoints pixels;
       for (const Vector3d& point : world) pixels.push_back(project(camera, point).value());
@@ -126,7 +121,7 @@ TEST(FitPlace, ExactPointsGiveThePlaceBackForEachLens) {
 }
 
 TEST(FitPlace, PointsThatDetermineNothingGiveNoPlaceOrABadOne) {
-  const Camera camera = placed(lens({}));
+  const Camera camera = placed(usual_lens({}));
   const std::vector<Vector3d> world(4, Vector3d(0, 1, 0));
   const auto fit = fit_place(camera, {{1, 1}, {600, 1}, {1, 400}, {600, 400}}, world);
   EXPECT_TRUE(!fit || fit->rms_px > 10);

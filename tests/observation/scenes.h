@@ -10,6 +10,7 @@
 #include "camera/camera.h"
 #include "core/conventions.h"
 #include "core/rng.h"
+#include "tests/camera/made_camera.h"
 
 namespace walktrack {
 
@@ -18,16 +19,9 @@ inline double draw(Rng& rng, double low, double high) { return low + (high - low
 // At `eye`, looking at `target`, z up.
 inline Camera camera_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double focal_px,
                         int width_px = 640, int height_px = 480) {
-  Camera camera;
-  camera.width_px = width_px;
-  camera.height_px = height_px;
-  camera.focal_px = {focal_px, focal_px};
-  camera.centre_px = {width_px / 2.0 - 0.5, height_px / 2.0 - 0.5};
-  const Eigen::Vector3d ahead = (target - eye).normalized();
-  const Eigen::Vector3d right = ahead.cross(Eigen::Vector3d::UnitZ()).normalized();
-  camera.rotation << right.transpose(), ahead.cross(right).transpose(), ahead.transpose();
-  camera.translation = -camera.rotation * eye;
-  return camera;
+  return looking_at(lens({width_px, height_px}, {focal_px, focal_px},
+                         {width_px / 2.0 - 0.5, height_px / 2.0 - 0.5}),
+                    eye, target);
 }
 
 inline Camera side_camera() { return camera_at({0, -6, 1.5}, {0, 0, 0.9}, 672); }

@@ -13,6 +13,7 @@
 
 #include "io/motion_file.h"
 #include "io/run_record.h"
+#include "tests/body/changed_motion.h"
 #include "tests/regression/compared.h"
 
 namespace walktrack {
@@ -40,20 +41,6 @@ Fault each_row(std::function<void(JointPositions&)> change) {
   return [change](SuiteResult& result) {
     for (JointPositions& joints : result.estimate.joints) change(joints);
   };
-}
-
-void exchange_legs(JointPositions& joints) {
-  for (const auto& of : {hip, knee, ankle, toe})
-    std::swap(joints[of(Side::kLeft)], joints[of(Side::kRight)]);
-}
-
-// The knee on the other side of the line from hip to ankle.
-void flip_knees(JointPositions& joints) {
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const Vector3d line = (joints[ankle(side)] - joints[hip(side)]).normalized();
-    const Vector3d out = joints[knee(side)] - joints[hip(side)];
-    joints[knee(side)] = joints[hip(side)] + 2 * line * line.dot(out) - out;
-  }
 }
 
 void delay_by_a_frame(SuiteResult& result) {

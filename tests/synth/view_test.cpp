@@ -10,6 +10,7 @@
 #include "body/kinematics.h"
 #include "core/conventions.h"
 #include "synth/sensor.h"
+#include "tests/camera/made_camera.h"
 
 namespace walktrack {
 namespace {
@@ -19,17 +20,11 @@ using Eigen::Vector3d;
 
 // A camera 4 m away on the y axis, 1 m up, looking along +y and a little down and aside.
 Camera test_camera(bool distorted) {
-  Camera camera;
-  camera.width_px = 640;
-  camera.height_px = 480;
-  camera.focal_px = {620, 615};
-  camera.centre_px = {322.3, 236.8};
-  const Vector3d eye(0.3, -4, 1), ahead = Vector3d(-0.1, 1, -0.05).normalized();
-  const Vector3d right = ahead.cross(Vector3d::UnitZ()).normalized();
-  camera.rotation << right.transpose(), ahead.cross(right).transpose(), ahead.transpose();
-  camera.translation = -camera.rotation * eye;
-  if (distorted) set_distortion(camera, std::array{-0.15, 0.05, 1e-3, -5e-4});
-  return camera;
+  const std::array bent{-0.15, 0.05, 1e-3, -5e-4};
+  const Vector3d eye(0.3, -4, 1);
+  return looking_at(lens({640, 480}, {620, 615}, {322.3, 236.8},
+                         distorted ? std::span<const double>(bent) : std::span<const double>()),
+                    eye, eye + Vector3d(-0.1, 1, -0.05));
 }
 
 World empty_world() { return make_world(Setting::kStudio, {0, 0}, 5, {}, 1); }

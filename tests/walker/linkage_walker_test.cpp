@@ -7,6 +7,7 @@
 #include "core/conventions.h"
 #include "tests/mechanics/random_state.h"
 #include "tests/simbody/tree.h"
+#include "tests/walker/goswami.h"
 #include "tests/walker/kneed_files.h"
 #include "walker/gait_cycle.h"
 #include "walker/kneed_advance.h"
@@ -374,14 +375,7 @@ TEST(LinkageWalker, ToeOffLeavesLightLegsTheirDigits) {
 // Limits by degeneration: latched knees, shank mass to zero and the thigh's mass at the leg's
 // centre give the straight-legged walker.
 TEST(LinkageWalker, LatchedKneesWithLightShanksAreGoswamisLegs) {
-  const StraightLeggedParameters straight{.gravity = 9.81,
-                                          .slope = rad_from_deg(3),
-                                          .hip_mass = 10,
-                                          .leg_mass = 5,
-                                          .leg_inertia = 0,
-                                          .hip_to_arc = 1,
-                                          .com_below_hip = .5,
-                                          .foot_radius = 0};
+  const StraightLeggedParameters straight = goswami();
   KneedParameters p;
   p.gravity = 9.81;
   p.slope = straight.slope;
@@ -407,14 +401,7 @@ TEST(LinkageWalker, LatchedKneesWithLightShanksAreGoswamisLegs) {
 }
 
 TEST(LinkageWalker, SmallFeetApproachPointFeet) {
-  StraightLeggedParameters p{.gravity = 9.81,
-                             .slope = rad_from_deg(3),
-                             .hip_mass = 10,
-                             .leg_mass = 5,
-                             .leg_inertia = 0,
-                             .hip_to_arc = 1,
-                             .com_below_hip = .5,
-                             .foot_radius = 0};
+  StraightLeggedParameters p = goswami();
   const VectorXd guess = Eigen::Vector4d(-.271028680, .271028680, 1.092383590, .377373949);
   std::vector<double> error;
   for (const double radius : {1e-3, 1e-4}) {

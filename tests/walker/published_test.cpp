@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/conventions.h"
+#include "tests/walker/goswami.h"
 #include "walker/gait_cycle.h"
 #include "walker/linkage_walker.h"
 #include "walker/models.h"
@@ -150,17 +151,6 @@ void expect_straight(const StraightRow& row) {
     EXPECT_NEAR(found.real(), row.multipliers[i].real(), 1e-3) << row.name;
     EXPECT_NEAR(std::abs(found.imag()), std::abs(row.multipliers[i].imag()), 1e-3) << row.name;
   }
-}
-
-StraightLeggedParameters goswami() {
-  return {.gravity = 9.81,
-          .slope = rad_from_deg(3),
-          .hip_mass = 10,
-          .leg_mass = 5,
-          .leg_inertia = 0,
-          .hip_to_arc = 1,
-          .com_below_hip = .5,
-          .foot_radius = 0};
 }
 
 TEST(Published, GoswamiCompassGait) {

@@ -1,0 +1,22 @@
+// What an error says.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/errors.h"
+
+namespace walktrack {
+
+// The message of the Error that the call throws; empty, which no test expects, when it throws none.
+template <typename Error = InputError>
+std::string message_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace walktrack
