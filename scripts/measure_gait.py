@@ -4,13 +4,15 @@ camera alone.
 
     scripts/measure_gait.py WALKTRACK OUT [--walks N] [--scenes FOLDER ...] [-- OPTIONS OF TRACK ...]
 
-Renders N walks (default 20) of 0.8 to 1.7 m/s by people of 1.58 to 1.88 m, tracks each twice and reads truth and
-estimate with the same eyes (`walktrack analyse`, `walktrack evaluate`). FOLDERs are rendered scenes of other
+Renders N walks (default 20) of 0.8 to 1.7 m/s by people of 1.58 to 1.88 m, in turn footprints that people make
+and gaits of the kneed walker, tracks each twice and reads truth and estimate with the same eyes (`walktrack
+analyse`, `walktrack evaluate`). FOLDERs are rendered scenes of other
 origin: scene.yaml, truth.csv and, for one camera, scene_one_camera.yaml. What OUT holds already is not done
 again. Prints a Markdown table; each walk's figures are in OUT/walks.csv. Standard library only.
 """
 import argparse
 import csv
+import itertools
 import json
 import math
 import pathlib
@@ -28,7 +30,7 @@ FIGURES = {  # column: (words, factor, unit, decimals)
     "hip_deg": ("hip, rms", 1, "°", 1),
     "swapped_percent": ("frames with legs exchanged", 1, "%", 0),
 }
-SIDE = "{name: side, azimuth_deg: -90, distance: 5.6, height: 1.2, focal_px: 620, size: [640, 480], distortion: [-0.08, 0.01]}"
+SIDE = "{name: side, azimuth_deg: -90, distance: 5.6, height: 1.2, focal_px: 620, size: [640, 480], distortion: [-0.08, 0.01, 0, 0]}"
 OTHERS = ("{name: front, azimuth_deg: -25, distance: 6.5, height: 1.8, focal_px: 680, size: [640, 480]}",
           "{name: back, azimuth_deg: 150, distance: 6.5, height: 1.8, focal_px: 680, size: [640, 480]}")
 
@@ -47,10 +49,12 @@ def walk_options(i, count):
     duration = min(3.6, 4.2 / speed)
     start = -speed * duration / 2
     heading = spread(0.618, -8, 8)
+    way = f"speed: {speed:.3f}, start: [{start:.2f}, {math.tan(math.radians(heading)) * start:.2f}], heading_deg: {heading:.1f}"
+    walk = f"gait: {{{way}}}" if i % 2 else f"walk: {{{way}, phase: {spread(0.414, 0, 1):.3f}}}"
     return f"""seed: {i + 1}
 frame_rate: 30
 duration: {duration:.2f}
-walk: {{speed: {speed:.3f}, start: [{start:.2f}, {-math.tan(math.radians(heading)) * -start:.2f}], heading_deg: {heading:.1f}, phase: {spread(0.414, 0, 1):.3f}}}
+{walk}
 subject: {{height: {spread(0.236, 1.58, 1.88):.3f}, mass: 70, clothes: {i}}}
 setting: {("room", "field", "studio")[i % 3]}
 sensor: {{noise: 0.008, flicker: 0.005}}
@@ -164,8 +168,9 @@ def main():
     arguments = parser.parse_args(words)
     walktrack, rows = arguments.walktrack.resolve(), []
     given = [("given", folder) for folder in arguments.scenes]
-    made = (("made", folder) for folder in make_scenes(walktrack, arguments.out, arguments.walks))
-    for kind, folder in [*given, *made]:
+    made = (("gaits" if i % 2 else "footprints", folder)
+            for i, folder in enumerate(make_scenes(walktrack, arguments.out, arguments.walks)))
+    for kind, folder in itertools.chain(given, made):
         for cameras, scene in (("all cameras", "scene.yaml"), ("side camera", "scene_one_camera.yaml")):
             result = arguments.out / "results" / folder.name / pathlib.Path(scene).stem
             figures = measure(walktrack, folder, folder / scene, result, options)

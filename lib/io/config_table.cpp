@@ -141,6 +141,7 @@ void add_track(ParameterTable& table) {
   using K = KineticsConfig;
   ParameterGroup<K> k(table, "kinetics", "the forces behind the motion", &Config::kinetics);
   k.number("cutoff_hz", &K::cutoff_hz, 0, 100, "joint centres are smoothed below it, Hz; 0: not");
+  k.number("tracked_cutoff_hz", &K::tracked_cutoff_hz, 0, 100, "the same of tracked ones");
   using G = GateConfig;
   ParameterGroup<G> g(table, "gates", "when a result is not good enough", &Config::gates);
   g.number("lost_share", &G::lost_share, 0, 1, "of the frames after the walker was found");

@@ -239,8 +239,9 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   const auto writing = Clock::now();
   const AnalysedMotion analysed = analysed_motion(run.frames, job.scene);
   const JointUncertainty uncertainty = uncertainty_of(run.frames);
-  const WrittenTables tables =
-      write_tables(analysed, uncertainty, job.config.values.kinetics, folder);
+  KineticsConfig forces = job.config.values.kinetics;
+  forces.cutoff_hz = forces.tracked_cutoff_hz;
+  const WrittenTables tables = write_tables(analysed, uncertainty, forces, folder);
   std::vector<ReportClip> clips;
   if (job.overlay && outcome.frames > 0) clips = write_overlays(job, run.frames, folder, control);
   run.watch.add("output", writing);

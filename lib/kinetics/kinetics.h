@@ -28,6 +28,9 @@ namespace walktrack {
 struct KineticsConfig {
   // Of the smoothing; walking has 99 % of its power below 6 Hz (Winter 2009, section 3.4.3).
   double cutoff_hz = 6;  // 0: none
+  // What `walktrack track` takes for it: just above the step frequency (people: 1.4 to 2.2 Hz), as
+  // tracked joints differentiated twice are mostly noise beyond. README.md has the measurement.
+  double tracked_cutoff_hz = 3;
 };
 
 struct LegLoads {

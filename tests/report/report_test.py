@@ -201,12 +201,22 @@ class Report(unittest.TestCase):
             count, state = re.fullmatch(r"(\d+)(\w+)", tile).groups()
             self.assertEqual(int(count), states.count(state))
         self.sorts()
+        self.fits_on_paper()
         self.small_and_on_paper("batch", (1, 2))
         self.check_quiet(out / "batch.html")
         for row, link in zip(table, self.browser.value("[...document.querySelectorAll('tbody a')].map((a) => a.href)")):
             path = pathlib.Path(urllib.parse.unquote(urllib.parse.urlparse(link).path))
             self.assertEqual(path.exists(), True, link)
             self.assertEqual(path.name == "report.html", row["state"] != "failed", link)
+
+    def fits_on_paper(self):
+        """On A4 across without its margins, 269 mm, no column is cut off."""
+        self.browser.size(1017, 700)
+        self.browser.send("Emulation.setEmulatedMedia", media="print")
+        widths = self.browser.value("['scrollWidth', 'clientWidth'].map((name) => document.querySelector('.scroll')[name])")
+        self.browser.send("Emulation.setEmulatedMedia", media="")
+        self.browser.size(1200, 900)
+        self.assertLessEqual(widths[0], widths[1])
 
     def sorts(self):
         """By name down and up again with the keyboard."""
