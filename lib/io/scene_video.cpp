@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <opencv2/core.hpp>
 
 #include "core/errors.h"
 
@@ -14,6 +15,16 @@ namespace {
 
 // Rates that differ by less drift by less than half a frame in an hour at 60 Hz.
 constexpr double kSameRate = 2e-6;
+// Stamps of a file whose own rate differs by more from the stated one are a guess like that rate.
+constexpr double kStampsBelieved = 0.1;
+
+// How many frames' times a source has gone on with its last frame: 1, more after dropped frames. A
+// stamp that stands still takes back one that came too early; the last frames of a file may have
+// none (0).
+int frames_passed(double stamp, double before, double rate) {
+  if (!std::isfinite(stamp) || stamp <= 0 || stamp < before) return 1;
+  return static_cast<int>(std::lround((stamp - before) * rate));
+}
 
 }  // namespace
 
@@ -35,6 +46,7 @@ SceneVideo::SceneVideo(const Scene& scene)
     rates_.push_back(scene.cameras[i].frame_rate.value_or(own > 0 ? own : rate_));
     if (std::abs(rates_[i] / rate_ - 1) < kSameRate) rates_[i] = rate_;
   }
+  ahead_.resize(sources_.size());
   if (frame_count() < 0) {
     throw InputError(describe({scene.file.string(), 0, "first_frame"}, std::to_string(first_frame_),
                               "a frame before the videos' end"));
@@ -60,14 +72,35 @@ int SceneVideo::frame_count() const {
   return frames > 0 ? frames : -1;
 }
 
-bool SceneVideo::advance(size_t camera, SceneFrames& frames) {
+bool SceneVideo::read_ahead(size_t camera) {
   FrameSource& source = sources_[camera];
+  Ahead& ahead = ahead_[camera];
+  if (!source.read(ahead.image)) {
+    trouble_ = source.trouble();
+    return false;
+  }
+  const double rate = rates_[camera], stamp = source.time();
+  const bool believed = std::abs(source.facts().frame_rate / rate - 1) <= kStampsBelieved;
+  const bool first = ahead.number < 0;
+  ahead.number += first || !believed ? 1 : frames_passed(stamp, ahead.stamp, rate);
+  if (first || stamp > ahead.stamp) ahead.stamp = stamp;
+  ahead.waits = true;
+  return true;
+}
+
+bool SceneVideo::advance(size_t camera, SceneFrames& frames) {
+  Ahead& ahead = ahead_[camera];
   const int wanted = camera_frame(camera, next_frame_);
-  frames.fresh[camera] = wanted >= source.next_frame();
-  if (!frames.fresh[camera]) return true;
-  const bool ok = source.skip(wanted - source.next_frame()) && source.read(frames.images[camera]);
-  if (!ok) trouble_ = source.trouble();
-  return ok;
+  frames.fresh[camera] = false;
+  for (;;) {
+    if (ahead.waits && ahead.number <= wanted) {
+      cv::swap(frames.images[camera], ahead.image);
+      frames.fresh[camera] = true;
+      ahead.waits = false;
+    }
+    if (ahead.number >= wanted) return true;
+    if (!read_ahead(camera)) return false;
+  }
 }
 
 bool SceneVideo::read(SceneFrames& frames) {

@@ -3,7 +3,8 @@
 // Scene frame n (n = first_frame, first_frame + 1, ...) is at time (n - first_frame) / rate. A
 // camera shows its frame start_frame + round(n * camera_rate / rate) then: cameras of other rates
 // are met at their nearest frame, and a slow one shows the same frame several times, of which only
-// the first is fresh.
+// the first is fresh. So does one that has dropped frames: a container's time stamps tell where,
+// and the frames after the gap keep their time.
 #pragma once
 
 #include <string>
@@ -42,8 +43,18 @@ class SceneVideo {
  private:
   int camera_frame(size_t camera, int scene_frame) const;
   bool advance(size_t camera, SceneFrames& frames);
+  bool read_ahead(size_t camera);
+
+  // The newest frame of a source, which may be too early to show.
+  struct Ahead {
+    int number = -1;   // at the camera's rate, counting those that were dropped
+    double stamp = 0;  // s
+    bool waits = false;
+    cv::Mat image;
+  };
 
   std::vector<FrameSource> sources_;
+  std::vector<Ahead> ahead_;
   std::vector<int> start_frames_;
   std::vector<double> rates_;  // Hz, of each camera
   double rate_ = 0;

@@ -45,21 +45,54 @@ bool check_size(const SceneCamera& camera, const VideoFacts& video, CheckReport&
   return false;
 }
 
-void check_rate(const Scene& scene, const SceneCamera& camera, const VideoFacts& video,
+// A container's rate is that of the frames it holds; `dropped` ones belong to the camera's.
+void check_rate(const Scene& scene, const SceneCamera& camera, const VideoFacts& video, int dropped,
                 double scene_rate, CheckReport& report) {
   if (video.frame_rate == 0) return;
+  const double held = std::max(1, video.frame_count);
+  const double rate = video.frame_rate * (held + dropped) / held;
   const double stated = camera.frame_rate.value_or(scene_rate);
-  if (std::abs(video.frame_rate / stated - 1) <= kRateTolerance) return;
+  if (std::abs(rate / stated - 1) <= kRateTolerance) return;
   report.findings.push_back(
       {camera.name, true,
-       fmt::format("the video says {:g} Hz, the scene {:g} Hz{}", video.frame_rate, stated,
+       fmt::format("the video says {:g} Hz, the scene {:g} Hz{}", rate, stated,
                    scene.frame_rate || camera.frame_rate ? "" : " (of its first camera)"),
-       fmt::format("set frame_rate: {:g} for this camera, or convert the video",
-                   video.frame_rate)});
+       fmt::format("set frame_rate: {:g} for this camera, or convert the video", rate)});
 }
 
-// Steps between time stamps that differ from their median.
-void check_stamps(const SceneCamera& camera, FrameSource& source, CheckReport& report) {
+// A rate that varies, and frames that were dropped: steps between time stamps that differ from
+// their median, or are several of it. Hands back how many frames were dropped.
+int check_steps_between_frames(const SceneCamera& camera, const std::vector<double>& steps,
+                               CheckReport& report) {
+  std::vector<double> sorted = steps;
+  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2),
+                   sorted.end());
+  const double median = sorted[sorted.size() / 2];
+  int uneven = 0, missing = 0;
+  for (const double step : steps) {
+    const double whole = std::max(1.0, std::round(step / median));
+    if (std::abs(step - whole * median) > kUneven * median) {
+      ++uneven;
+    } else {
+      missing += static_cast<int>(whole) - 1;
+    }
+  }
+  if (missing > 0) {
+    report.findings.push_back({camera.name, false, fmt::format("{} frames were dropped", missing),
+                               "tracking goes on without them; the others keep their time"});
+  }
+  const double allowed = std::max(kFewUneven, kUnevenShare * static_cast<double>(steps.size()));
+  if (uneven <= allowed) return missing;
+  report.findings.push_back(
+      {camera.name, true,
+       fmt::format("the frame rate varies: {} of {} steps between frames are uneven", uneven,
+                   steps.size()),
+       "convert to a constant rate, e.g. ffmpeg -i in.mp4 -vf fps=30 out.mp4"});
+  return missing;
+}
+
+// The number of dropped frames among those whose stamps are looked at.
+int check_stamps(const SceneCamera& camera, FrameSource& source, CheckReport& report) {
   std::vector<double> steps;
   cv::Mat frame;
   double last = NAN;
@@ -72,21 +105,7 @@ void check_stamps(const SceneCamera& camera, FrameSource& source, CheckReport& r
     report.findings.push_back(
         {camera.name, true, source.trouble(), "copy or convert the file again"});
   }
-  if (steps.size() < 3) return;
-  std::vector<double> sorted = steps;
-  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2),
-                   sorted.end());
-  const double median = sorted[sorted.size() / 2];
-  const auto uneven = std::count_if(steps.begin(), steps.end(), [&](double step) {
-    return std::abs(step - median) > kUneven * median;
-  });
-  const double allowed = std::max(kFewUneven, kUnevenShare * static_cast<double>(steps.size()));
-  if (static_cast<double>(uneven) <= allowed) return;
-  report.findings.push_back(
-      {camera.name, true,
-       fmt::format("the frame rate varies: {} of {} steps between frames are uneven", uneven,
-                   steps.size()),
-       "convert to a constant rate, e.g. ffmpeg -i in.mp4 -vf fps=30 out.mp4"});
+  return steps.size() < 3 ? 0 : check_steps_between_frames(camera, steps, report);
 }
 
 void check_lengths(const Scene& scene, CheckReport& report, double scene_rate) {
@@ -128,8 +147,8 @@ bool check_videos(const Scene& scene, const JobControl& control, CheckReport& re
           {"", true, "no frame rate: the frames are images", "state frame_rate in the scene"});
       return false;
     }
-    check_rate(scene, camera, video, scene_rate, report);
-    check_stamps(camera, source, report);
+    const int dropped = check_stamps(camera, source, report);
+    check_rate(scene, camera, video, dropped, scene_rate, report);
   }
   check_lengths(scene, report, scene_rate);
   return sizes_fit;

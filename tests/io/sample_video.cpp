@@ -2,9 +2,12 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
 
 #include "io/video_writer.h"
 
@@ -26,6 +29,59 @@ void write_sample_video(const std::string& path, int frames) {
   VideoWriter writer(path, {64, 48}, 25);
   for (int i = 0; i < frames; ++i) writer.write(sample_frame(i));
   writer.close();
+}
+
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string big_endian(size_t value) {
+  std::string out;
+  for (const int shift : {24, 16, 8, 0}) out += static_cast<char>((value >> shift) & 0xff);
+  return out;
+}
+
+size_t number_at(const std::string& bytes, size_t at) {
+  size_t out = 0;
+  for (size_t i = 0; i < 4; ++i) out = out << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return out;
+}
+
+}  // namespace
+
+// An MP4 file lists how long its frames last (ISO 14496-12, stts); the list is replaced. The
+// encoder has no frames out of order, and writes the lists behind the frames.
+void write_uneven_video(const std::string& path, const std::vector<double>& durations) {
+  cv::VideoWriter writer(path, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), 25,
+                         {64, 48});
+  for (size_t i = 0; i < durations.size(); ++i) writer.write(sample_frame(static_cast<int>(i)));
+  writer.release();
+  std::string bytes = bytes_of(path);
+  const size_t list = bytes.find("stts");
+  const size_t usual = number_at(bytes, list + 16), old_size = number_at(bytes, list - 4);
+  std::string entries = big_endian(0) + big_endian(durations.size());
+  for (const double duration : durations)
+    entries += big_endian(1) + big_endian(static_cast<size_t>(duration * double(usual)));
+  const size_t size = 8 + entries.size();
+  bytes.replace(list - 4, old_size, big_endian(size) + "stts" + entries);
+  for (const char* box : {"moov", "trak", "mdia", "minf", "stbl"}) {
+    const size_t at = bytes.find(box) - 4;
+    bytes.replace(at, 4, big_endian(number_at(bytes, at) + size - old_size));
+  }
+  bytes.replace(bytes.find("edts"), 4, "free");  // which would end the film where it ended before
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+// Phones write the sensor's pixels and a turn in the track header (tkhd, matrix).
+void turn_video_by_90_degrees(const std::string& path) {
+  std::string bytes = bytes_of(path);
+  const size_t matrix = bytes.find("tkhd") + 44;
+  const std::string turn{"\0\0\0\0\0\1\0\0\0\0\0\0\xff\xff\0\0\0\0\0\0\0\0\0\0\0\x30\0\0", 28};
+  bytes.replace(matrix, turn.size(), turn);
+  std::ofstream(path, std::ios::binary) << bytes;
 }
 
 void write_sample_images(const std::string& folder, const std::vector<int>& numbers) {

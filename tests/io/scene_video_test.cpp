@@ -92,6 +92,29 @@ TEST_F(SceneVideoTest, AFasterCameraSkipsFrames) {
   EXPECT_FALSE(video.read(frames_));
 }
 
+// Camera b drops two frames after its fifth.
+TEST_F(SceneVideoTest, FramesAfterDroppedOnesKeepTheirTime) {
+  std::vector<double> durations(20, 1);
+  durations[4] = 3;
+  write_uneven_video(folder_ / "b.mp4", durations);
+  SceneVideo video = open(", start_frame: 0", "", "frame_rate: 25\n");
+  const std::vector<int> shown{0, 1, 2, 3, 4, 4, 4, 5, 6, 7, 8, 9};
+  for (size_t i = 0; i < shown.size(); ++i) {
+    ASSERT_TRUE(video.read(frames_));
+    EXPECT_EQ(shown_number(frames_.images[0]), static_cast<int>(i));
+    EXPECT_EQ(shown_number(frames_.images[1]), shown[i]) << i;
+    EXPECT_EQ(frames_.fresh[1] != 0, i == 0 || shown[i] != shown[i - 1]) << i;
+  }
+}
+
+TEST_F(SceneVideoTest, StampsOfAFileThatIsWrongAboutItsRateDoNotCount) {
+  SceneVideo video = open(", frame_rate: 50", ", frame_rate: 50", "frame_rate: 50\n");
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(video.read(frames_));
+    EXPECT_EQ(shown_number(frames_.images[1]), i);
+  }
+}
+
 TEST_F(SceneVideoTest, NeedsARateForImages) {
   write_sample_images(folder_ / "frames", {0, 1, 2});
   const std::string scene =

@@ -159,15 +159,6 @@ TEST(FrameSource, NoticesATruncatedVideo) {
   EXPECT_THAT(source.trouble(), HasSubstr("of 40 cannot be decoded"));
 }
 
-// Phones write the sensor's pixels and a turn in the track header (ISO 14496-12, tkhd matrix).
-void turn_by_90_degrees(const std::string& file) {
-  std::string bytes = read_file(file);
-  const size_t matrix = bytes.find("tkhd") + 44;
-  const std::string turn{"\0\0\0\0\0\1\0\0\0\0\0\0\xff\xff\0\0\0\0\0\0\0\0\0\0\0\x30\0\0", 28};
-  bytes.replace(matrix, turn.size(), turn);
-  std::ofstream(file, std::ios::binary) << bytes;
-}
-
 TEST(FrameSource, TurnsPhoneVideoUprightUnlessTheCalibrationIsRaw) {
   const TemporaryFolder folder;
   const std::string file = folder / "v.mp4";
@@ -178,7 +169,7 @@ TEST(FrameSource, TurnsPhoneVideoUprightUnlessTheCalibrationIsRaw) {
     for (int i = 0; i < 3; ++i) writer.write(left_half_white);
     writer.close();
   }
-  turn_by_90_degrees(file);
+  turn_video_by_90_degrees(file);
   cv::Mat frame;
   FrameSource upright(file, cv::Size(48, 64));
   EXPECT_EQ(upright.facts().rotation_deg, 90);

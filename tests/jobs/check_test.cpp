@@ -14,6 +14,8 @@
 #include "io/video.h"
 #include "io/video_writer.h"
 #include "jobs/check_parts.h"
+#include "jobs/render.h"
+#include "synth/made_walk.h"
 #include "tests/camera/made_camera.h"
 #include "tests/io/sample_files.h"
 #include "tests/io/sample_video.h"
@@ -187,6 +189,38 @@ TEST_F(CheckTest, FindsUnequalRatesAndLengths) {
   EXPECT_FALSE(check("last_frame: 19\n").failed());
 }
 
+// The findings about a camera that are no failures.
+std::vector<std::string> notes(const CheckReport& report, const std::string& camera) {
+  std::vector<std::string> out;
+  for (const Finding& finding : report.findings)
+    if (!finding.failure && finding.camera == camera) out.push_back(finding.what);
+  return out;
+}
+
+TEST_F(CheckTest, FindsAVaryingFrameRateAndDroppedFrames) {
+  std::vector<double> durations(30, 1);
+  for (size_t i = 0; i < 10; ++i) durations[2 * i + 3] = i % 2 == 0 ? 1.5 : 0.5;
+  write_uneven_video(folder_ / "c1.mp4", durations);
+  const Finding finding = only_failure(check());
+  EXPECT_EQ(finding.camera, "c1");
+  EXPECT_THAT(finding.what, HasSubstr("the frame rate varies"));
+  EXPECT_THAT(finding.cure, HasSubstr("convert to a constant rate"));
+  durations.assign(30, 1);
+  durations[5] = 3;
+  write_uneven_video(folder_ / "c1.mp4", durations);
+  const CheckReport report = check();
+  EXPECT_FALSE(report.failed()) << check_text(report);
+  EXPECT_THAT(notes(report, "c1"), testing::ElementsAre("2 frames were dropped"));
+}
+
+TEST_F(CheckTest, SaysThatAPhonesFramesAreTurned) {
+  turn_video_by_90_degrees(folder_ / "c1.mp4");
+  const CheckReport raw = check();  // the calibration is of frames as they are stored
+  EXPECT_FALSE(raw.failed()) << check_text(raw);
+  ASSERT_EQ(notes(raw, "c1").size(), 1u) << check_text(raw);
+  EXPECT_THAT(notes(raw, "c1")[0], HasSubstr("turned by 90 degrees; frames are used as stored"));
+}
+
 TEST_F(CheckTest, DrawsAPictureOfEveryCamera) {
   job_.pictures = folder_.path() / "pictures";
   check();
@@ -233,6 +267,40 @@ TEST_F(CheckTest, FindsTheCameraThatIsOutOfStep) {
       }
     }
   }
+}
+
+// From the films to the cure: four cameras about a walk, one of which began three frames early.
+TEST_F(CheckTest, NamesTheStartFrameThatPutsCamerasInStep) {
+  RenderJob job;
+  MadeWalk walk;
+  walk.from = -0.2;
+  walk.to = 3;
+  walk.turn_rate = 0.3;
+  job.walker.motion = made_walk(make_body(Subject{}, {.head = true, .arms = false}), walk);
+  job.options.duration = 2.8;
+  job.options.background_frames = 0;
+  job.output = folder_.path() / "walk";
+  for (int i = 0; i < 4; ++i) {
+    RenderCamera camera;
+    camera.name = file_name(static_cast<size_t>(i), "");
+    camera.width_px = 320;
+    camera.height_px = 240;
+    camera.azimuth = -1.8 + 1.4 * i;
+    camera.height = 1.5 + 0.3 * i;
+    camera.start_frame = i == 2 ? 3 : 0;
+    job.options.cameras.push_back(camera);
+  }
+  render_scene(job, {});
+  job_.scene = (job.output / "scene.yaml").string();
+  const CheckReport in_step = check_scene(job_, {});
+  EXPECT_FALSE(in_step.failed()) << check_text(in_step);
+  std::string scene = read_file(job.output / "scene.yaml");
+  const std::string said = ", start_frame: 3";
+  scene.replace(scene.find(said), said.size(), "");
+  job_.scene = folder_.write("walk/scene.yaml", scene);
+  const Finding finding = only_failure(check_scene(job_, {}));
+  EXPECT_THAT(finding.what, HasSubstr("out of step"));
+  EXPECT_THAT(finding.cure, testing::StartsWith("start_frame: 3 for c2"));
 }
 
 TEST_F(CheckTest, SaysNothingAboutStepsWithoutAFigure) {
