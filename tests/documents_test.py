@@ -48,11 +48,11 @@ def main():
     walktrack, source, quick = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), "--quick" in sys.argv
     shared = source.parent / "shared"
     failures = [problem for name in DOCUMENTS for problem in broken_links(source / name)]
+    print("\n".join(failures), flush=True)
     passed = 0
     with tempfile.TemporaryDirectory() as temporary:
         tree = pathlib.Path(temporary) / "walktrack"
         shutil.copytree(source, tree, ignore=shutil.ignore_patterns("build", "out", ".git"))
-        (tree / "out").mkdir()
         if shared.exists():
             (tree.parent / "shared").symlink_to(shared)
         (tree / "bin").mkdir()
@@ -61,13 +61,16 @@ def main():
             (tree / place / "walktrack").symlink_to(walktrack)
         environment = os.environ | {"PATH": f"{tree / 'bin'}:{os.environ['PATH']}"}
         for name in DOCUMENTS:
+            # Readers of one document have not read the others: nothing is there to be overwritten.
+            shutil.rmtree(tree / "out", ignore_errors=True)
+            (tree / "out").mkdir()
             for line, command in commands(source / name, quick, shared):
                 result = subprocess.run(["bash", "-c", command], cwd=tree, env=environment, capture_output=True, text=True, check=False)
                 if result.returncode in (0, 4):
                     passed += 1
                 else:
                     failures.append(f"{name}:{line}: {command}\n  exit {result.returncode}: {result.stderr[-400:]}")
-    print("\n".join(failures))
+                    print(failures[-1], flush=True)
     print(f"{passed} passed, {len(failures)} failed")
     sys.exit(1 if failures or passed == 0 else 0)
 
