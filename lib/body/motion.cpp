@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "body/subject.h"
 #include "core/errors.h"
 
 namespace walktrack {
@@ -76,6 +77,22 @@ Motion resampled(const Motion& motion, std::span<const double> times, double lon
           between(motion, static_cast<Joint>(joint), j - 1, s);
   }
   return out;
+}
+
+double stature_of(const Motion& motion) {
+  const BodyLengths unit = body_lengths({.height = 1, .mass = 1, .lengths = {}});
+  double sum = 0;
+  size_t count = 0;
+  for (const JointPositions& joints : motion.joints) {
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const double length = (joints[hip(side)] - joints[knee(side)]).norm() +
+                            (joints[knee(side)] - joints[ankle(side)]).norm();
+      if (!std::isfinite(length)) continue;
+      sum += length / (unit.thigh + unit.shank);
+      ++count;
+    }
+  }
+  return count > 0 && sum > 0 ? sum / static_cast<double>(count) : Subject{}.height;
 }
 
 }  // namespace walktrack

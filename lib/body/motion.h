@@ -24,6 +24,10 @@ JointPositions unknown_joints();
 // Median time between rows, s. Throws InputError for fewer than two rows.
 double sample_period(const Motion& motion);
 
+// The stature whose thighs and shanks are as long as the motion's; the default subject's if none is
+// known. Metres.
+double stature_of(const Motion& motion);
+
 // The motion at other times (increasing): each joint by the cubic through its two known neighbours
 // with slopes of central differences (Catmull & Rom 1974), by the line through them where a slope
 // is unknown. A row of the motion at one of the times comes through unchanged. Unknown outside the

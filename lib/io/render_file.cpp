@@ -128,6 +128,11 @@ void read_looks(const YamlValue& value, FilmedWalker& walker) {
   if (value.has("shift")) walker.shift = Eigen::Vector2d(value.at("shift").numbers(2).data());
 }
 
+// Of a walk that is made for the walker.
+double walked_height(const FilmedWalker& walker) {
+  return walker.height.value_or(Subject{}.height);
+}
+
 // A walk over the scene's duration and a little more, for shutters that open before a frame's time.
 Motion read_walk(const YamlValue& value, double height, double duration) {
   value.only_keys(
@@ -171,7 +176,7 @@ FilmedWalker read_other(const YamlValue& value, const fs::path& folder, double d
   FilmedWalker walker;
   walker.clothes = 1;
   read_looks(value, walker);
-  walker.motion = value.has("walk") ? read_walk(value.at("walk"), walker.height, duration)
+  walker.motion = value.has("walk") ? read_walk(value.at("walk"), walked_height(walker), duration)
                                     : read_motion(resolved(folder, value.at("motion").text()));
   return walker;
 }
@@ -205,7 +210,7 @@ RenderFile read_render_file(const fs::path& path) {
   }
   const double duration = options.duration.value_or(kDefaultWalkDuration);
   if (file.has("walk")) {
-    out.subject.motion = read_walk(file.at("walk"), out.subject.height, duration);
+    out.subject.motion = read_walk(file.at("walk"), walked_height(out.subject), duration);
     options.duration = duration;
   }
   if (file.has("gait")) {

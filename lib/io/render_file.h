@@ -10,7 +10,7 @@
 //   gait: {speed: 1.3, step_length: 0.7, start: [0, 0], heading_deg: 0, speed_at: [[2, 1.6]]}
 //                                # or this: the kneed walker by the table of gaits, truth with
 //                                forces
-//   subject: {height: 1.75, mass: 70, clothes: 0, arms: true}
+//   subject: {height: 1.75, mass: 70, clothes: 0, arms: true}   # height: else as the legs have it
 //   cameras:
 //     - {name: side, azimuth_deg: -90, distance: 5, height: 1.2, size: [640, 480], focal_px: 600,
 //        distortion: [-0.1, 0.02]}

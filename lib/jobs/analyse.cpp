@@ -22,23 +22,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr size_t kMaxMotionBytes = size_t{1} << 30;
 
-// The stature whose thighs and shanks are as long as the motion's; the default's if none is known.
-double stature_of(const Motion& motion) {
-  const BodyLengths unit = body_lengths({.height = 1, .mass = 1, .lengths = {}});
-  double sum = 0;
-  size_t count = 0;
-  for (const JointPositions& joints : motion.joints) {
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-      const double length = (joints[hip(side)] - joints[knee(side)]).norm() +
-                            (joints[knee(side)] - joints[ankle(side)]).norm();
-      if (!std::isfinite(length)) continue;
-      sum += length / (unit.thigh + unit.shank);
-      ++count;
-    }
-  }
-  return count > 0 && sum > 0 ? sum / static_cast<double>(count) : Subject{}.height;
-}
-
 size_t whole_frames(const Motion& motion) {
   return static_cast<size_t>(
       std::count_if(motion.joints.begin(), motion.joints.end(), [](const JointPositions& joints) {

@@ -43,7 +43,7 @@ struct Filming {
 
 Subject subject_of(const FilmedWalker& walker) {
   Subject subject;
-  subject.height = walker.height;
+  subject.height = height_of(walker);
   subject.mass = walker.mass;
   return subject;
 }
@@ -181,7 +181,7 @@ std::string scene_yaml(const RenderJob& job, const std::vector<Filming>& cameras
     out += "}\n";
   }
   out += fmt::format("frame_rate: {}\n", shortest_number(job.options.frame_rate));
-  out += fmt::format("subject: {{height: {}, mass: {}}}\n", shortest_number(job.walker.height),
+  out += fmt::format("subject: {{height: {}, mass: {}}}\n", shortest_number(height_of(job.walker)),
                      shortest_number(job.walker.mass));
   if (job.options.slope != 0) out += gravity_line(truth, job.options.slope);
   if (job.options.state_initial) out += initial_line(truth);

@@ -101,7 +101,8 @@ fs::path write_scene(const Film& film, const Shot& shot, const fs::path& folder)
   std::string text =
       "cameras: [{name: side, video: film, calibration: camera.yaml, background: empty}]\n";
   text += fmt::format("frame_rate: {}\n", film.options.frame_rate);
-  text += fmt::format("subject: {{height: {}, mass: {}}}\n", film.walker.height, film.walker.mass);
+  text +=
+      fmt::format("subject: {{height: {}, mass: {}}}\n", height_of(film.walker), film.walker.mass);
   if (film.state_initial) text += initial_line(shot.truth);
   write_file_atomically(folder / "scene.yaml", text + film.scene_lines);
   return folder / "scene.yaml";

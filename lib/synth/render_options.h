@@ -37,7 +37,7 @@ struct RenderCamera {
 
 struct FilmedWalker {
   Motion motion;
-  double height = 1.75;
+  std::optional<double> height;  // m; default: the one that thighs and shanks belong to
   double mass = 70;
   int clothes = 0;
   bool arms = true;             // rendered if the motion has them

@@ -40,7 +40,7 @@ Motion placed(const FilmedWalker& walker, double start) {
 
 Actor make_actor(const FilmedWalker& walker, double start) {
   Motion motion = placed(walker, start);
-  Body body = body_from_motion(motion, walker.height);
+  Body body = body_from_motion(motion, height_of(walker));
   if (!walker.arms) body = make_body(body.subject, {.head = true, .arms = false});
   return {std::move(motion), std::move(body), clothes(walker.clothes)};
 }
@@ -103,6 +103,10 @@ double farthest_from(const Vector2d& centre, const std::vector<Camera>& cameras,
 }
 
 }  // namespace
+
+double height_of(const FilmedWalker& walker) {
+  return walker.height.value_or(1e-3 * std::round(1e3 * stature_of(walker.motion)));
+}
 
 Stage make_stage(const FilmedWalker& walker, const RenderOptions& options,
                  const std::vector<std::optional<Camera>>& calibrated) {

@@ -27,6 +27,9 @@ struct Stage {
   double duration;  // s
 };
 
+// As stated, or as the motion has it, to the millimetre.
+double height_of(const FilmedWalker& walker);
+
 // Takes cameras with a calibration as `calibrated` gives them (in the order of options.cameras).
 // Throws InputError when the motion has no row with both legs between start and end.
 Stage make_stage(const FilmedWalker& walker, const RenderOptions& options,

@@ -243,6 +243,19 @@ TEST_F(Render, ACompleteSceneIsNotOverwrittenUnasked) {
   EXPECT_NO_THROW(render_scene(job_, {}));
 }
 
+// A child's joints, and nobody said how tall it is.
+TEST_F(Render, TheSubjectIsAsTallAsItsLegsUnlessStated) {
+  for (JointPositions& joints : job_.walker.motion.joints)
+    for (Eigen::Vector3d& joint : joints.at) joint *= 0.8;
+  job_.options.duration = 0.1;
+  render_scene(job_, {});
+  EXPECT_NEAR(read_scene(job_.output / "scene.yaml").subject.height, 0.8 * 1.75, 1e-3);
+  job_.walker.height = 1.6;
+  job_.overwrite = true;
+  render_scene(job_, {});
+  EXPECT_EQ(read_scene(job_.output / "scene.yaml").subject.height, 1.6);
+}
+
 TEST_F(Render, AWalkerWhoIsNotThereAllTheTimeIsUnknownThen) {
   job_.walker.delay = 0.2;
   job_.options.duration = 0.5;
