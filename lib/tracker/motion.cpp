@@ -95,6 +95,17 @@ void change_support(const MotionContext& context, WalkerParticle& particle, Rng&
   choose_controls(context, particle, rng);
 }
 
+// Who stumbles catches the step: the walker goes on as the gait that it aims at would at this
+// moment of the step. The legs of the person do not jump: what they had strayed, they stray less.
+void catch_step(const MotionContext& context, WalkerParticle& particle) {
+  const KneedModel& model = context.model.walker;
+  const PriorGait gait =
+      gait_at(context.prior, model.parameters, particle.aim.speed, particle.aim.step_length);
+  const double phase = std::clamp(particle.walker.since_transfer / gait.period, 0.0, 0.95);
+  particle.controls = gait.controls;
+  particle.walker = state_at_phase(model, gait, phase);
+}
+
 Outcome simulate(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   // The longest steps of the prior lower the hip by a sixth. A walker that goes down further has
   // been pushed to where its legs can hide from the images, and will not come up again.
@@ -110,8 +121,10 @@ Outcome simulate(const MotionContext& context, WalkerParticle& particle, Rng& rn
     const KneedAdvance done =
         kneed_advance(model, particle.controls, Vector5::Zero(), particle.walker, left, kWalks);
     left -= done.elapsed;
-    if (done.event == KneedEvent::kFallen) return Outcome::kFallen;
-    if (done.event == KneedEvent::kDiverged) return Outcome::kDiverged;
+    if (done.event == KneedEvent::kFallen || done.event == KneedEvent::kDiverged) {
+      catch_step(context, particle);
+      return done.event == KneedEvent::kFallen ? Outcome::kFallen : Outcome::kDiverged;
+    }
     if (done.event == KneedEvent::kNone) break;
     change_support(context, particle, rng);
   }
@@ -125,16 +138,16 @@ double ball_sigma(const MotionContext& context, const WalkerParticle& particle) 
 }
 
 // The walker as it is becomes the frame's prediction, and its noise is drawn.
-Outcome predict(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+bool predict(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   const Matrix5 mass = kneed_mass_matrix(context.model.walker, particle.walker.q);
   particle.velocity_per_impulse = mass.llt().solve(torque_distribution());
-  if (!particle.velocity_per_impulse.allFinite()) return Outcome::kDiverged;
+  if (!particle.velocity_per_impulse.allFinite()) return false;
   particle.predicted = particle.walker;
   particle.predicted_ball = particle.ball;
   particle.ball_sigma = particle.arriving ? context.config.arrival : ball_sigma(context, particle);
   draw_noise(context, particle, rng);
   realise(context.model, context.scale, particle);
-  return Outcome::kAlive;
+  return true;
 }
 
 // Noise that moves one part of the body: what the walker feels, the trunk with the standing foot,
@@ -237,7 +250,7 @@ NoiseScale noise_scale(const MotionConfig& config, const BodyModel& model, doubl
 
 Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   particle.arriving = true;
-  return predict(context, particle, rng);
+  return predict(context, particle, rng) ? Outcome::kAlive : Outcome::kDead;
 }
 
 Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
@@ -245,7 +258,7 @@ Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& r
   particle.pose_before = particle.pose;
   predict_extras(context, particle);
   const Outcome outcome = simulate(context, particle, rng);
-  return outcome == Outcome::kAlive ? predict(context, particle, rng) : outcome;
+  return predict(context, particle, rng) ? outcome : Outcome::kDead;
 }
 
 void perturb(const MotionContext& context, double boldness, WalkerParticle& particle, Rng& rng) {

@@ -52,7 +52,9 @@ struct MotionContext {
   double dt;  // s
 };
 
-enum class Outcome { kAlive, kFallen, kDiverged };
+// Who falls, or whose state grows beyond bounds, is caught (goes on as the prior's gait); dead is
+// only who has no state left to go on from.
+enum class Outcome { kAlive, kFallen, kDiverged, kDead };
 
 // The first frame of a particle: nothing moves, but its noise is drawn.
 Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng);

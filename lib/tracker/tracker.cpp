@@ -210,7 +210,7 @@ FrameRecord Tracker::advance(Filter& filter, const SceneEvidence& evidence, uint
   const auto step = [&](WalkerParticle& particle, uint32_t i) {
     Rng rng(seed, Purpose::kTorque, frame_, i);
     outcomes[i] = first ? arrive(motion, particle, rng) : propagate(motion, particle, rng);
-    return outcomes[i] == Outcome::kAlive;
+    return outcomes[i] != Outcome::kDead;
   };
   const auto weigh = [&](const WalkerParticle& particle) {
     return log_likelihood(scene_, evidence, particle, !first);
