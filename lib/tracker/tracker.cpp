@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 #include "body/kinematics.h"
+#include "core/conventions.h"
 #include "core/log_weights.h"
 #include "tracker/course.h"
 
@@ -18,6 +20,16 @@ constexpr double kHopeless = 15;
 // Share of the filter's moves that change the course, the others change the frame's noise.
 constexpr double kCourseMoves = 0.3;
 constexpr double kUsualSpeed = 1.25;  // m/s
+// Walkers that explain an image no better than this share of what a stiff figure does are lost:
+// where a person is a few dozen pixels high, a figure does nearly as well as the walker itself.
+constexpr double kFigureShare = 0.9;
+
+// Walking people keep their hips up: below .85 of the leg's length the pose becomes improbable,
+// 1 % of it counting as one standard deviation (the prior's longest steps lower the hip to .83).
+double log_uprightness(const BodyModel& model, const Pose& pose) {
+  const double below = 0.85 - pose.root.z() / leg_length(model.body.lengths);
+  return below > 0 ? -0.5 * (below / 0.01) * (below / 0.01) : 0;
+}
 
 int frames_in(double seconds, double dt) {
   return std::max(2, static_cast<int>(std::lround(seconds / dt)));
@@ -92,17 +104,40 @@ void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& ou
   const auto sighting =
       find_walk(std::vector(candidates_.begin(), candidates_.end()), window_score, scene_.dt,
                 camera_centre(scene_.cameras[0]).head<2>(), config_.sighting, threads_);
-  if (!sighting || !within_reach(sighting->position, frame_)) {
-    window_.pop_front();
-    candidates_.pop_front();
-    ++frame_;
-    out.emplace_back();
-    return;
+  if (sighting && within_reach(sighting->position, frame_) && attempt(*sighting, out)) return;
+  window_.pop_front();
+  candidates_.pop_front();
+  ++frame_;
+  out.emplace_back();
+}
+
+// Tracks the window's frames from a sighting; false, and nothing has happened, if the track
+// explains them worse than the straight walk of mere figures that it came from.
+bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
+  const uint32_t first_frame = frame_;
+  const auto seen_before = last_seen_;
+  const int losses_before = losses_;
+  std::vector<FrameRecord> tried;
+  begin(sighting, std::nullopt);
+  double support = 0;
+  for (const SceneEvidence& each : window_) {
+    if (mode_ == Mode::kSearching) break;
+    consume(each, tried);
   }
-  begin(*sighting, std::nullopt);
-  const std::deque<SceneEvidence> waiting = std::exchange(window_, {});
-  candidates_.clear();
-  for (const SceneEvidence& each : waiting) consume(each, out);
+  for (const FrameRecord& record : tried) support += record.support;
+  if (mode_ == Mode::kTracking && support >= sighting.score * double(tried.size())) {
+    window_.clear();
+    candidates_.clear();
+    std::move(tried.begin(), tried.end(), std::back_inserter(out));
+    return true;
+  }
+  mode_ = Mode::kSearching;
+  frame_ = first_frame;
+  last_seen_ = seen_before;
+  losses_ = losses_before;
+  supports_.clear();
+  hypotheses_.clear();
+  return false;
 }
 
 void Tracker::begin(const Sighting& sighting, std::optional<double> stride_phase) {
@@ -162,6 +197,7 @@ void Tracker::settle(std::vector<FrameRecord>& out) {
   chosen.reserve(parents.size());
   for (const uint32_t parent : parents) chosen.push_back(states[parent]);
   filter_.start(std::move(chosen));
+  supports_.clear();
   for (FrameRecord& record : hypotheses_[best].records) {
     supports_.push_back(record.support);
     out.push_back(std::move(record));
@@ -180,14 +216,19 @@ void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out
     supports_.clear();
     mode_ = Mode::kSearching;
   }
-  if (mode_ == Mode::kTracking && frames_below_ == 0) {
-    const Pose& pose = record.estimate.pose;
-    last_seen_ = {
-        pose.root.head<2>(),
-        record.estimate.speed * Eigen::Vector2d(std::cos(pose.heading), std::sin(pose.heading)),
-        frame_};
-  }
+  if (mode_ == Mode::kTracking && frames_below_ == 0) see(record.estimate);
   out.push_back(std::move(record));
+}
+
+// Remembers where the walker is and how they have been going on: a frame's own speed trembles.
+void Tracker::see(const FrameEstimate& estimate) {
+  constexpr double kMemory = 1;  // s
+  const Pose& pose = estimate.pose;
+  const Eigen::Vector2d now =
+      estimate.speed * Eigen::Vector2d(std::cos(pose.heading), std::sin(pose.heading));
+  const Eigen::Vector2d before = last_seen_ ? last_seen_->velocity : now;
+  const double kept = std::exp(-scene_.dt / kMemory);
+  last_seen_ = {pose.root.head<2>(), kept * before + (1 - kept) * now, frame_};
 }
 
 // Whether a walker who was lost can be at a place: not far from where they were going.
@@ -213,7 +254,8 @@ FrameRecord Tracker::advance(Filter& filter, const SceneEvidence& evidence, uint
     return outcomes[i] != Outcome::kDead;
   };
   const auto weigh = [&](const WalkerParticle& particle) {
-    return log_likelihood(scene_, evidence, particle, !first);
+    return log_likelihood(scene_, evidence, particle, !first) +
+           log_uprightness(scene_.model, particle.pose);
   };
   filter.predict(step);
   const CourseSpread course =
@@ -241,10 +283,17 @@ FrameRecord Tracker::advance(Filter& filter, const SceneEvidence& evidence, uint
   return record;
 }
 
-// What a figure out of the gait's book would score where the walker is believed to be.
+// What a figure out of the gait's book would score where the walker is believed to be, whichever
+// way it faces.
 double Tracker::figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const {
-  return place_score(scene_, evidence, figures_.at(kUsualSpeed), estimate.pose.root.head<2>(),
-                     estimate.pose.heading);
+  constexpr int kHeadings = 6;
+  double best = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kHeadings; ++k) {
+    const double heading = estimate.pose.heading + 2 * kPi * k / kHeadings;
+    best = std::max(best, place_score(scene_, evidence, figures_.at(kUsualSpeed),
+                                      estimate.pose.root.head<2>(), heading));
+  }
+  return best;
 }
 
 // Whether the likelihood has stayed for too long far below its own recent median, or below that of
@@ -253,7 +302,8 @@ bool Tracker::fading(double support, double figure) {
   std::vector<double> past(supports_.begin(), supports_.end());
   std::nth_element(past.begin(), past.begin() + static_cast<long>(past.size() / 2), past.end());
   const double median = past[past.size() / 2];
-  const bool bad = support < std::max(config_.lost_below * median, figure);
+  const bool bad = support < std::max({config_.lost_below * median, kFigureShare * figure,
+                                       config_.sighting.least_score});
   frames_below_ = bad ? frames_below_ + 1 : 0;
   // Bad frames do not become the measure of good ones.
   if (frames_below_ == 0) supports_.push_back(support);

@@ -1,10 +1,12 @@
 // The tracker: frames of evidence in, poses with their uncertainty out.
 //
-//   searching: look for a walk in a sliding window of frames         (tracker/sighting.h)
+//   searching: look for a walk in a sliding window of frames         (tracker/sighting.h); a start
+//              that explains the window worse than the straight walk it came from has failed
 //   starting:  hypotheses over phase and side compete for a while    (tracker/start.h)
 //   tracking:  for every frame: propagate, weigh, resample, estimate (filter/particle_filter.h)
 //   lost:      the likelihood fell far below its own past, or below that of a figure that merely
-//              stands in the same place; search again, for a while only where the walker can be
+//              stands in the same place, whichever way it faces; search again, for a while only
+//              where the walker can be
 //
 // Frames before the walk was found, and while it was lost, are reported as not tracked. Searching
 // looks a window ahead, so records come out late at first and one for one afterwards.
@@ -71,6 +73,7 @@ class Tracker {
 
   void consume(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   void search(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
+  bool attempt(const Sighting& sighting, std::vector<FrameRecord>& out);
   void begin(const Sighting& sighting, std::optional<double> stride_phase);
   void compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   void settle(std::vector<FrameRecord>& out);
@@ -83,6 +86,7 @@ class Tracker {
   };
 
   bool within_reach(const Eigen::Vector2d& place, uint32_t frame) const;
+  void see(const FrameEstimate& estimate);
   double figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const;
   bool fading(double support, double figure);
 
