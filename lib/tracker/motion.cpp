@@ -96,7 +96,7 @@ void change_support(const MotionContext& context, WalkerParticle& particle, Rng&
 }
 
 // Who stumbles catches the step: the walker goes on as the gait that it aims at would at this
-// moment of the step. The legs of the person do not jump: what they had strayed, they stray less.
+// moment of the step.
 void catch_step(const MotionContext& context, WalkerParticle& particle) {
   const KneedModel& model = context.model.walker;
   const PriorGait gait =

@@ -95,7 +95,11 @@ double mean_of_worst_third(std::vector<double> scores) {
 // make a walk.
 bool moves(const WindowScore& score, const Sighting& line, size_t frames, double dt) {
   const Sighting still{line.position + 0.5 * dt * double(frames - 1) * line.velocity,
-                       Vector2d::Zero(), line.ray, 0, 0, 0};
+                       Vector2d::Zero(),
+                       line.ray,
+                       0,
+                       0,
+                       0};
   const Vector2d& pace = line.velocity;
   return mean_of_worst_third(scores_along(score, line, pace, frames, 1, dt)) >
          std::max(0.0, mean_of_worst_third(scores_along(score, still, pace, frames, 1, dt)));
@@ -147,7 +151,10 @@ Walk refined(Walk walk, const WindowScore& score, size_t frames, double dt, cons
       for (const Shift& shift : pattern) {
         const Sighting line{walk.line.position + step * shift.begin,
                             walk.line.velocity + step / time * (shift.end - shift.begin),
-                            walk.line.ray, 0, 0, 0};
+                            walk.line.ray,
+                            0,
+                            0,
+                            0};
         const double value = line_score(score, line, frames, stride, dt);
         if (value <= walk.score) continue;
         walk = {line, value};

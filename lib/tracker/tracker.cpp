@@ -6,30 +6,16 @@
 #include <limits>
 #include <utility>
 
-#include "body/kinematics.h"
 #include "core/conventions.h"
-#include "core/log_weights.h"
-#include "tracker/course.h"
 
 namespace walktrack {
 
 namespace {
 
-// A hypothesis this many nats behind the best has lost (odds of 1 to 3 million).
-constexpr double kHopeless = 15;
-// Share of the filter's moves that change the course, the others change the frame's noise.
-constexpr double kCourseMoves = 0.3;
 constexpr double kUsualSpeed = 1.25;  // m/s
 // Walkers that explain an image no better than this share of what a stiff figure does are lost:
 // where a person is a few dozen pixels high, a figure does nearly as well as the walker itself.
 constexpr double kFigureShare = 0.9;
-
-// Walking people keep their hips up: below .85 of the leg's length the pose becomes improbable,
-// 1 % of it counting as one standard deviation (the prior's longest steps lower the hip to .83).
-double log_uprightness(const BodyModel& model, const Pose& pose) {
-  const double below = 0.85 - pose.root.z() / leg_length(model.body.lengths);
-  return below > 0 ? -0.5 * (below / 0.01) * (below / 0.01) : 0;
-}
 
 int frames_in(double seconds, double dt) {
   return std::max(2, static_cast<int>(std::lround(seconds / dt)));
@@ -119,13 +105,13 @@ bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
   const int losses_before = losses_;
   std::vector<FrameRecord> tried;
   begin(sighting, std::nullopt);
-  double support = 0;
   for (const SceneEvidence& each : window_) {
     if (mode_ == Mode::kSearching) break;
     consume(each, tried);
   }
+  double support = contest_ ? contest_->support() * contest_->frames() : 0;
   for (const FrameRecord& record : tried) support += record.support;
-  if (mode_ == Mode::kTracking && support >= sighting.score * double(tried.size())) {
+  if (mode_ != Mode::kSearching && support >= sighting.score * double(window_.size())) {
     window_.clear();
     candidates_.clear();
     std::move(tried.begin(), tried.end(), std::back_inserter(out));
@@ -135,80 +121,50 @@ bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
   frame_ = first_frame;
   last_seen_ = seen_before;
   losses_ = losses_before;
-  supports_.clear();
-  hypotheses_.clear();
+  contest_.reset();
   return false;
 }
 
+WalkerFilterContext Tracker::context(bool first) const {
+  const NoiseScale scale = first ? start_scale(config_.start, frame_scale_) : frame_scale_;
+  return {
+      scene_, {scene_.model, prior_, config_.motion, scale, scene_.dt}, config_.samples, threads_};
+}
+
 void Tracker::begin(const Sighting& sighting, std::optional<double> stride_phase) {
-  const MotionContext motion{scene_.model, prior_, config_.motion, frame_scale_, scene_.dt};
-  FilterConfig filter = config_.filter;
-  filter.particles = config_.start.particles;
-  hypotheses_.clear();
-  const auto ranges =
-      stride_phase ? phase_ranges(config_.start, *stride_phase) : phase_ranges(config_.start);
-  for (const PhaseRange& range : ranges) {
-    const uint64_t seed = seed_ + 0x9E3779B97F4A7C15u * ++starts_;  // streams of its own
-    hypotheses_.push_back({Filter(filter, seed, threads_), seed, 0, {}});
-    hypotheses_.back().filter.start(spawn(motion, config_.start, sighting, range, seed));
-  }
+  const uint64_t seed = seed_ + 0xD1B54A32D192ED03u * ++starts_;  // streams of its own
+  contest_.emplace(context(true).motion, config_.start, config_.filter, sighting, stride_phase,
+                   seed, threads_);
   mode_ = Mode::kStarting;
 }
 
 void Tracker::compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
-  for (Hypothesis& each : hypotheses_) {
-    each.records.push_back(advance(each.filter, evidence, each.seed, each.records.empty()));
-    each.log_evidence += each.records.back().filter.log_evidence;
-  }
+  const bool explained = contest_->step(context(contest_->frames() == 0), evidence, frame_);
   ++frame_;
-  double best = -std::numeric_limits<double>::infinity();
-  for (const Hypothesis& each : hypotheses_) best = std::max(best, each.log_evidence);
-  const size_t frames = hypotheses_.front().records.size();
-  if (best == -std::numeric_limits<double>::infinity()) {
-    out.resize(out.size() + frames);  // nobody walks like this: frames stay untracked
+  if (!explained) {
+    out.resize(out.size() + static_cast<size_t>(contest_->frames()));  // frames stay untracked
+    contest_.reset();
     mode_ = Mode::kSearching;
     return;
   }
-  std::erase_if(hypotheses_,
-                [&](const Hypothesis& h) { return h.log_evidence < best - kHopeless; });
-  if (static_cast<int>(frames) >= frames_in(config_.start.seconds, scene_.dt)) settle(out);
+  if (contest_->decided()) settle(out);
 }
 
-// The hypotheses that are left become one set of particles, each with its share of the evidence.
+// What is left of the contest becomes one set of particles.
 void Tracker::settle(std::vector<FrameRecord>& out) {
-  std::vector<double> evidence;
-  for (const Hypothesis& each : hypotheses_) evidence.push_back(each.log_evidence);
-  const std::vector<double> share = normalised_weights(evidence);
-  const size_t best =
-      static_cast<size_t>(std::max_element(share.begin(), share.end()) - share.begin());
-  std::vector<WalkerParticle> states;
-  std::vector<double> log_weights;
-  for (size_t h = 0; h < hypotheses_.size(); ++h) {
-    const auto& set = hypotheses_[h].filter.particles();
-    const double total = log_sum_exp(set.log_weights);
-    for (size_t i = 0; i < set.states.size(); ++i) {
-      states.push_back(set.states[i]);
-      log_weights.push_back(set.log_weights[i] - total + std::log(share[h]));
-    }
-  }
-  std::vector<uint32_t> parents(static_cast<size_t>(config_.filter.particles));
-  systematic_resample(log_weights, Rng(seed_, Purpose::kInitialisation, frame_).uniform(), parents);
-  std::vector<WalkerParticle> chosen;
-  chosen.reserve(parents.size());
-  for (const uint32_t parent : parents) chosen.push_back(states[parent]);
-  filter_.start(std::move(chosen));
+  filter_.start(contest_->survivors());
   supports_.clear();
-  for (FrameRecord& record : hypotheses_[best].records) {
+  for (const FrameRecord& record : contest_->records()) {
     supports_.push_back(record.support);
-    out.push_back(std::move(record));
+    out.push_back(record);
   }
-  hypotheses_.clear();
+  contest_.reset();
   mode_ = Mode::kTracking;
   frames_below_ = 0;
 }
 
 void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
-  FrameRecord record = advance(filter_, evidence, seed_, false);
+  FrameRecord record = advance(context(false), evidence, frame_, seed_, false, filter_);
   ++frame_;
   if (record.filter.all_dead || fading(record.support, figure_score(evidence, record.estimate))) {
     record.tracked = false;
@@ -240,47 +196,6 @@ bool Tracker::within_reach(const Eigen::Vector2d& place, uint32_t frame) const {
   if (elapsed > config_.seek) return true;
   const Eigen::Vector2d expected = last_seen_->position + elapsed * last_seen_->velocity;
   return (place - expected).norm() < kNear + kStray * elapsed;
-}
-
-// One frame of the filter: propagate, weigh, resample; then what the particles say.
-FrameRecord Tracker::advance(Filter& filter, const SceneEvidence& evidence, uint64_t seed,
-                             bool first) {
-  const NoiseScale scale = first ? start_scale(config_.start, frame_scale_) : frame_scale_;
-  const MotionContext motion{scene_.model, prior_, config_.motion, scale, scene_.dt};
-  std::vector<Outcome> outcomes(filter.particles().states.size());
-  const auto step = [&](WalkerParticle& particle, uint32_t i) {
-    Rng rng(seed, Purpose::kTorque, frame_, i);
-    outcomes[i] = first ? arrive(motion, particle, rng) : propagate(motion, particle, rng);
-    return outcomes[i] != Outcome::kDead;
-  };
-  const auto weigh = [&](const WalkerParticle& particle) {
-    return log_likelihood(scene_, evidence, particle, !first) +
-           log_uprightness(scene_.model, particle.pose);
-  };
-  filter.predict(step);
-  const CourseSpread course =
-      course_spread(filter.particles().states, filter.particles().log_weights);
-  const auto move = [&](WalkerParticle& particle, double boldness, Rng& rng) {
-    if (rng.uniform() < kCourseMoves) return change_course(motion, course, boldness, particle, rng);
-    perturb(motion, boldness, particle, rng);
-  };
-  FrameRecord record;
-  record.filter = filter.update(frame_, weigh, move);
-  record.fallen = static_cast<int>(std::count(outcomes.begin(), outcomes.end(), Outcome::kFallen));
-  record.diverged =
-      static_cast<int>(std::count(outcomes.begin(), outcomes.end(), Outcome::kDiverged));
-  if (record.filter.all_dead) return record;
-  const auto& set = filter.particles();
-  const std::vector<double> weights = normalised_weights(set.log_weights);
-  for (size_t i = 0; i < weights.size(); ++i)
-    if (weights[i] > 0) record.support += weights[i] * set.log_likelihoods[i];
-  record.tracked = true;
-  record.estimate = estimate_frame(scene_.model, set.states, weights, scene_.dt, threads_);
-  std::vector<uint32_t> chosen(static_cast<size_t>(config_.samples));
-  systematic_resample(set.log_weights, 0.5, chosen);
-  for (const uint32_t i : chosen)
-    record.samples.push_back(forward_kinematics(scene_.model.body, set.states[i].pose).joints);
-  return record;
 }
 
 // What a figure out of the gait's book would score where the walker is believed to be, whichever

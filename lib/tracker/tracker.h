@@ -2,8 +2,8 @@
 //
 //   searching: look for a walk in a sliding window of frames         (tracker/sighting.h); a start
 //              that explains the window worse than the straight walk it came from has failed
-//   starting:  hypotheses over phase and side compete for a while    (tracker/start.h)
-//   tracking:  for every frame: propagate, weigh, resample, estimate (filter/particle_filter.h)
+//   starting:  hypotheses over phase and side compete for a while    (tracker/contest.h)
+//   tracking:  for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h)
 //   lost:      the likelihood fell far below its own past, or below that of a figure that merely
 //              stands in the same place, whichever way it faces; search again, for a while only
 //              where the walker can be
@@ -16,11 +16,8 @@
 #include <optional>
 #include <vector>
 
-#include "filter/particle_filter.h"
-#include "tracker/estimate.h"
-#include "tracker/motion.h"
-#include "tracker/scene.h"
-#include "tracker/start.h"
+#include "tracker/contest.h"
+#include "tracker/walker_filter.h"
 
 namespace walktrack {
 
@@ -30,19 +27,10 @@ struct TrackerConfig {
   SightingConfig sighting;
   StartConfig start;
   double lost_below = 0.35;  // share of the likelihood's own median at which the track is lost
-  double lost_after = 0.4;   // s below it
+  double lost_after = 1;     // s below it: so long may a walker be hidden
   int samples = 20;          // particles kept of every frame to show the spread
   double recall = 1.5;       // s of past likelihoods that the median is taken over
   double seek = 4;           // s for which a lost walker is looked for only where they can be
-};
-
-struct FrameRecord {
-  bool tracked = false;
-  FrameEstimate estimate;
-  FilterReport filter;
-  double support = 0;                   // mean log-likelihood of the particles, nats
-  std::vector<JointPositions> samples;  // a few particles, to show their spread
-  int fallen = 0, diverged = 0;
 };
 
 class Tracker {
@@ -63,14 +51,6 @@ class Tracker {
 
  private:
   enum class Mode { kSearching, kStarting, kTracking };
-  using Filter = ParticleFilter<WalkerParticle>;
-  struct Hypothesis {
-    Filter filter;
-    uint64_t seed;
-    double log_evidence = 0;
-    std::vector<FrameRecord> records;
-  };
-
   void consume(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   void search(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   bool attempt(const Sighting& sighting, std::vector<FrameRecord>& out);
@@ -78,7 +58,7 @@ class Tracker {
   void compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   void settle(std::vector<FrameRecord>& out);
   void track(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
-  FrameRecord advance(Filter& filter, const SceneEvidence& evidence, uint64_t seed, bool first);
+  WalkerFilterContext context(bool first) const;
   // Where the walker was last surely seen, and how they went on.
   struct LastSeen {
     Eigen::Vector2d position, velocity;  // m, m/s
@@ -103,9 +83,9 @@ class Tracker {
   std::vector<Eigen::Vector2d> places_;
   std::deque<SceneEvidence> window_;
   std::deque<std::vector<Place>> candidates_;
-  std::vector<Hypothesis> hypotheses_;
+  std::optional<Contest> contest_;
   uint32_t starts_ = 0;  // how often a search has ended: keys the random streams
-  Filter filter_;
+  WalkerFilter filter_;
   std::optional<LastSeen> last_seen_;
   std::deque<double> supports_;
   int frames_below_ = 0;

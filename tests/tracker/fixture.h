@@ -4,6 +4,7 @@
 #include "core/conventions.h"
 #include "tracker/motion.h"
 #include "tracker/planar_body.h"
+#include "tracker/scene.h"
 #include "tracker/start.h"
 
 namespace walktrack {
@@ -23,6 +24,14 @@ struct Walking {
     return {model, prior, config, noise_scale(config, model, dt), dt};
   }
 };
+
+// A scene without cameras: nothing is seen.
+inline TrackerScene unseen(const BodyModel& model, double dt) {
+  TrackerScene scene;
+  scene.model = model;
+  scene.dt = dt;
+  return scene;
+}
 
 // Particles that walk along +x through the origin at a speed, m/s.
 inline std::vector<WalkerParticle> walkers(const MotionContext& context, double speed, int count) {

@@ -60,6 +60,24 @@ TEST(Propagate, ThePelvisNeverJumps) {
   }
 }
 
+// A walker bent down to where no step can save it goes on upright, as the gait that it aims at.
+TEST(Propagate, WhoFallsCatchesTheStep) {
+  const Walking walking;
+  const MotionContext context = walking.context(1.0 / 30, quiet());
+  WalkerParticle p = walkers(context, 1.2, 1)[0];
+  const double upright = p.pose.root.z();
+  p.walker.q[kStanceThigh] -= 0.9;
+  p.walker.q[kStanceShank] += 0.9;
+  Rng rng(1, Purpose::kTest);
+  ASSERT_EQ(propagate(context, p, rng), Outcome::kFallen);
+  silence(p, context);
+  EXPECT_NEAR(p.pose.root.z(), upright, 0.06);  // the hip's rise and fall within a step
+  for (uint32_t frame = 1; frame < 60; ++frame) {
+    ASSERT_EQ(propagate(context, p, rng), Outcome::kAlive) << "frame " << frame;
+    silence(p, context);
+  }
+}
+
 TEST(Propagate, MostNoisyWalkersWalkOnForThreeSeconds) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);

@@ -1,0 +1,68 @@
+#include "tracker/walker_filter.h"
+
+#include <algorithm>
+
+#include "body/kinematics.h"
+#include "core/log_weights.h"
+#include "tracker/course.h"
+
+namespace walktrack {
+
+namespace {
+
+// Share of the filter's moves that change the course, the others change the frame's noise.
+constexpr double kCourseMoves = 0.3;
+
+// Walking people keep their hips up: below .85 of the leg's length the pose becomes improbable,
+// 1 % of it counting as one standard deviation (the prior's longest steps lower the hip to .83).
+double log_uprightness(const BodyModel& model, const Pose& pose) {
+  const double below = 0.85 - pose.root.z() / leg_length(model.body.lengths);
+  return below > 0 ? -0.5 * (below / 0.01) * (below / 0.01) : 0;
+}
+
+void summarise(const WalkerFilterContext& context, const ParticleSet<WalkerParticle>& set,
+               FrameRecord& record) {
+  const std::vector<double> weights = normalised_weights(set.log_weights);
+  for (size_t i = 0; i < weights.size(); ++i)
+    if (weights[i] > 0) record.support += weights[i] * set.log_likelihoods[i];
+  record.tracked = true;
+  record.estimate =
+      estimate_frame(context.scene.model, set.states, weights, context.scene.dt, context.threads);
+  std::vector<uint32_t> chosen(static_cast<size_t>(context.samples));
+  systematic_resample(set.log_weights, 0.5, chosen);
+  const Body& body = context.scene.model.body;
+  for (const uint32_t i : chosen)
+    record.samples.push_back(forward_kinematics(body, set.states[i].pose).joints);
+}
+
+}  // namespace
+
+FrameRecord advance(const WalkerFilterContext& context, const SceneEvidence& evidence,
+                    uint32_t frame, uint64_t seed, bool first, WalkerFilter& filter) {
+  const MotionContext& motion = context.motion;
+  std::vector<Outcome> outcomes(filter.particles().states.size());
+  filter.predict([&](WalkerParticle& particle, uint32_t i) {
+    Rng rng(seed, Purpose::kTorque, frame, i);
+    outcomes[i] = first ? arrive(motion, particle, rng) : propagate(motion, particle, rng);
+    return outcomes[i] != Outcome::kDead;
+  });
+  const CourseSpread course =
+      course_spread(filter.particles().states, filter.particles().log_weights);
+  const auto weigh = [&](const WalkerParticle& particle) {
+    return log_likelihood(context.scene, evidence, particle, !first) +
+           log_uprightness(context.scene.model, particle.pose);
+  };
+  const auto move = [&](WalkerParticle& particle, double boldness, Rng& rng) {
+    if (rng.uniform() < kCourseMoves) return change_course(motion, course, boldness, particle, rng);
+    perturb(motion, boldness, particle, rng);
+  };
+  FrameRecord record;
+  record.filter = filter.update(frame, weigh, move);
+  record.fallen = static_cast<int>(std::count(outcomes.begin(), outcomes.end(), Outcome::kFallen));
+  record.diverged =
+      static_cast<int>(std::count(outcomes.begin(), outcomes.end(), Outcome::kDiverged));
+  if (!record.filter.all_dead) summarise(context, filter.particles(), record);
+  return record;
+}
+
+}  // namespace walktrack

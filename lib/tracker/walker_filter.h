@@ -1,0 +1,37 @@
+// One frame of a particle filter over walkers: propagate, weigh, move, and what the particles then
+// say.
+#pragma once
+
+#include <vector>
+
+#include "filter/particle_filter.h"
+#include "tracker/estimate.h"
+#include "tracker/motion.h"
+#include "tracker/scene.h"
+
+namespace walktrack {
+
+using WalkerFilter = ParticleFilter<WalkerParticle>;
+
+struct FrameRecord {
+  bool tracked = false;
+  FrameEstimate estimate;
+  FilterReport filter;
+  double support = 0;                   // mean log-likelihood of the particles, nats
+  std::vector<JointPositions> samples;  // a few particles, to show their spread
+  int fallen = 0, diverged = 0;
+};
+
+struct WalkerFilterContext {
+  const TrackerScene& scene;
+  MotionContext motion;
+  int samples;  // particles kept of a frame
+  int threads;
+};
+
+// Takes `filter` through frame number `frame`. `first`: the particles have just been drawn, and
+// only their noise is to be added. The record is not tracked when no particle survives.
+FrameRecord advance(const WalkerFilterContext& context, const SceneEvidence& evidence,
+                    uint32_t frame, uint64_t seed, bool first, WalkerFilter& filter);
+
+}  // namespace walktrack

@@ -1,0 +1,80 @@
+#include "tracker/contest.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "fixture.h"
+
+namespace walktrack {
+namespace {
+
+constexpr double kFrame = 1.0 / 30;
+
+// Nothing is seen, so nothing tells the hypotheses apart.
+struct Blind {
+  Walking walking;
+  TrackerScene scene = unseen(walking.model, kFrame);
+  WalkerFilterContext context{scene, walking.context(kFrame), 0, 1};
+  StartConfig start;
+  FilterConfig filter;
+  Sighting sighting;
+
+  Blind() {
+    start.phases = 3;
+    start.particles = 20;
+    start.seconds = 0.2;
+    start.rival_seconds = 0.3;
+    filter.particles = 60;
+    sighting.velocity = {1.2, 0};
+  }
+
+  Contest contest(std::optional<double> stride_phase) const {
+    return {context.motion, start, filter, sighting, stride_phase, 5, 1};
+  }
+};
+
+TEST(Contest, KeepsBothWaysToTellTheLegsApartUntilImagesDecide) {
+  const Blind blind;
+  Contest contest = blind.contest(std::nullopt);
+  uint32_t frame = 0;
+  while (!contest.decided()) {
+    ASSERT_LT(frame, 100u);
+    ASSERT_TRUE(contest.step(blind.context, {}, frame++));
+  }
+  EXPECT_EQ(contest.frames(), 6 + 9);
+  EXPECT_EQ(contest.records().size(), 15u);
+  const std::vector<WalkerParticle> left = contest.survivors();
+  ASSERT_EQ(left.size(), 60u);
+  // Half a stride apart, with equal evidence: as many stand on one foot as on the other, give or
+  // take those that are just changing feet.
+  int on_left = 0;
+  for (const WalkerParticle& p : left) on_left += p.stance == Side::kLeft ? 1 : 0;
+  EXPECT_GE(on_left, 15);
+  EXPECT_LE(on_left, 45);
+}
+
+TEST(Contest, AStatedPhaseHasNoRival) {
+  const Blind blind;
+  Contest contest = blind.contest(0.1);
+  uint32_t frame = 0;
+  while (!contest.decided()) ASSERT_TRUE(contest.step(blind.context, {}, frame++));
+  EXPECT_EQ(contest.frames(), 6);
+  for (const WalkerParticle& p : contest.survivors()) EXPECT_EQ(p.stance, Side::kLeft);
+}
+
+TEST(Contest, TheSameForAnyNumberOfThreads) {
+  const Blind blind;
+  std::vector<double> places[2];
+  for (const int threads : {1, 4}) {
+    Contest contest(blind.context.motion, blind.start, blind.filter, blind.sighting, std::nullopt,
+                    5, threads);
+    for (uint32_t frame = 0; !contest.decided(); ++frame) contest.step(blind.context, {}, frame);
+    for (const WalkerParticle& p : contest.survivors())
+      places[threads == 1 ? 0 : 1].push_back(p.pose.root.x());
+  }
+  EXPECT_EQ(places[0], places[1]);
+}
+
+}  // namespace
+}  // namespace walktrack

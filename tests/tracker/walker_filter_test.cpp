@@ -1,0 +1,58 @@
+#include "tracker/walker_filter.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/log_weights.h"
+#include "fixture.h"
+
+namespace walktrack {
+namespace {
+
+// Nothing is seen, yet of two walkers the one whose hips have sunk below what walking allows loses
+// its weight.
+TEST(Advance, HipsStayUp) {
+  const Walking walking;
+  constexpr double kFrame = 1.0 / 30;
+  const TrackerScene scene = unseen(walking.model, kFrame);
+  const WalkerFilterContext context{scene, walking.context(kFrame), 1, 1};
+  std::vector<WalkerParticle> both = walkers(context.motion, 1.2, 2);
+  both[1] = both[0];
+  for (const Extra thigh : {kThigh, kThighRight})
+    both[1].extra[thigh] = both[1].extra_before[thigh] = rad_from_deg(-30);
+  for (const Extra shank : {kShank, kShankRight})
+    both[1].extra[shank] = both[1].extra_before[shank] = rad_from_deg(40);
+  FilterConfig plain;
+  plain.resample_below = 0;
+  plain.max_layers = 1;
+  plain.moves = 0;
+  WalkerFilter filter(plain, 1, 1);
+  filter.start(both);
+  const FrameRecord record = advance(context, {}, 0, 1, false, filter);
+  ASSERT_TRUE(record.tracked);
+  const auto& set = filter.particles();
+  ASSERT_LT(set.states[1].pose.root.z(), set.states[0].pose.root.z());
+  EXPECT_GT(normalised_weights(set.log_weights)[0], 0.95);
+  EXPECT_EQ(record.samples.size(), 1u);
+}
+
+TEST(Advance, TellsOfThoseWhoFell) {
+  const Walking walking;
+  constexpr double kFrame = 1.0 / 30;
+  const TrackerScene scene = unseen(walking.model, kFrame);
+  const WalkerFilterContext context{scene, walking.context(kFrame), 0, 1};
+  std::vector<WalkerParticle> particles = walkers(context.motion, 1.2, 4);
+  for (size_t i = 0; i < 3; ++i) {
+    particles[i].walker.q[kStanceThigh] -= 0.9;
+    particles[i].walker.q[kStanceShank] += 0.9;
+  }
+  WalkerFilter filter({}, 1, 1);
+  filter.start(particles);
+  const FrameRecord record = advance(context, {}, 0, 1, false, filter);
+  EXPECT_TRUE(record.tracked);
+  EXPECT_EQ(record.fallen, 3);
+}
+
+}  // namespace
+}  // namespace walktrack
