@@ -123,8 +123,6 @@ void add_search(ParameterTable& table) {
   a.integer("phases", &A::phases, 1, 1000, "hypotheses over the phase of each foot's step");
   a.integer("particles", &A::particles, 1, 10'000'000, "of each hypothesis");
   a.number("seconds", &A::seconds, 0, 10, "for which hypotheses compete, s");
-  a.number("rival_seconds", &A::rival_seconds, 0, 10,
-           "for which the best then competes with one whose legs have changed places, s");
   a.number("heading_deg", &A::heading_deg, 0, 180, "deviation of the first heading, degrees");
   a.number("speed", &A::speed, 0, 2, "deviation of the first speed, relative");
   a.number("step_length", &A::step_length, 0, 2, "deviation of the step length, relative");

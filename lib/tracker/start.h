@@ -11,10 +11,9 @@
 namespace walktrack {
 
 struct StartConfig {
-  int phases = 6;            // hypotheses over the phase of a step, for each standing foot
-  int particles = 150;       // of each hypothesis
-  double seconds = 0.5;      // for which they compete
-  double rival_seconds = 1;  // for which the best then competes with its rival (tracker/contest.h)
+  int phases = 6;        // hypotheses over the phase of a step, for each standing foot
+  int particles = 150;   // of each hypothesis
+  double seconds = 0.5;  // for which they compete
   double heading_deg = 6;
   double speed = 0.15;        // relative
   double step_length = 0.12;  // relative, about the human relation

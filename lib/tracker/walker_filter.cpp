@@ -13,10 +13,10 @@ namespace {
 // Share of the filter's moves that change the course, the others change the frame's noise.
 constexpr double kCourseMoves = 0.3;
 
-// Walking people keep their hips up: below .85 of the leg's length the pose becomes improbable,
+// Walking people keep their hips up: below .82 of the leg's length the pose becomes improbable,
 // 1 % of it counting as one standard deviation (the prior's longest steps lower the hip to .83).
 double log_uprightness(const BodyModel& model, const Pose& pose) {
-  const double below = 0.85 - pose.root.z() / leg_length(model.body.lengths);
+  const double below = 0.82 - pose.root.z() / leg_length(model.body.lengths);
   return below > 0 ? -0.5 * (below / 0.01) * (below / 0.01) : 0;
 }
 
