@@ -144,7 +144,9 @@ void keep_every(Frames& frames, size_t nth) {
 }
 
 constexpr std::array kTrials{
-    Trial{"ordinary walk", false, [](const fs::path& f) { return try_walk(1.25, 1.75, f); }},
+    // The one that has to pass the quality gates, so with half of the default particles.
+    Trial{"ordinary walk", false,
+          [](const fs::path& f) { return try_settings({"start.particles=80"}, f); }},
     Trial{"ordinary walk, start not told", false,
           [](const fs::path& f) {
             Film film = film_of_walk();
