@@ -133,6 +133,8 @@ void add_track(ParameterTable& table) {
   ParameterGroup<T> t(table, "track", "keeping the track", &Config::tracker);
   t.number("lost_below", &T::lost_below, 0, 1, "share of the likelihood's median");
   t.number("lost_after", &T::lost_after, 0, 100, "time below it until the track is lost, s");
+  t.number("beaten_after", &T::beaten_after, 0, 100,
+           "time of doing worse than a stiff figure until the track is lost, s");
   t.number("seek", &T::seek, 0, 1000,
            "time for which a lost walker is looked for only within reach, s");
   t.number("recall", &T::recall, 0.1, 100, "past that the median is taken over, s");

@@ -5,7 +5,9 @@
 //
 // The difference is that between a measured walk (subject 4 of the OpenCap validation, Uhlrich et
 // al., PLOS Comput. Biol. 19(10), 2023, trial walking1, 1.30 m/s, joint centres from motion
-// capture, strikes from force plates, both legs) and the prior's gait of the same speed.
+// capture, strikes from force plates, both legs) and the prior's gait of the same speed, windowed
+// so that it is zero when a foot strikes: there legs change their roles, and feet may not jump. Of
+// the standing leg only the bend of its knee is kept, hip over ankle, which keeps the foot still.
 #pragma once
 
 namespace walktrack {

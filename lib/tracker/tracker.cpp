@@ -160,7 +160,7 @@ void Tracker::settle(std::vector<FrameRecord>& out) {
   }
   contest_.reset();
   mode_ = Mode::kTracking;
-  frames_below_ = 0;
+  frames_below_ = frames_beaten_ = 0;
 }
 
 void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
@@ -211,20 +211,23 @@ double Tracker::figure_score(const SceneEvidence& evidence, const FrameEstimate&
   return best;
 }
 
-// Whether the likelihood has stayed for too long far below its own recent median, or below that of
-// a mere figure: then the legs are not where they are believed to be.
+// Whether the track is lost: for a while the likelihood has been far below its own recent median,
+// as that of a hidden walker is, or for a shorter while a stiff figure has done better.
 bool Tracker::fading(double support, double figure) {
   std::vector<double> past(supports_.begin(), supports_.end());
   std::nth_element(past.begin(), past.begin() + static_cast<long>(past.size() / 2), past.end());
-  const double median = past[past.size() / 2];
-  const bool bad = support < std::max({config_.lost_below * median, kFigureShare * figure,
-                                       config_.sighting.least_score});
-  frames_below_ = bad ? frames_below_ + 1 : 0;
+  const double least =
+      std::max(config_.lost_below * past[past.size() / 2], config_.sighting.least_score);
+  const bool beaten = figure > least && support < kFigureShare * figure;
+  const bool below = support < least;
+  frames_beaten_ = beaten ? frames_beaten_ + 1 : 0;
+  frames_below_ = below || beaten ? frames_below_ + 1 : 0;
   // Bad frames do not become the measure of good ones.
   if (frames_below_ == 0) supports_.push_back(support);
   if (static_cast<int>(supports_.size()) > frames_in(config_.recall, scene_.dt))
     supports_.pop_front();
-  return frames_below_ >= frames_in(config_.lost_after, scene_.dt);
+  return frames_below_ >= frames_in(config_.lost_after, scene_.dt) ||
+         frames_beaten_ >= frames_in(config_.beaten_after, scene_.dt);
 }
 
 }  // namespace walktrack

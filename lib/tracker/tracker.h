@@ -26,11 +26,12 @@ struct TrackerConfig {
   FilterConfig filter;
   SightingConfig sighting;
   StartConfig start;
-  double lost_below = 0.35;  // share of the likelihood's own median at which the track is lost
-  double lost_after = 1;     // s below it: so long may a walker be hidden
-  int samples = 20;          // particles kept of every frame to show the spread
-  double recall = 1.5;       // s of past likelihoods that the median is taken over
-  double seek = 4;           // s for which a lost walker is looked for only where they can be
+  double lost_below = 0.35;   // share of the likelihood's own median at which the track is lost
+  double lost_after = 1;      // s below it: so long may a walker be hidden
+  double beaten_after = 0.4;  // s of explaining the images worse than a stiff figure in its place
+  int samples = 20;           // particles kept of every frame to show the spread
+  double recall = 1.5;        // s of past likelihoods that the median is taken over
+  double seek = 4;            // s for which a lost walker is looked for only where they can be
 };
 
 class Tracker {
@@ -88,7 +89,7 @@ class Tracker {
   WalkerFilter filter_;
   std::optional<LastSeen> last_seen_;
   std::deque<double> supports_;
-  int frames_below_ = 0;
+  int frames_below_ = 0, frames_beaten_ = 0;
   int losses_ = 0;
 };
 
