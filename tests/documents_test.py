@@ -3,9 +3,10 @@
 
     documents_test.py WALKTRACK SOURCE_FOLDER [--quick]
 
-Commands stand in fenced blocks of the kind `sh`; those of the kind `sh slow` are left out with --quick, and those
-that read ../shared where that is absent, which is said. Each has to end with 0, or with 4 (tracked, below a gate).
-A backslash joins lines. Links between documents must lead somewhere.
+Commands stand in fenced blocks of the kind `sh`; those marked `slow` are left out with --quick. Blocks marked `motion`
+run a second time with measured motion capture in the place of the demo's truth; where that is absent, it is said.
+Each command has to end with 0, or with 4 (tracked, below a gate). A backslash joins lines. Links between documents
+must lead somewhere.
 """
 import os
 import pathlib
@@ -18,6 +19,7 @@ import tempfile
 DOCUMENTS = ["README.md", "apps/guide/README.md", "apps/guide/formats.md", "scripts/cluster/README.md"]
 # These build the program and run the tests, this one included.
 RUN_BY_OTHERS = ("scripts/demo.sh", "scripts/test.sh")
+STAND_IN, CAPTURE = "data/demo/truth.csv", "data/mocap/cmu_02_01.csv"
 
 
 def blocks(text):
@@ -26,16 +28,25 @@ def blocks(text):
         yield text.count("\n", 0, found.start()) + 2, found.group(1), found.group(2).split(), found.group(3)
 
 
-def commands(document, quick, shared):
+def versions(content, words, capture, place):
+    """The block as it is and, if it is about any motion, with motion capture."""
+    yield content
+    if "motion" not in words:
+        return
+    if not capture.exists():
+        print(f"{place}: with motion capture: skipped, {capture} is absent")
+        return
+    yield content.replace(STAND_IN, str(capture)).replace("out/", "out/captured_")
+
+
+def commands(document, quick, capture):
     for line, kind, words, content in blocks(document.read_text()):
         if kind != "sh" or (quick and "slow" in words):
             continue
-        if "../shared" in content and not shared.exists():
-            print(f"{document.name}:{line}: skipped: {shared} is absent")
-            continue
-        for number, command in enumerate(content.replace("\\\n", "").splitlines(), line):
-            if command.strip() and not command.startswith(("#",) + RUN_BY_OTHERS):
-                yield number, command
+        for version in versions(content, words, capture, f"{document.name}:{line}"):
+            for number, command in enumerate(version.replace("\\\n", "").splitlines(), line):
+                if command.strip() and not command.startswith(("#",) + RUN_BY_OTHERS):
+                    yield number, command
 
 
 def broken_links(document):
@@ -46,15 +57,13 @@ def broken_links(document):
 
 def main():
     walktrack, source, quick = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), "--quick" in sys.argv
-    shared = source.parent / "shared"
+    capture = source.parent / "shared" / CAPTURE
     failures = [problem for name in DOCUMENTS for problem in broken_links(source / name)]
     print("\n".join(failures), flush=True)
     passed = 0
     with tempfile.TemporaryDirectory() as temporary:
         tree = pathlib.Path(temporary) / "walktrack"
         shutil.copytree(source, tree, ignore=shutil.ignore_patterns("build", "out", ".git"))
-        if shared.exists():
-            (tree.parent / "shared").symlink_to(shared)
         (tree / "bin").mkdir()
         for place in ("bin", "build/release"):
             (tree / place).mkdir(parents=True, exist_ok=True)
@@ -64,7 +73,7 @@ def main():
             # Readers of one document have not read the others: nothing is there to be overwritten.
             shutil.rmtree(tree / "out", ignore_errors=True)
             (tree / "out").mkdir()
-            for line, command in commands(source / name, quick, shared):
+            for line, command in commands(source / name, quick, capture):
                 result = subprocess.run(["bash", "-c", command], cwd=tree, env=environment, capture_output=True, text=True, check=False)
                 if result.returncode in (0, 4):
                     passed += 1
