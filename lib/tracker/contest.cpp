@@ -18,9 +18,7 @@ constexpr double kHopeless = 15;
 Contest::Contest(const MotionContext& motion, const StartConfig& start, const FilterConfig& filter,
                  const Sighting& sighting, std::optional<double> stride_phase, uint64_t seed,
                  int threads)
-    : filter_(filter),
-      seed_(seed),
-      frames_to_decide_(std::max(2, static_cast<int>(std::lround(start.seconds / motion.dt)))) {
+    : filter_(filter), seed_(seed), frames_to_decide_(frames_in(start.seconds, motion.dt)) {
   FilterConfig small = filter;
   small.particles = start.particles;
   for (const PhaseRange& range :
@@ -50,12 +48,6 @@ bool Contest::step(const WalkerFilterContext& context, const SceneEvidence& evid
   std::erase_if(hypotheses_,
                 [&](const Hypothesis& each) { return each.log_evidence < best - kHopeless; });
   return true;
-}
-
-double Contest::support() const {
-  double sum = 0;
-  for (const FrameRecord& record : records()) sum += record.support;
-  return frames_ > 0 ? sum / frames_ : 0;
 }
 
 std::vector<WalkerParticle> Contest::survivors() const {

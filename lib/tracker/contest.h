@@ -25,8 +25,6 @@ class Contest {
   bool step(const WalkerFilterContext& context, const SceneEvidence& evidence, uint32_t frame);
   bool decided() const { return frames_ >= frames_to_decide_; }
   int frames() const { return frames_; }
-  // Mean log-likelihood per frame of the leading hypothesis' particles, nats.
-  double support() const;
   // The leading hypothesis' account of the frames so far.
   const std::vector<FrameRecord>& records() const { return leader().records; }
   // FilterConfig::particles of those that are left, in proportion to their evidence.

@@ -23,6 +23,10 @@ std::vector<PosedPart> parts_of(const Body& body, const Pose& pose) {
 
 }  // namespace
 
+int frames_in(double seconds, double dt) {
+  return std::max(2, static_cast<int>(std::lround(seconds / dt)));
+}
+
 double log_likelihood(const TrackerScene& scene, const SceneEvidence& evidence,
                       const WalkerParticle& particle, bool with_motion) {
   const std::vector<PosedPart> now = parts_of(scene.model.body, particle.pose);

@@ -24,6 +24,9 @@ struct TrackerScene {
   std::optional<double> initial_phase;  // of the stride, 0 = left foot strike
 };
 
+// Frames of `dt` s in a span of time, at least two.
+int frames_in(double seconds, double dt);
+
 // By camera, in the order of TrackerScene::cameras.
 using SceneEvidence = std::vector<CameraEvidence>;
 

@@ -17,8 +17,10 @@ constexpr double kUsualSpeed = 1.25;  // m/s
 // where a person is a few dozen pixels high, a figure does nearly as well as the walker itself.
 constexpr double kFigureShare = 0.9;
 
-int frames_in(double seconds, double dt) {
-  return std::max(2, static_cast<int>(std::lround(seconds / dt)));
+double total_support(const std::vector<FrameRecord>& records) {
+  double sum = 0;
+  for (const FrameRecord& record : records) sum += record.support;
+  return sum;
 }
 
 }  // namespace
@@ -109,8 +111,7 @@ bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
     if (mode_ == Mode::kSearching) break;
     consume(each, tried);
   }
-  double support = contest_ ? contest_->support() * contest_->frames() : 0;
-  for (const FrameRecord& record : tried) support += record.support;
+  const double support = total_support(tried) + (contest_ ? total_support(contest_->records()) : 0);
   if (mode_ != Mode::kSearching && support >= sighting.score * double(window_.size())) {
     window_.clear();
     candidates_.clear();

@@ -10,13 +10,17 @@
 namespace walktrack {
 namespace {
 
-// Nothing is seen, yet of two walkers the one whose hips have sunk below what walking allows loses
-// its weight.
-TEST(Advance, HipsStayUp) {
+constexpr double kFrame = 1.0 / 30;
+
+struct Advance : testing::Test {
   const Walking walking;
-  constexpr double kFrame = 1.0 / 30;
   const TrackerScene scene = unseen(walking.model, kFrame);
   const WalkerFilterContext context{scene, walking.context(kFrame), 1, 1};
+};
+
+// Nothing is seen, yet of two walkers the one whose hips have sunk below what walking allows loses
+// its weight.
+TEST_F(Advance, HipsStayUp) {
   std::vector<WalkerParticle> both = walkers(context.motion, 1.2, 2);
   both[1] = both[0];
   for (const Extra thigh : {kThigh, kThighRight})
@@ -37,11 +41,7 @@ TEST(Advance, HipsStayUp) {
   EXPECT_EQ(record.samples.size(), 1u);
 }
 
-TEST(Advance, TellsOfThoseWhoFell) {
-  const Walking walking;
-  constexpr double kFrame = 1.0 / 30;
-  const TrackerScene scene = unseen(walking.model, kFrame);
-  const WalkerFilterContext context{scene, walking.context(kFrame), 0, 1};
+TEST_F(Advance, TellsOfThoseWhoFell) {
   std::vector<WalkerParticle> particles = walkers(context.motion, 1.2, 4);
   for (size_t i = 0; i < 3; ++i) {
     particles[i].walker.q[kStanceThigh] -= 0.9;
