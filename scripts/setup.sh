@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what building and running walktrack needs, from Debian's packages alone; with "tests" what
-# testing needs as well. Does nothing when everything is there.
-#   scripts/setup.sh [tests]
+# Installs what building and running walktrack needs, from Debian's packages alone; with "tests" or
+# "bench" what testing or benchmarks need as well. Does nothing when everything is there.
+#   scripts/setup.sh [tests|bench]
 set -euo pipefail
 
 packages=(
@@ -14,9 +14,16 @@ packages=(
 if [ "${1:-}" = tests ]; then
   packages+=(
     python3 libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang-format clang-tidy
+    valgrind                     # counts instructions
     clang libclang-rt-dev        # for fuzzing
     libsimbody-dev               # independent engine behind some tests
     chromium fonts-dejavu-core   # opens the reports
+  )
+fi
+if [ "${1:-}" = bench ]; then
+  packages+=(
+    python3 libgtest-dev libgmock-dev libbenchmark-dev
+    libmujoco-dev                # a peer
   )
 fi
 

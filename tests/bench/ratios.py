@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Runs micro_bench and whole programs several times and prints medians as ratios.
+
+    ratios.py BUILD_FOLDER SOURCE_FOLDER [--repetitions N] [--store]
+
+Times differ from machine to machine, ratios hardly: to peers and limits of the same run, and to the
+release before in tests/bench/release.json, which holds every time as a multiple of the same run's
+`dynamics_tmt_eigen`. --store writes that file anew.
+"""
+import argparse
+import json
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+YARDSTICK = "dynamics_tmt_eigen"
+# what, as a multiple of what, wanted: (at most | at least) how much
+TARGETS = [
+    ("silhouette_log_ratio", "silhouette_scanline_limit", "at most", 1.5),
+    ("silhouette_per_pixel", "silhouette_log_ratio", "at least", 14),
+    ("dynamics_mujoco", "dynamics_scalar", "", None),
+    ("dynamics_tmt_eigen", "dynamics_scalar", "", None),
+    ("dynamics_scalar", "dynamics_soa_limit", "", None),
+    ("normal_ours", "normal_std", "", None),
+]
+
+
+def micro(build: Path, repetitions: int) -> dict[str, float]:
+    """Median seconds for one item of every benchmark."""
+    output = subprocess.run(
+        [build / "micro_bench", f"--benchmark_repetitions={repetitions}", "--benchmark_format=json",
+         "--benchmark_enable_random_interleaving=true", "--benchmark_min_time=0.1"],
+        check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout
+    times: dict[str, list[float]] = {}
+    for run in json.loads(output)["benchmarks"]:
+        if run["run_type"] == "iteration":
+            times.setdefault(run["name"].split("/")[0], []).append(run["s_each"])
+    return {name: statistics.median(values) for name, values in times.items()}
+
+
+def tracked(build: Path, source: Path, threads: int, repetitions: int) -> dict[str, float]:
+    """Seconds a frame of the shipped demo, in all and of its stages, medians."""
+    runs: dict[str, list[float]] = {}
+    frames = sum(1 for _ in (source / "data/demo/truth.csv").open()) - 1
+    for _ in range(repetitions):
+        with tempfile.TemporaryDirectory() as folder:
+            command = [build / "walktrack", "track", source / "data/demo/scene.yaml", "-o",
+                       f"{folder}/out", "--threads", str(threads), "--quiet"]
+            begin = time.perf_counter()
+            if subprocess.run(command, stdout=subprocess.DEVNULL).returncode not in (0, 4):
+                sys.exit("walktrack track failed")
+            seconds = {"all": time.perf_counter() - begin}
+            record = json.loads(Path(folder, "out/run.json").read_text())
+            seconds |= record["timing"]["stage_seconds"]
+        for stage, value in seconds.items():
+            runs.setdefault(stage, []).append(value / frames)
+    return {f"track_{stage}_{threads}": statistics.median(v) for stage, v in runs.items()}
+
+
+def print_targets(times: dict[str, float]) -> None:
+    print(f"\n{'ratio within this run':58} {'measured':>9}  wanted")
+    for what, than, bound, wanted in TARGETS:
+        if what not in times or than not in times:
+            print(f"{what + ' / ' + than:58} {'-':>9}  not measured: a package is missing")
+            continue
+        ratio = times[what] / times[than]
+        verdict = ""
+        if bound:
+            met = ratio <= wanted if bound == "at most" else ratio >= wanted
+            verdict = f"{bound} {wanted:g}: {'met' if met else 'NOT met'}"
+        print(f"{what + ' / ' + than:58} {ratio:9.3g}  {verdict}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("build", type=Path)
+    parser.add_argument("source", type=Path)
+    parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("--micro", action="store_true", help="no whole programs")
+    parser.add_argument("--store", action="store_true")
+    options = parser.parse_args()
+
+    times = micro(options.build, options.repetitions)
+    if not options.micro:
+        for threads in (1, 2):
+            times |= tracked(options.build, options.source, threads, options.repetitions)
+    path = options.source / "tests/bench/release.json"
+    release = json.loads(path.read_text()) if path.exists() else {}
+    print(f"{'median':34} {'time':>12} {'/ ' + YARDSTICK:>24} {'/ release before':>18}")
+    relative = {name: value / times[YARDSTICK] for name, value in times.items()}
+    for name, value in times.items():
+        unit, scale = ("ns", 1e9) if value < 1e-6 else ("us", 1e6) if value < 1e-3 else ("ms", 1e3)
+        change = f"{relative[name] / release[name]:.2f}" if name in release else "-"
+        print(f"{name:34} {value * scale:9.4g} {unit} {relative[name]:24.4g} {change:>18}")
+    print_targets(times)
+    if "track_filter_2" in times:
+        print(f"\nframes/s of the demo (two cameras, 640x480), 1 and 2 threads: "
+              f"{1 / times['track_all_1']:.3g}, {1 / times['track_all_2']:.3g}; particles on 2 threads "
+              f"{times['track_filter_1'] / times['track_filter_2']:.2f} x as fast; largest memory of "
+              f"a run {resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024:.0f} MB")
+        print(f"processors {os.cpu_count()}, load average {os.getloadavg()[0]:.1f}: with others at "
+              "work, trust the micro benchmarks only")
+    if options.store:
+        path.write_text(json.dumps({n: float(f"{v:.4g}") for n, v in relative.items()}, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

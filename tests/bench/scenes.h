@@ -1,0 +1,53 @@
+// Fixed work for benchmarks and instruction counts: walkers in the middle of a gait, a figure
+// before a camera, particles of the tracker. The same on every machine.
+#pragma once
+
+#include <vector>
+
+#include "camera/camera.h"
+#include "gait/gait_prior.h"
+#include "observation/capsules.h"
+#include "observation/planes.h"
+#include "tracker/motion.h"
+
+namespace walktrack {
+
+// Walkers of an average adult at 1.3 m/s, each with its own phase, controls and torque noise.
+struct WalkerCrowd {
+  GaitPrior prior;
+  KneedParameters parameters;
+  KneedModel model;
+  PriorGait gait;
+  std::vector<KneedControls> controls;
+  std::vector<Vector5> torques;  // N m
+  std::vector<KneedState> states;
+};
+WalkerCrowd walker_crowd(size_t count);
+
+// Walking figures some 450 px high before a 640x480 camera: about 1,200 rows of parts and 45,000
+// pixels each, with planes of log-ratios of three appearances.
+struct FigureScene {
+  Camera camera;
+  Body body;
+  std::vector<Pose> poses;
+  std::vector<CapsuleList> capsules;  // one for each pose
+  LogRatioPlanes planes;
+  double mean_rows = 0;  // of the parts, in the image
+};
+FigureScene figure_scene(size_t poses);
+
+// Particles of the tracker that walk at 1.3 m/s, 30 frames a second.
+struct ParticleScene {
+  BodyModel model;
+  GaitPrior prior;
+  MotionConfig config;
+  double dt = 1.0 / 30;  // s
+  std::vector<WalkerParticle> particles;
+
+  MotionContext context() const {
+    return {model, prior, config, noise_scale(config, model, dt), dt};
+  }
+};
+ParticleScene particle_scene(size_t count);
+
+}  // namespace walktrack
