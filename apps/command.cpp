@@ -56,7 +56,8 @@ po::variables_map parse_words(const Arguments& arguments, const po::options_desc
 po::options_description common_options(CommonOptions& common) {
   po::options_description options("Common options");
   auto add = options.add_options();
-  add("config,c", po::value(&common.config_file)->value_name("FILE"), "configuration (YAML)");
+  add("config,c", po::value(&common.config_file)->value_name("FILE"),
+      "configuration: a YAML file, or a preset: fast, balanced or accurate");
   add("set", po::value(&common.settings)->composing()->value_name("KEY=VALUE"),
       "set one parameter; see 'walktrack config'");
   add("output,o", po::value(&common.output)->value_name("PATH"), "where the results go");

@@ -16,6 +16,7 @@ int run_prior(const Arguments& arguments);
 int run_render(const Arguments& arguments);
 int run_selftest(const Arguments& arguments);
 int run_simulate(const Arguments& arguments);
+int run_sweep(const Arguments& arguments);
 int run_track(const Arguments& arguments);
 
 }  // namespace walktrack

@@ -31,6 +31,7 @@ constexpr std::array kCommands{
     Command{"render", "render a motion as synthetic video with its truth", run_render},
     Command{"selftest", "try extremes on this program and say how they end", run_selftest},
     Command{"simulate", "simulate a walker: tables, pictures, an animation", run_simulate},
+    Command{"sweep", "measure what accuracy costs: error against speed", run_sweep},
     Command{"track", "track the walker of one scene", run_track},
 };
 

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "io/config_table.h"
+#include "io/presets.h"
 #include "io/yaml.h"
 
 namespace walktrack {
@@ -81,6 +82,20 @@ void apply_map(ConfigWithOrigin& config, const YamlValue& map) {
   }
 }
 
+// A file, or without one the preset of that name. A bare word that is neither gets both named.
+YamlValue file_or_preset(const std::string& path) {
+  if (std::filesystem::exists(path)) return YamlValue::from_file(path);
+  std::vector<std::string_view> names;
+  for (const Preset& preset : presets()) {
+    if (preset.name == path)
+      return YamlValue::from_text(std::string(preset.yaml), "preset " + path);
+    names.push_back(preset.name);
+  }
+  if (path.find_first_of("/.") != std::string::npos) return YamlValue::from_file(path);
+  throw UsageError(describe({path, 0, ""}, "no such file",
+                            fmt::format("a file, or a preset: {}", fmt::join(names, ", "))));
+}
+
 size_t depth(const std::string& key) {
   return static_cast<size_t>(std::count(key.begin(), key.end(), '.'));
 }
@@ -108,7 +123,7 @@ void open_groups(std::string& text, std::string& open, const std::string& key) {
 
 void apply_config_file(ConfigWithOrigin& config, const std::string& path) {
   try {
-    apply_map(config, YamlValue::from_file(path));
+    apply_map(config, file_or_preset(path));
   } catch (const InputError& error) {
     throw UsageError(error.what());  // a broken configuration is a usage error
   }

@@ -52,7 +52,8 @@ struct ConfigWithOrigin {
   std::map<std::string, std::string> origin;  // key -> "fast.yaml:3" or "--set"
 };
 
-// The values of a file on top of `config`.
+// The values of a file on top of `config`. Where there is no such file, `path` may be the name of a
+// preset (io/presets.h).
 void apply_config_file(ConfigWithOrigin& config, const std::string& path);
 
 // "key=value" on top of `config`; `origin` is what messages and printouts call it, e.g. "--set".

@@ -42,7 +42,8 @@ struct RunRecord {
   std::vector<std::string> command_line;
   int threads = 1;                                            // in fact used
   std::vector<std::pair<std::string, double>> stage_seconds;  // in order of the stages
-  double seconds = 0;                                         // altogether
+  double tracking_cpu_seconds = 0;  // of all threads, between background and output
+  double seconds = 0;               // altogether
 };
 
 std::string run_json(const RunRecord& record);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 #include <fmt/format.h>
@@ -56,6 +57,7 @@ struct Run {
   SceneEvidence evidence;
   TrackedFrames frames;
   Stopwatch watch;
+  double cpu_seconds = 0;  // of tracking
 
   Run(const TrackJob& the_job, TrackSetup the_setup, double frame_rate, int the_threads)
       : job(the_job),
@@ -188,6 +190,7 @@ RunRecord record_of(const Run& run, const TrackOutcome& outcome, const Quality& 
   out.command_line = run.job.command_line;
   out.threads = run.threads;
   out.stage_seconds = run.watch.stages();
+  out.tracking_cpu_seconds = run.cpu_seconds;
   out.seconds = seconds;
   return out;
 }
@@ -218,6 +221,7 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
           video.frame_rate(), threads);
   run.watch.add("background", start);
   const auto tracking = Clock::now();
+  const std::clock_t cpu = std::clock();
   SceneFrames images;
   const auto total = static_cast<size_t>(std::max(0, video.frame_count()));
   TrackOutcome outcome;
@@ -231,6 +235,7 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
     control.progress("tracking", static_cast<size_t>(++outcome.frames), total);
   }
   for (FrameRecord& record : run.tracker.finish()) run.frames.records.push_back(std::move(record));
+  run.cpu_seconds = double(std::clock() - cpu) / CLOCKS_PER_SEC;
   outcome.frames_per_second =
       outcome.frames / std::chrono::duration<double>(Clock::now() - tracking).count();
   const Quality quality = quality_of(run.frames, job.config.values.gates);

@@ -103,6 +103,10 @@ TEST(CommandLine, NamesMistakes) {
       {{"calibrate", "--size", "9by6"}, 2, "--size: found '9by6', allowed: COLUMNSxROWS"},
       {{"calibrate", "--size", "9x6"}, 2, "--spacing: found 0, allowed: metres between"},
       {{"check"}, 2, "SCENE.yaml is missing"},
+      {{"sweep", "/nowhere.yaml"}, 2, "--output is missing"},
+      {{"sweep", "/nowhere.yaml", "-o", "/tmp/x"}, 3, "/nowhere.yaml: no such file"},
+      {{"sweep", "x", "-o", "/tmp/x", "--seeds", "0"}, 2, "--seeds: found 0, allowed: a number"},
+      {{"config", "-c", "fst"}, 2, "fst: found no such file, allowed: a file, or a preset: fast"},
       {{"check", "/nowhere.yaml"}, 3, "/nowhere.yaml: no such file"},
   };
   for (const Mistake& mistake : mistakes) {

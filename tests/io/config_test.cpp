@@ -1,17 +1,22 @@
 #include "io/config.h"
 
+#include <filesystem>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
 #include "io/parameters.h"
+#include "io/presets.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 std::string message_for_file(const std::string& content) {
   const TemporaryFolder folder;
@@ -39,6 +44,29 @@ TEST(ConfigFile, MissingKeysAndEmptyFilesMeanDefaults) {
   apply_config_file(config, folder.write("empty.yaml", "# nothing\n"));
   EXPECT_EQ(config_values(config.values), config_values(Config{}));
   EXPECT_TRUE(config.origin.empty());
+}
+
+TEST(ConfigPreset, EveryOneIsAConfigurationAndBalancedIsTheDefault) {
+  for (const Preset& preset : presets()) {
+    ConfigWithOrigin config;
+    apply_config_file(config, std::string(preset.name));
+    EXPECT_EQ(config.origin.empty(), preset.name == "balanced") << preset.name;
+    for (const auto& [key, origin] : config.origin)
+      EXPECT_THAT(origin, StartsWith("preset " + std::string(preset.name) + ":"));
+  }
+}
+
+// A file of that name wins.
+TEST(ConfigPreset, DoesNotHideAFile) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("fast", "seed: 99\n");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  ConfigWithOrigin config;
+  apply_config_file(config, "fast");
+  fs::current_path(before);
+  EXPECT_EQ(config.values.seed, 99u);
+  EXPECT_EQ(config.origin.size(), 1u);
 }
 
 TEST(Config, YamlRoundTripsEveryParameter) {

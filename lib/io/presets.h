@@ -1,0 +1,16 @@
+// Configurations that come with the program, by name: configs/*.yaml of the source tree.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace walktrack {
+
+struct Preset {
+  std::string_view name, yaml;
+};
+
+// In the order from fast to accurate.
+std::span<const Preset> presets();
+
+}  // namespace walktrack

@@ -1,0 +1,117 @@
+#include "jobs/sweep_grid.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/message_of.h"
+
+namespace walktrack {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Scene scene_of(const std::vector<std::string>& cameras) {
+  Scene scene;
+  for (const std::string& name : cameras) {
+    scene.cameras.emplace_back();
+    scene.cameras.back().name = name;
+  }
+  return scene;
+}
+
+std::vector<SweepKnob> knobs_of(const std::vector<std::string>& words) {
+  return sweep_knobs(words, scene_of({"side", "front"}), {});
+}
+
+TEST(SweepKnobs, AreReadFromWords) {
+  const auto knobs = knobs_of({"particles=50:100,scale=60", "motion.misfit=0.5:1"});
+  ASSERT_EQ(knobs.size(), 3u);
+  EXPECT_EQ(knobs[0].name, "particles");
+  EXPECT_THAT(knobs[0].values, ElementsAre("50", "100"));
+  EXPECT_EQ(knobs[2].name, "motion.misfit");
+  EXPECT_TRUE(knobs_of({}).empty());
+}
+
+struct Mistake {
+  std::vector<std::string> words;
+  std::string message;
+};
+
+TEST(SweepKnobs, MistakesAreNamed) {
+  const std::vector<Mistake> mistakes{
+      {{"particles"}, "--over: found 'particles', allowed: NAME=VALUE:VALUE"},
+      {{"particles="}, "NAME=VALUE"},
+      {{"=3"}, "NAME=VALUE"},
+      {{""}, "NAME=VALUE"},
+      {{"particels=3"}, "found an unknown knob, did you mean 'particles'?"},
+      {{"step=3"}, "--over: step: found an unknown knob"},
+      {{"filter.particle=3"}, "did you mean 'filter.particles'?"},
+      {{"particles=0"}, "filter.particles: found '0', allowed: a whole number from 1"},
+      {{"particles=10::20"}, "filter.particles: found ''"},
+      {{"particles=10:10"}, "particles: found '10', allowed: every value once"},
+      {{"particles=10,filter.particles=20"}, "allowed: every knob once"},
+      {{"cameras=0"}, "cameras: found '0', allowed: 1 to 2, or names of side, front joined by +"},
+      {{"cameras=3"}, "found '3'"},
+      {{"cameras=1.5"}, "found '1.5'"},
+      {{"cameras=side+back"}, "found 'side+back'"},
+      {{"terms=colour"}, "terms: found 'colour', allowed: all, or background, foreground, flow"},
+      {{"terms=all+flow"}, "found 'all+flow'"},
+      {{"config=quick"}, "quick: found no such file, allowed: a file, or a preset: fast, balanced"},
+  };
+  for (const Mistake& mistake : mistakes)
+    EXPECT_THAT(message_of<UsageError>([&] { knobs_of(mistake.words); }),
+                HasSubstr(mistake.message));
+}
+
+TEST(SweepGrid, HasEveryCombinationOnce) {
+  const auto grid = sweep_grid({{"a", {"1", "2"}}, {"b", {"x"}}, {"c", {"p", "q"}}});
+  EXPECT_THAT(grid, ElementsAre(ElementsAre("1", "x", "p"), ElementsAre("1", "x", "q"),
+                                ElementsAre("2", "x", "p"), ElementsAre("2", "x", "q")));
+  EXPECT_THAT(sweep_grid({}), ElementsAre(SweepSetting{}));  // as configured
+}
+
+TEST(SweepGrid, RichestIsTheLargestOfEachKnobWhereverItStands) {
+  EXPECT_THAT(richest_setting({{"particles", {"300", "1000", "75"}},
+                               {"cameras", {"side", "side+front", "front"}},
+                               {"terms", {"background+flow", "all", "flow"}},
+                               {"arms", {"true", "false"}},
+                               {"config", {"fast", "balanced"}}}),
+              ElementsAre("1000", "side+front", "all", "true", "balanced"));
+}
+
+TEST(SweepSetting, ReachesSceneAndConfiguration) {
+  const std::vector<SweepKnob> knobs{{"particles", {"50"}},
+                                     {"scale", {"80"}},
+                                     {"terms", {"background+flow"}},
+                                     {"cameras", {"front"}},
+                                     {"arms", {"true"}}};
+  Scene scene = scene_of({"side", "front"});
+  ConfigWithOrigin config;
+  apply_sweep_setting(knobs, {"50", "80", "background+flow", "front", "true"}, scene, config);
+  EXPECT_EQ(config.values.tracker.filter.particles, 50);
+  EXPECT_EQ(config.values.observation.person_px, 80);
+  EXPECT_TRUE(config.values.observation.background.enabled);
+  EXPECT_FALSE(config.values.observation.foreground.enabled);
+  EXPECT_TRUE(config.values.observation.flow.enabled);
+  EXPECT_TRUE(config.values.body.arms);
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  EXPECT_EQ(scene.cameras[0].name, "front");
+  EXPECT_EQ(config.origin.at("filter.particles"), "--over");
+}
+
+TEST(SweepSetting, OtherKnobsComeOnTopOfAConfigWhereverItStands) {
+  const std::vector<SweepKnob> knobs{{"particles", {"7"}}, {"config", {"fast"}}};
+  Scene scene = scene_of({"side"});
+  ConfigWithOrigin config;
+  apply_sweep_setting(knobs, {"7", "fast"}, scene, config);
+  EXPECT_EQ(config.values.tracker.filter.particles, 7);
+}
+
+TEST(SweepSetting, IsCalledByItsKnobs) {
+  EXPECT_EQ(setting_name({{"particles", {"50"}}, {"arms", {"true"}}}, {"50", "true"}),
+            "particles=50 arms=true");
+}
+
+}  // namespace
+}  // namespace walktrack
