@@ -17,6 +17,7 @@
 
 #include "body/kinematics.h"
 #include "camera/camera.h"
+#include "observation/part_table.h"
 
 namespace walktrack {
 
@@ -32,8 +33,7 @@ struct Capsule {
   int part;  // index into the posed parts
 };
 
-// More parts than any body has; a longer list of parts is a broken precondition.
-inline constexpr size_t kMaxCapsules = 24;
+inline constexpr size_t kMaxCapsules = kMaxParts;
 
 // Nearest first. Lives on the stack: a particle's likelihood allocates nothing.
 class CapsuleList {

@@ -1,0 +1,33 @@
+// Posed parts by coordinate, as vector code reads them.
+#pragma once
+
+#include <span>
+
+#include "body/kinematics.h"
+
+namespace walktrack {
+
+// More parts than any body has; a longer list of parts is a broken precondition.
+inline constexpr size_t kMaxParts = 24;
+
+// The widest vector, in doubles. Vectors are whole: the lanes beyond the last part repeat it.
+inline constexpr size_t kPartVector = 8;
+
+struct VectorTable {
+  alignas(64) double x[kMaxParts], y[kMaxParts], z[kMaxParts];
+};
+
+struct SectionTable {
+  alignas(64) double lateral[kMaxParts], forward[kMaxParts];
+};
+
+struct PartTable {
+  size_t count = 0;  // of whole vectors
+  VectorTable lower, upper, lateral, forward;
+  SectionTable at_lower, at_upper;
+};
+
+// Throws std::length_error for more than kMaxParts parts. No parts: count 0.
+void fill_table(std::span<const PosedPart> parts, PartTable& table);
+
+}  // namespace walktrack
