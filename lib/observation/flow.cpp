@@ -1,8 +1,8 @@
 #include "observation/flow.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <span>
 
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
@@ -119,38 +119,86 @@ Vector2d material_point(const Shape& shape, double along, double aside) {
          aside * (shape.radius + along * shape.grow) * shape.aside;
 }
 
-double point_log_ratio(const FlowConfig& config, const FlowSample& flow, const Vector2d& motion) {
+// Student-t densities differ by a power of this.
+double point_ratio(const FlowConfig& config, const FlowSample& flow, const Vector2d& motion) {
   const auto squared = [&](double x, double y) {
     return static_cast<double>(flow.lxx) * x * x + 2 * static_cast<double>(flow.lxy) * x * y +
            static_cast<double>(flow.lyy) * y * y;
   };
   const double dx = flow.dx, dy = flow.dy;
   const double moving = squared(dx - motion.x(), dy - motion.y()), resting = squared(dx, dy);
-  return -0.5 * (config.dof + 2) * std::log((config.dof + moving) / (config.dof + resting));
+  return (config.dof + moving) / (config.dof + resting);
 }
 
 // Points of a capsule: three along the axis times two beside it, a quarter of the width each.
 constexpr double kAlong[] = {1.0 / 6, 0.5, 5.0 / 6};
 constexpr double kAside[] = {-0.5, 0.5};
 
-// Of the last of `shapes`, which those before it may hide.
-double part_log_ratio(const FlowConfig& config, const FlowField& flow,
-                      std::span<const Shape> shapes, const Shape& before) {
-  const Shape& own = shapes.back();
-  const auto nearer = shapes.first(shapes.size() - 1);
-  double sum = 0;
+// The box around a shape, px.
+struct Box {
+  Vector2d low, high;
+};
+
+Box box_of(const Shape& shape) {
+  const double radius = shape.radius + std::max(0.0, shape.grow);
+  const Vector2d end = shape.foot + shape.axis, reach(radius, radius);
+  return {shape.foot.cwiseMin(end) - reach, shape.foot.cwiseMax(end) + reach};
+}
+
+bool meet(const Box& a, const Box& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
+// The shapes of a body, nearest first.
+struct Shapes {
+  size_t count = 0;
+  std::array<Shape, kMaxCapsules> shape;
+  std::array<Box, kMaxCapsules> box;
+};
+
+void add(const Capsule& capsule, Shapes& shapes) {
+  shapes.shape[shapes.count] = shape_of(capsule);
+  shapes.box[shapes.count] = box_of(shapes.shape[shapes.count]);
+  ++shapes.count;
+}
+
+struct Hiders {
+  size_t count = 0;
+  std::array<const Shape*, kMaxCapsules> shape;
+};
+
+// The shapes that may hide some of the last one.
+Hiders hiders_of_last(const Shapes& shapes) {
+  const size_t last = shapes.count - 1;
+  Hiders out;
+  for (size_t i = 0; i < last; ++i)
+    if (meet(shapes.box[i], shapes.box[last])) out.shape[out.count++] = &shapes.shape[i];
+  return out;
+}
+
+bool hidden(const Hiders& hiders, const Vector2d& point) {
+  return std::any_of(hiders.shape.begin(), hiders.shape.begin() + hiders.count,
+                     [&](const Shape* shape) { return covers(*shape, point); });
+}
+
+// Of the last of `shapes`.
+double part_log_ratio(const FlowConfig& config, const FlowField& flow, const Shapes& shapes,
+                      const Shape& before) {
+  const Shape& own = shapes.shape[shapes.count - 1];
+  const Hiders hiders = hiders_of_last(shapes);
+  double ratio = 1;  // of six points at most: far from overflow
   for (const double along : kAlong) {
     for (const double aside : kAside) {
       const Vector2d point = material_point(own, along, aside);
       const FlowSample* const measured = flow.at(point.x(), point.y());
       if (!measured) continue;
-      const auto hides = [&](const Shape& shape) { return covers(shape, point); };
-      if (std::any_of(nearer.begin(), nearer.end(), hides)) continue;
-      sum += point_log_ratio(config, *measured, point - material_point(before, along, aside));
+      if (hidden(hiders, point)) continue;
+      ratio *= point_ratio(config, *measured, point - material_point(before, along, aside));
     }
   }
   const double area = own.axis.norm() * (2 * own.radius + own.grow);
-  return sum * area / static_cast<double>(std::size(kAlong) * std::size(kAside));
+  return -0.5 * (config.dof + 2) * std::log(ratio) * area /
+         static_cast<double>(std::size(kAlong) * std::size(kAside));
 }
 
 }  // namespace
@@ -183,14 +231,14 @@ void measure_flow(const FlowConfig& config, const cv::Mat& before, const cv::Mat
 double flow_log_ratio(const FlowConfig& config, const FlowField& flow, const CapsuleList& now,
                       const CapsuleList& before) {
   if (flow.samples.empty()) return 0;
-  std::array<Shape, kMaxCapsules> shapes;
+  Shapes shapes;
   std::array<const Capsule*, kMaxCapsules> earlier{};
   for (const Capsule& capsule : before) earlier[static_cast<size_t>(capsule.part)] = &capsule;
   double sum = 0;
   for (size_t i = 0; i < now.size(); ++i) {
-    shapes[i] = shape_of(now[i]);
+    add(now[i], shapes);
     const Capsule* const was = earlier[static_cast<size_t>(now[i].part)];
-    if (was) sum += part_log_ratio(config, flow, {shapes.data(), i + 1}, shape_of(*was));
+    if (was) sum += part_log_ratio(config, flow, shapes, shape_of(*was));
   }
   return sum;
 }
