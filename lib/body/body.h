@@ -5,6 +5,7 @@
 // the axis. Only the groups that a scene asks for exist: a body without arms has no arm parts.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -48,6 +49,9 @@ struct Part {
   CrossSection at_lower, at_upper;  // feet: `forward` is the half height of the foot
   Appearance appearance;
 };
+
+// More parts than any body has.
+inline constexpr size_t kMaxParts = 24;
 
 struct BodyGroups {
   bool head = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/conventions.h"
 
@@ -124,8 +125,13 @@ Skeleton forward_kinematics(const Body& body, const Pose& pose) {
   return out;
 }
 
-void pose_parts(const Body& body, const Skeleton& skeleton, std::vector<PosedPart>& out) {
-  out.clear();
+void PosedParts::push_back(const PosedPart& part) {
+  if (size_ == items_.size()) throw std::length_error("more parts than kMaxParts");
+  items_[size_++] = part;
+}
+
+PosedParts pose_parts(const Body& body, const Skeleton& skeleton) {
+  PosedParts out;
   for (const Part& part : body.parts) {
     const Matrix3d& axes = skeleton.axes(part.segment);
     const Vector3d& origin = skeleton.joints[part.origin];
@@ -134,6 +140,7 @@ void pose_parts(const Body& body, const Skeleton& skeleton, std::vector<PosedPar
                    lies ? axes.col(2) : axes.col(0), part.at_lower, part.at_upper,
                    part.appearance});
   }
+  return out;
 }
 
 Vector3d ankle_from_root(const Body& body, const Pose& pose, Side side) {

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -34,8 +33,25 @@ struct PosedPart {
 
 Skeleton forward_kinematics(const Body& body, const Pose& pose);
 
-// The parts of a skeleton, one for each of body.parts and in their order. `out` keeps its capacity.
-void pose_parts(const Body& body, const Skeleton& skeleton, std::vector<PosedPart>& out);
+// A list of at most kMaxParts. Lives on the stack: a particle's likelihood allocates nothing.
+class PosedParts {
+ public:
+  size_t size() const { return size_; }
+  const PosedPart* data() const { return items_.data(); }
+  const PosedPart& operator[](size_t i) const { return items_[i]; }
+  const PosedPart* begin() const { return items_.data(); }
+  const PosedPart* end() const { return items_.data() + size_; }
+
+  // Throws std::length_error beyond kMaxParts.
+  void push_back(const PosedPart& part);
+
+ private:
+  std::array<PosedPart, kMaxParts> items_;
+  size_t size_ = 0;
+};
+
+// The parts of a skeleton, one for each of body.parts and in their order.
+PosedParts pose_parts(const Body& body, const Skeleton& skeleton);
 
 // The hip-to-ankle vector of one leg in the world for root orientation and leg angles of `pose`;
 // the root's position does not matter.

@@ -101,9 +101,9 @@ struct Run {
   void learn() {
     if (!tracker.tracking() || !job.config.values.observation.foreground.enabled) return;
     const auto start = Clock::now();
-    std::vector<PosedPart> parts;
+    const Body& body = setup.scene.model.body;
     const Pose& pose = frames.records.back().estimate.pose;
-    pose_parts(setup.scene.model.body, forward_kinematics(setup.scene.model.body, pose), parts);
+    const PosedParts parts = pose_parts(body, forward_kinematics(body, pose));
     for (size_t c = 0; c < setup.observers.size(); ++c)
       setup.observers[c].learn(evidence[c], project_parts(setup.scene.cameras[c], parts));
     watch.add("appearance", start);

@@ -7,9 +7,6 @@
 
 namespace walktrack {
 
-// More parts than any body has; a longer list of parts is a broken precondition.
-inline constexpr size_t kMaxParts = 24;
-
 // The widest vector, in doubles. Vectors are whole: the lanes beyond the last part repeat it.
 inline constexpr size_t kPartVector = 8;
 

@@ -135,13 +135,10 @@ Motion truth_at(const Stage& stage, std::span<const double> times) {
 
 std::vector<DressedParts> actors_at(const Stage& stage, double time) {
   std::vector<DressedParts> out;
-  std::vector<PosedPart> parts;
   for (const Actor& actor : stage.actors) {
     const Motion now = at_times(actor, std::span(&time, 1));
-    parts.clear();
-    if (const auto skeleton = skeleton_from_joints(actor.body, now.joints.front()))
-      pose_parts(actor.body, *skeleton, parts);
-    out.push_back(dress(parts, actor.worn));
+    const auto skeleton = skeleton_from_joints(actor.body, now.joints.front());
+    out.push_back(dress(skeleton ? pose_parts(actor.body, *skeleton) : PosedParts{}, actor.worn));
   }
   return out;
 }

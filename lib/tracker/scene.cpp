@@ -15,10 +15,8 @@ namespace {
 constexpr double kSlowestPage = 0.5, kPageStep = 0.2;
 constexpr int kPages = 9;
 
-std::vector<PosedPart> parts_of(const Body& body, const Pose& pose) {
-  std::vector<PosedPart> parts;
-  pose_parts(body, forward_kinematics(body, pose), parts);
-  return parts;
+PosedParts parts_of(const Body& body, const Pose& pose) {
+  return pose_parts(body, forward_kinematics(body, pose));
 }
 
 }  // namespace
@@ -29,10 +27,10 @@ int frames_in(double seconds, double dt) {
 
 double log_likelihood(const TrackerScene& scene, const SceneEvidence& evidence,
                       const WalkerParticle& particle, bool with_motion) {
-  const std::vector<PosedPart> now = parts_of(scene.model.body, particle.pose);
+  const PosedParts now = parts_of(scene.model.body, particle.pose);
   const bool motion = with_motion && scene.observation.flow.enabled;
-  const std::vector<PosedPart> before =
-      motion ? parts_of(scene.model.body, particle.pose_before) : std::vector<PosedPart>{};
+  const PosedParts before =
+      motion ? parts_of(scene.model.body, particle.pose_before) : PosedParts{};
   double sum = 0;
   for (size_t c = 0; c < evidence.size(); ++c) {
     const CapsuleList capsules = project_parts(scene.cameras[c], now);
@@ -81,7 +79,7 @@ double place_score(const TrackerScene& scene, const SceneEvidence& evidence,
   for (Pose pose : figures) {
     pose.root.head<2>() = position;
     pose.heading = heading;
-    const std::vector<PosedPart> parts = parts_of(scene.model.body, pose);
+    const PosedParts parts = parts_of(scene.model.body, pose);
     double sum = 0;
     for (size_t c = 0; c < evidence.size(); ++c)
       sum += log_likelihood(scene.observation, evidence[c], project_parts(scene.cameras[c], parts),

@@ -180,8 +180,7 @@ TEST(PoseParts, FollowTheirSegmentsAndTheGroupsInUse) {
   const Body with = test_body();
   const Body without = make_body(Subject{}, {.head = false, .arms = false});
   EXPECT_EQ(with.parts.size(), without.parts.size() + 2 + 4);
-  std::vector<PosedPart> parts;
-  pose_parts(with, forward_kinematics(with, Pose{}), parts);
+  const PosedParts parts = pose_parts(with, forward_kinematics(with, Pose{}));
   ASSERT_EQ(parts.size(), with.parts.size());
   for (const PosedPart& part : parts) {
     EXPECT_NEAR(part.lateral.dot(part.forward), 0, 1e-12);

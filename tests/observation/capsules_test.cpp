@@ -89,7 +89,7 @@ TEST(ProjectParts, OutlinesOfTheBodyFitItsSolids) {
     const double around = draw(rng, -kPi, kPi);
     const Camera camera =
         camera_at({6 * std::sin(around), -6 * std::cos(around), draw(rng, 1, 3)}, {0, 0, 0.9}, 672);
-    const std::vector<PosedPart> parts = posed(body, random_walking_pose(rng));
+    const PosedParts parts = posed(body, random_walking_pose(rng));
     for (const Capsule& capsule : project_parts(camera, parts))
       errors_px.push_back(outline_error(camera, parts[static_cast<size_t>(capsule.part)], capsule));
   }

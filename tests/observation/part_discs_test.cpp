@@ -103,7 +103,7 @@ TEST(FindDiscs, APartSeenEndOnIsAsWideAsItsSectionsArea) {
 
 TEST(FindDiscs, TakesAnyNumberOfPartsThatABodyHas) {
   Rng rng(3, Purpose::kTest);
-  const std::vector<PosedPart> all =
+  const PosedParts all =
       posed(make_body(Subject{}, {.head = true, .arms = true}), random_walking_pose(rng));
   for (size_t count = 0; count <= all.size(); ++count)
     expect_plain_discs(side_camera(), std::span(all).first(count));

@@ -61,9 +61,7 @@ Share true_pose_wins(const std::filesystem::path& folder, const ObservationConfi
   for (const cv::Mat& frame : read_frames(folder / "cam0_background.mp4", 8)) sampler.add(frame);
   Observer observer(config, {camera, 1, appearances_of(body), sampler.model(), {}});
   const auto capsules = [&](const JointPositions& joints) {
-    std::vector<PosedPart> parts;
-    pose_parts(body, skeleton_from_joints(body, joints), parts);
-    return project_parts(observer.camera(), parts);
+    return project_parts(observer.camera(), pose_parts(body, skeleton_from_joints(body, joints)));
   };
   const std::vector<cv::Mat> frames = read_frames(folder / "cam0.mp4", 46);
   CameraEvidence evidence;

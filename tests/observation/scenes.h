@@ -42,10 +42,8 @@ inline Pose random_walking_pose(Rng& rng) {
   return pose;
 }
 
-inline std::vector<PosedPart> posed(const Body& body, const Pose& pose) {
-  std::vector<PosedPart> parts;
-  pose_parts(body, forward_kinematics(body, pose), parts);
-  return parts;
+inline PosedParts posed(const Body& body, const Pose& pose) {
+  return pose_parts(body, forward_kinematics(body, pose));
 }
 
 }  // namespace walktrack

@@ -58,10 +58,8 @@ class TwoCameras {
   }
 
  private:
-  std::vector<PosedPart> parts(const Pose& pose) const {
-    std::vector<PosedPart> out;
-    pose_parts(body_, forward_kinematics(body_, pose), out);
-    return out;
+  PosedParts parts(const Pose& pose) const {
+    return pose_parts(body_, forward_kinematics(body_, pose));
   }
   CapsuleList capsules(const Camera& camera, const Pose& pose) const {
     return project_parts(camera, parts(pose));

@@ -200,12 +200,11 @@ TEST(Flow, FollowsTheSurfaceOfAMovingBody) {
   Pose moved = pose;
   moved.heading += turn;
   moved.root = rotation * (pose.root - pivot) + pivot + shift;
-  std::vector<PosedPart> parts;
   const Clothes dressed = clothes(1);
-  pose_parts(body, forward_kinematics(body, pose), parts);
-  const std::vector<DressedParts> now{dress(parts, dressed)};
-  pose_parts(body, forward_kinematics(body, moved), parts);
-  const std::vector<DressedParts> next{dress(parts, dressed)};
+  const std::vector<DressedParts> now{
+      dress(pose_parts(body, forward_kinematics(body, pose)), dressed)};
+  const std::vector<DressedParts> next{
+      dress(pose_parts(body, forward_kinematics(body, moved)), dressed)};
   const Picture picture = render(view, world, now);
   const Plane<float> depth = depth_of(view, picture.sights);
   const auto flow = flow_of(view, picture.sights, now, next);
@@ -235,8 +234,7 @@ TEST(Render, IsTheSameForAnyThreadCountAndShowsTheWalkerAndItsShadow) {
   const Body body = make_body(Subject{}, {.head = true, .arms = false});
   Pose pose;
   pose.root = {0, 0, 0.9};
-  std::vector<PosedPart> parts;
-  pose_parts(body, forward_kinematics(body, pose), parts);
+  const PosedParts parts = pose_parts(body, forward_kinematics(body, pose));
   const Clothes dressed = clothes(0);
   const std::vector<DressedParts> walkers{dress(parts, dressed)};
   const Picture picture = render(one, world, walkers);
