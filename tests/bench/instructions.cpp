@@ -43,16 +43,12 @@ void count_walkers() {
 
 void count_figures() {
   const FigureScene f = figure_scene(16);
-  std::vector<PosedPart> parts;
-  parts.reserve(f.body.parts.size());
-  count("posing", f.poses.size(), [&](size_t i) {
-    pose_parts(f.body, forward_kinematics(f.body, f.poses[i]), parts);
-    return parts.front().lower.x();
-  });
-  count("projection", f.poses.size(), [&](size_t i) {
-    pose_parts(f.body, forward_kinematics(f.body, f.poses[i]), parts);
-    return project_parts(f.camera, parts)[0].depth;
-  });
+  const auto parts = [&](size_t i) {
+    return pose_parts(f.body, forward_kinematics(f.body, f.poses[i]));
+  };
+  count("posing", f.poses.size(), [&](size_t i) { return parts(i)[0].lower.x(); });
+  count("projection", f.poses.size(),
+        [&](size_t i) { return project_parts(f.camera, parts(i))[0].depth; });
   count("silhouette", f.poses.size(),
         [&](size_t i) { return silhouette_log_ratio(f.planes, f.capsules[i]); });
 }

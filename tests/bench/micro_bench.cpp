@@ -174,10 +174,8 @@ BENCHMARK(silhouette_per_pixel);
 // A pose's parts in the world and in the image.
 void pose_to_capsules(benchmark::State& state) {
   const FigureScene& f = figures();
-  std::vector<PosedPart> parts;
   each(state, kPoses, [&](size_t i) {
-    pose_parts(f.body, forward_kinematics(f.body, f.poses[i]), parts);
-    return project_parts(f.camera, parts);
+    return project_parts(f.camera, pose_parts(f.body, forward_kinematics(f.body, f.poses[i])));
   });
 }
 BENCHMARK(pose_to_capsules);

@@ -65,13 +65,12 @@ FigureScene figure_scene(size_t poses) {
   scene.body = make_body(Subject{}, {.head = true, .arms = false});
   scene.planes = blotched_planes({0, 0, 640, 480}, 3);
   const ParticleScene walkers = particle_scene(poses);
-  std::vector<PosedPart> parts;
   for (const WalkerParticle& particle : walkers.particles) {
     Pose pose = particle.pose;
     pose.root.head<2>().setZero();
     scene.poses.push_back(pose);
-    pose_parts(scene.body, forward_kinematics(scene.body, pose), parts);
-    scene.capsules.push_back(project_parts(scene.camera, parts));
+    scene.capsules.push_back(
+        project_parts(scene.camera, pose_parts(scene.body, forward_kinematics(scene.body, pose))));
     scene.mean_rows +=
         rows_of(scene.capsules.back(), scene.planes.area) / static_cast<double>(poses);
   }
