@@ -48,6 +48,11 @@ int list(const BatchJob& job) {
   return kDone;
 }
 
+int list_work(const BatchJob& job) {
+  for (const Sequence& sequence : sequences_to_do(job)) fmt::print("{}\n", sequence.name);
+  return kDone;
+}
+
 // What the whole output folder holds by now, whoever did it.
 int report(const BatchJob& job) {
   const std::vector<Sequence> all = sequences_of(job);
@@ -65,12 +70,13 @@ int report(const BatchJob& job) {
 int run_batch(const Arguments& arguments) {
   BatchJob job;
   std::string folder, scene_template, shard = "1/1";
-  bool list_only = false, report_only = false;
+  bool list_only = false, dry_run = false, report_only = false;
   CommandLine line({.name = "batch",
                     .operands = "FOLDER",
-                    .about = "Tracks every scene below FOLDER, each in a process of its own; goes "
-                             "on after failures.\nRun again, it does what is not complete. Several "
-                             "machines may share one output folder.",
+                    .about =
+                        "Tracks every scene below FOLDER, each in a process of its own; goes "
+                        "on after failures.\nRun again, it does what is not complete, from where "
+                        "it was killed. Several\nmachines may share one output folder.",
                     .example = "walktrack batch data -o out/batch --jobs 2"});
   line.options().add_options()("scene", po::value(&scene_template)->value_name("FILE"),
                                "take every video below FOLDER in the place of this scene\'s video")(
@@ -79,7 +85,8 @@ int run_batch(const Arguments& arguments) {
       "time-limit", po::value(&job.limits.seconds)->value_name("S"), "seconds for one sequence")(
       "memory-limit", po::value(&job.limits.memory_mb)->value_name("MB"), "for one sequence")(
       "list", po::bool_switch(&list_only), "print the sequences and their state, do nothing")(
-      "dry-run", po::bool_switch(&list_only), "the same")(
+      "retry-failed", po::bool_switch(&job.retry_failed), "do none but those that failed before")(
+      "dry-run", po::bool_switch(&dry_run), "print the sequences that would be done, do nothing")(
       "report", po::bool_switch(&report_only), "do nothing but the summary of what there is");
   line.operand("FOLDER", &folder);
   if (!line.parse(arguments)) return kDone;
@@ -90,6 +97,7 @@ int run_batch(const Arguments& arguments) {
   job.output = line.required_output();
   job.overwrite = line.common().overwrite;
   if (list_only) return list(job);
+  if (dry_run) return list_work(job);
   if (report_only) return report(job);
   line.config();  // a mistake in it would fail every sequence
   job.command = track_command(line.common(), job.jobs);

@@ -51,6 +51,13 @@ struct ParticleSet {
   std::vector<double> log_likelihoods;  // of the present frame
 };
 
+// All that a filter's next frame depends on.
+template <typename State>
+struct FilterState {
+  ParticleSet<State> set;
+  double scale = 0;  // boldness of the moves
+};
+
 struct FilterReport {
   double log_evidence = 0;  // log p(this frame | frames before), estimated
   double ess = 0;           // before the last resampling of the frame, in particles
@@ -73,6 +80,14 @@ class ParticleFilter {
     set_.log_weights.assign(states.size(), 0.0);
     set_.log_likelihoods.assign(states.size(), 0.0);
     set_.states = std::move(states);
+  }
+
+  // A filter that takes the state of another one of the same configuration and seed goes on as that
+  // one.
+  FilterState<State> state() const { return {set_, scale_}; }
+  void resume(FilterState<State> state) {
+    set_ = std::move(state.set);
+    scale_ = state.scale;
   }
 
   template <typename Propagate, typename LogLikelihood, typename Move>

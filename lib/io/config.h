@@ -35,6 +35,11 @@ struct ReportConfig {
   double embed_mb = 24;  // of overlay films inside it; larger ones are played from beside it
 };
 
+// When `track` notes where it stands (io/checkpoint_file.h).
+struct CheckpointConfig {
+  double seconds = 10;  // between checkpoints, or as long as keeps their cost small; 0: each frame
+};
+
 struct Config {
   uint64_t seed = 1;  // of all random numbers
   int threads = 0;    // 0 = all of the machine
@@ -44,6 +49,7 @@ struct Config {
   KineticsConfig kinetics;
   GateConfig gates;
   ReportConfig report;
+  CheckpointConfig checkpoint;
 };
 
 // A configuration and where each value that is no default came from.

@@ -158,6 +158,10 @@ void add_report(ParameterTable& table) {
   using R = ReportConfig;
   ParameterGroup<R> r(table, "report", "report.html", &Config::report);
   r.number("embed_mb", &R::embed_mb, 0, 1000, "overlay films inside it; larger ones beside it, MB");
+  using C = CheckpointConfig;
+  ParameterGroup<C> c(table, "checkpoint", "where track --resume goes on", &Config::checkpoint);
+  c.number("seconds", &C::seconds, 0, kAnyPositive,
+           "of work between checkpoints, s; 0: after each frame");
 }
 
 ParameterTable make_table() {

@@ -1,5 +1,6 @@
 #include "io/result_folder.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <system_error>
 
@@ -28,8 +29,10 @@ bool is_temporary(const std::string& name) {
 // The files that a run may leave, besides the two above; those that it was killed over, too.
 bool is_result_file(const std::string& name) {
   if (is_temporary(name)) return true;
-  for (const char* known : {"joints.csv", "joints.trc", "angles.mot", "uncertainty.csv",
-                            "angles.csv", "gait.json", "gait.csv", "kinetics.csv", "report.html"}) {
+  for (const char* known :
+       {"joints.csv", "joints.trc", "angles.mot", "uncertainty.csv", "angles.csv", "gait.json",
+        "gait.csv", "kinetics.csv", "ground_reaction.mot", "joint_moments.sto", "report.html",
+        "checkpoint.bin", "frames.bin"}) {
     if (name == known) return true;
   }
   return name.starts_with("overlay_") && name.ends_with(".mp4");
@@ -42,7 +45,9 @@ bool is_complete_result(const fs::path& folder) {
   return fs::is_regular_file(folder / kComplete, ignored);
 }
 
-ResultFolder::ResultFolder(const fs::path& folder, bool overwrite) : folder_(folder) {
+ResultFolder::ResultFolder(const fs::path& folder, bool overwrite,
+                           std::span<const std::string_view> kept)
+    : folder_(folder) {
   if (fs::exists(folder) && !fs::is_directory(folder)) {
     throw UsageError(
         fmt::format("{} is a file, allowed: a folder for the results", folder.string()));
@@ -54,8 +59,14 @@ ResultFolder::ResultFolder(const fs::path& folder, bool overwrite) : folder_(fol
   fs::remove(folder / kComplete);
   fs::remove(folder / kPartial);
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (is_result_file(entry.path().filename().string())) fs::remove(entry.path());
+    const std::string name = entry.path().filename().string();
+    if (is_result_file(name) && std::ranges::find(kept, name) == kept.end())
+      fs::remove(entry.path());
   }
+}
+
+void ResultFolder::remove(std::span<const std::string_view> names) const {
+  for (const std::string_view name : names) fs::remove(folder_ / name);
 }
 
 void ResultFolder::write(const std::string& name, std::string_view content) const {

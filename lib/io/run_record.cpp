@@ -89,6 +89,7 @@ std::string run_json(const RunRecord& record) {
                     {"threads", record.threads},
                     {"seconds", record.seconds},
                     {"tracking_cpu_seconds", record.tracking_cpu_seconds},
+                    {"resumed_at_frame", record.resumed_at_frame},
                     {"stage_seconds", object_of(record.stage_seconds)}};
   // Names come from outside and may be no UTF-8.
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -44,6 +44,7 @@ struct RunRecord {
   std::vector<std::pair<std::string, double>> stage_seconds;  // in order of the stages
   double tracking_cpu_seconds = 0;  // of all threads, between background and output
   double seconds = 0;               // altogether
+  int resumed_at_frame = 0;         // that these times begin with
 };
 
 std::string run_json(const RunRecord& record);

@@ -54,27 +54,50 @@ std::string failure_reason(const BatchJob& job, const ChildEnd& end, const fs::p
   return fmt::format("exit {}{}{}", end.exit_code, words.empty() ? "" : ": ", words);
 }
 
-// Nobody else's and not complete: clears what an earlier try left, and starts.
-std::optional<Running> start(const BatchJob& job, const Sequence& sequence) {
-  if (!job.overwrite && is_complete_result(sequence.output)) {
-    // Its worker may have been killed after the last file; a claim taken here is given back at
-    // once.
-    if (fs::exists(sequence.output / Claim::kFile)) Claim::try_take(sequence.output);
-    return std::nullopt;
+// When the sequence failed; nullopt if it has not.
+std::optional<fs::file_time_type> failure_time(const Sequence& sequence) {
+  std::error_code none;
+  const auto time = fs::last_write_time(sequence.output / "failure.txt", none);
+  return none ? std::nullopt : std::optional(time);
+}
+
+// A sequence that is to be done, and how it stood when this worker began.
+struct Waiting {
+  Sequence sequence;
+  std::optional<fs::file_time_type> failed;
+
+  // Whether another worker has done it since, with or without success.
+  bool done_by_another(const BatchJob& job) const {
+    return (!job.overwrite && is_complete_result(sequence.output)) ||
+           failure_time(sequence) > failed;
   }
+};
+
+// If it is still to be done and nobody else is at it: clears why an earlier try failed, and starts.
+std::optional<Running> start(const BatchJob& job, const Waiting& waiting) {
+  const Sequence& sequence = waiting.sequence;
+  if (waiting.done_by_another(job)) return std::nullopt;
   fs::create_directories(sequence.output);
   std::optional<Claim> claim = Claim::try_take(sequence.output);
-  // Another worker may have finished it between the look and the claim.
-  if (!claim || (!job.overwrite && is_complete_result(sequence.output))) return std::nullopt;
+  // Another worker may have done it between the look and the claim.
+  if (!claim || waiting.done_by_another(job)) return std::nullopt;
   fs::remove(sequence.output / "failure.txt");
   if (!sequence.video.empty()) {
     write_file_atomically(sequence.scene, scene_for_video(job.scene_template, sequence.video));
   }
   std::vector<std::string> words = job.command;
-  words.insert(words.end(), {sequence.scene.string(), "-o", sequence.output.string()});
-  if (job.overwrite) words.push_back("-y");
+  words.insert(words.end(),
+               {sequence.scene.string(), "-o", sequence.output.string(), "--resume", "-y"});
   return Running{sequence, std::move(*claim),
                  ChildProcess(words, sequence.output / "log.txt", job.limits)};
+}
+
+// A worker that was killed after a sequence's last file has left its claim, which a claim taken
+// here gives back at once.
+void clear_dead_claims(const std::vector<Sequence>& sequences) {
+  for (const Sequence& sequence : sequences)
+    if (is_complete_result(sequence.output) && fs::exists(sequence.output / Claim::kFile))
+      Claim::try_take(sequence.output);
 }
 
 void note_end(const BatchJob& job, const Running& running, const ChildEnd& end, bool stopping) {
@@ -89,10 +112,10 @@ void note_end(const BatchJob& job, const Running& running, const ChildEnd& end, 
 class Runner {
  public:
   Runner(const BatchJob& job, const JobControl& control, const std::vector<Sequence>& sequences)
-      : job_(job),
-        control_(control),
-        waiting_(sequences.begin(), sequences.end()),
-        total_(sequences.size()) {}
+      : job_(job), control_(control), total_(sequences.size()) {
+    for (const Sequence& sequence : sequences)
+      waiting_.push_back({sequence, failure_time(sequence)});
+  }
 
   void run() {
     auto renewed = std::chrono::steady_clock::now();
@@ -120,7 +143,7 @@ class Runner {
 
   void fill() {
     while (!waiting_.empty() && static_cast<int>(running_.size()) < job_.jobs) {
-      const Sequence next = waiting_.front();
+      const Waiting next = waiting_.front();
       waiting_.pop_front();
       if (auto running = start(job_, next)) running_.push_back(std::move(*running));
     }
@@ -144,7 +167,7 @@ class Runner {
 
   const BatchJob& job_;
   const JobControl& control_;
-  std::deque<Sequence> waiting_;
+  std::deque<Waiting> waiting_;
   std::list<Running> running_;
   size_t total_;
   bool stopped_ = false;
@@ -162,7 +185,8 @@ BatchOutcome run_batch(const BatchJob& job, const JobControl& control) {
   }
   fs::create_directories(job.output);
   const std::vector<Sequence> own = shard_of(all, job.shard, job.shards);
-  Runner runner(job, control, own);
+  clear_dead_claims(own);
+  Runner runner(job, control, sequences_to_do(job));
   runner.run();
   write_batch_reports(all, job.output);
   BatchOutcome outcome{.interrupted = runner.interrupted()};

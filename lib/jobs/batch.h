@@ -3,9 +3,9 @@
 //
 // OUT/<sequence>/ is the result folder of one sequence (see io/result_folder.h) with log.txt, what
 // its process said, and failure.txt, why there is no result. Run again, complete sequences are
-// passed over and all others done anew. Several workers may share OUT: each claims a sequence
-// before it does it. summary.csv, failures.txt and batch.html are made from the folders as they
-// stand.
+// passed over and all others done, from their checkpoints where they have left any. Several workers
+// may share OUT: each claims a sequence before it does it. summary.csv, failures.txt and batch.html
+// are made from the folders as they stand.
 #pragma once
 
 #include <filesystem>
@@ -37,13 +37,14 @@ struct SequenceResult {
 struct BatchJob {
   std::filesystem::path folder, output;
   std::filesystem::path scene_template;  // empty, or the scene of every video below the folder
-  // Program and options that do one sequence; "SCENE -o OUT/<sequence>" is appended.
+  // Program and options that do one sequence; "SCENE -o OUT/<sequence> --resume -y" is appended.
   std::vector<std::string> command;
   int jobs = 1;  // processes at a time
   int shard = 1,
       shards = 1;          // this worker does every shards-th sequence, beginning with the shard-th
   bool overwrite = false;  // do complete ones again
-  ChildLimits limits;      // of each sequence
+  bool retry_failed = false;  // do none but those that failed
+  ChildLimits limits;         // of each sequence
 };
 
 struct BatchOutcome {
@@ -68,6 +69,9 @@ std::vector<Sequence> shard_of(const std::vector<Sequence>& sequences, int shard
 
 // What OUT/<sequence>/ says.
 SequenceResult result_of(const Sequence& sequence);
+
+// Those of this worker's shard that a run would do now.
+std::vector<Sequence> sequences_to_do(const BatchJob& job);
 
 // UsageError for a folder without sequences.
 BatchOutcome run_batch(const BatchJob& job, const JobControl& control);

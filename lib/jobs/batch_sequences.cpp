@@ -134,6 +134,16 @@ std::vector<Sequence> shard_of(const std::vector<Sequence>& sequences, int shard
   return own;
 }
 
+std::vector<Sequence> sequences_to_do(const BatchJob& job) {
+  std::vector<Sequence> own = shard_of(sequences_of(job), job.shard, job.shards);
+  std::erase_if(own, [&](const Sequence& sequence) {
+    const SequenceState state = result_of(sequence).state;
+    if (job.retry_failed) return state != SequenceState::kFailed;
+    return !job.overwrite && is_complete_result(sequence.output);
+  });
+  return own;
+}
+
 SequenceResult result_of(const Sequence& sequence) {
   const fs::path failure = sequence.output / "failure.txt";
   if (is_complete_result(sequence.output)) return complete_result(sequence.output / "run.json");

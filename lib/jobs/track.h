@@ -1,7 +1,12 @@
 // `walktrack track`: one scene becomes a result folder:
 //   joints.csv, uncertainty.csv, the tables of jobs/motion_tables.h, overlay_<camera>.mp4,
 //   report.html, run.json
-// Frames are streamed; what stays in memory is some kilobytes a frame of results.
+// Frames are streamed and their records kept in a file (io/frame_file.h): what grows in memory with
+// the film is what the tables are made of, some kilobytes a frame, at the end.
+//
+// While it works the folder also holds checkpoint.bin and frames.bin, from which another process
+// can go on after this one was killed or told to stop: it ends with the same bytes. Checkpoints are
+// made between frames in which the walker is tracked, not while they are searched for.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +23,8 @@ struct TrackJob {
   Scene scene;
   ConfigWithOrigin config;
   std::filesystem::path output;
-  bool overwrite = false;
+  bool overwrite = false;  // a complete result, and a checkpoint that does not fit
+  bool resume = false;     // go on from the folder's checkpoint, if there is one
   bool overlay = true;
   std::vector<std::string> command_line;
 };
@@ -35,11 +41,14 @@ struct TrackOutcome {
   TrackStatus status = TrackStatus::kTracked;
   int frames = 0, tracked = 0;
   double frames_per_second = 0;   // of tracking, without the overlay
+  double cpu_seconds = 0;         // of tracking, all threads
+  bool resumable = false;         // for kInterrupted: there is a checkpoint to go on from
   std::string trouble;            // for kCutShort and kBelowGates: what happened
   std::filesystem::path look_at;  // the file to open first
 };
 
-// Throws UsageError, InputError for what cannot be started.
+// Throws UsageError, InputError for what cannot be started, also for a checkpoint that does not
+// fit.
 TrackOutcome track_scene(const TrackJob& job, const JobControl& control);
 
 }  // namespace walktrack

@@ -31,12 +31,12 @@ QualityMeasure at_least(QualityMeasure m, double gate) {
 
 // Per cent of the frames from the first tracked one on.
 double lost_percent(const TrackedFrames& frames) {
-  const auto& records = frames.records;
-  const auto is_tracked = [](const FrameRecord& record) { return record.tracked; };
-  const auto first = std::find_if(records.begin(), records.end(), is_tracked);
-  if (first == records.end()) return 0;
-  const auto tracked = std::count_if(first, records.end(), is_tracked);
-  return 100 * (1 - static_cast<double>(tracked) / static_cast<double>(records.end() - first));
+  int tracked = 0, lost = 0;
+  for (const FrameRecord& record : frames.records) {
+    if (record.tracked) ++tracked;
+    if (!record.tracked && tracked > 0) ++lost;
+  }
+  return tracked > 0 ? 100.0 * lost / (tracked + lost) : 0;
 }
 
 }  // namespace

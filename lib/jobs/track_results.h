@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/job_control.h"
+#include "io/frame_file.h"
 #include "io/report_page.h"
 #include "io/result_folder.h"
 #include "jobs/motion_tables.h"
@@ -14,10 +15,10 @@
 
 namespace walktrack {
 
-// One frame of a finished track.
+// The frames of a track.
 struct TrackedFrames {
   double frame_rate = 30;  // Hz
-  std::vector<FrameRecord> records;
+  FrameFile records;
 };
 
 Motion motion_of(const TrackedFrames& frames);

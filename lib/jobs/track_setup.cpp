@@ -59,7 +59,7 @@ BackgroundModel learn_background(const SceneCamera& camera, const BackgroundConf
 }
 
 Observer make_observer(const Scene& scene, const SceneCamera& camera, const Config& config,
-                       const Body& body, const JobControl& control) {
+                       const Body& body, const ObserverState* learned, const JobControl& control) {
   const ObservationConfig& observation = config.observation;
   ObserverInput input;
   input.camera = camera.camera;
@@ -67,9 +67,14 @@ Observer make_observer(const Scene& scene, const SceneCamera& camera, const Conf
                                observation.person_px);
   input.appearances = appearances_of(body);
   input.occluders = camera.occluders;
-  if (observation.background.enabled)
+  if (learned) {
+    input.background = learned->background;
+  } else if (observation.background.enabled) {
     input.background = learn_background(camera, observation.background, input.shrink, control);
-  return Observer(observation, std::move(input));
+  }
+  Observer observer(observation, std::move(input));
+  if (learned) observer.resume(*learned);
+  return observer;
 }
 
 void set_beginning(const Scene& scene, double frame_rate, TrackerScene& out) {
@@ -86,7 +91,7 @@ void set_beginning(const Scene& scene, double frame_rate, TrackerScene& out) {
 }  // namespace
 
 TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
-                  const JobControl& control) {
+                  std::span<const ObserverState> learned, const JobControl& control) {
   TrackSetup setup;
   TrackerScene& out = setup.scene;
   const double gravity = scene.gravity.norm();
@@ -98,7 +103,8 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
   out.dt = 1.0 / frame_rate;
   set_beginning(scene, frame_rate, out);
   for (const SceneCamera& camera : scene.cameras) {
-    setup.observers.push_back(make_observer(scene, camera, config, out.model.body, control));
+    const ObserverState* known = learned.empty() ? nullptr : &learned[setup.observers.size()];
+    setup.observers.push_back(make_observer(scene, camera, config, out.model.body, known, control));
     out.cameras.push_back(setup.observers.back().camera());
   }
   return setup;

@@ -2,6 +2,7 @@
 // subject's body, where the walk begins.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/job_control.h"
@@ -17,9 +18,10 @@ struct TrackSetup {
   TrackerScene scene;
 };
 
-// Learns each camera's background from its empty frames or, without them, from the film itself.
+// Learns each camera's background from its empty frames or, without them, from the film itself;
+// observers that have `learned` already go on with what they know (by camera, or none).
 TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
-                  const JobControl& control);
+                  std::span<const ObserverState> learned, const JobControl& control);
 
 // Where to look in the next frame: around the walker once tracked, everywhere before.
 Region search_region(const Camera& camera, double subject_height);

@@ -74,7 +74,7 @@ AppearanceModel::AppearanceModel(const ForegroundConfig& config,
     if (known == labels.end()) labels.push_back(config.classes[a]);
   }
   const ColourBins bins;
-  State fresh;
+  AppearanceState fresh;
   fresh.log_density = broad_table(bins);
   states_.assign(labels.size(), fresh);
   for (int bin = 0; bin < kColourBins; ++bin)
@@ -82,7 +82,8 @@ AppearanceModel::AppearanceModel(const ForegroundConfig& config,
 }
 
 bool AppearanceModel::any_learned() const {
-  return std::any_of(states_.begin(), states_.end(), [](const State& s) { return s.frames > 0; });
+  return std::any_of(states_.begin(), states_.end(),
+                     [](const AppearanceState& s) { return s.frames > 0; });
 }
 
 AppearanceModel::Counts AppearanceModel::empty_counts() const {
@@ -97,7 +98,7 @@ void AppearanceModel::learn(const ColourBins& bins, const Counts& counts) {
     if (total < kLeastPixels || total < kLeastShare * counts.seen[c]) continue;
     for (float& share : histogram) share = static_cast<float>(share / total);
     histogram = smoothed(std::move(histogram));
-    State& state = states_[c];
+    AppearanceState& state = states_[c];
     if (state.frames++ == 0) {
       state.anchor = state.recent = histogram;
     } else {
@@ -109,7 +110,7 @@ void AppearanceModel::learn(const ColourBins& bins, const Counts& counts) {
   }
 }
 
-void AppearanceModel::refresh(const ColourBins& bins, State& state) const {
+void AppearanceModel::refresh(const ColourBins& bins, AppearanceState& state) const {
   const double trust = state.anchor_pixels / (state.anchor_pixels + config_.prior_pixels);
   const double own = (1 - config_.broad_share) * trust;
   for (int bin = 0; bin < kColourBins; ++bin) {

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "observation/capsules.h"
@@ -23,6 +24,14 @@ namespace walktrack {
 using ColourTable = std::vector<float>;
 
 ColourTable broad_table(const ColourBins& bins);
+
+// What has been learned of one class.
+struct AppearanceState {
+  int frames = 0;
+  std::vector<float> anchor, recent;  // histograms: shares, sum 1
+  double anchor_pixels = 0;
+  ColourTable log_density;
+};
 
 class AppearanceModel {
  public:
@@ -43,18 +52,16 @@ class AppearanceModel {
   Counts empty_counts() const;
   void learn(const ColourBins& bins, const Counts& counts);
 
+  // By class. A model that takes the states of another one of the same classes goes on as that one.
+  const std::vector<AppearanceState>& states() const { return states_; }
+  void resume(std::vector<AppearanceState> states) { states_ = std::move(states); }
+
  private:
-  struct State {
-    int frames = 0;
-    std::vector<float> anchor, recent;  // histograms: shares, sum 1
-    double anchor_pixels = 0;
-    ColourTable log_density;
-  };
-  void refresh(const ColourBins& bins, State& state) const;
+  void refresh(const ColourBins& bins, AppearanceState& state) const;
 
   ForegroundConfig config_;
   std::array<int, kAppearanceCount> class_of_{};
-  std::vector<State> states_;
+  std::vector<AppearanceState> states_;
   std::vector<float> broad_;  // share of each bin
 };
 

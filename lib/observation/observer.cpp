@@ -152,6 +152,35 @@ void Observer::forget_previous_frame() { state_->grey_before.release(); }
 
 bool Observer::knows_walker() const { return state_->appearance.any_learned(); }
 
+ObserverState Observer::state() const {
+  const State& s = *state_;
+  ObserverState out{s.background, s.appearance.states(), s.scene, 0, 0, {}, s.frames};
+  if (s.grey_before.empty()) return out;
+  out.grey_width = s.grey_before.cols;
+  out.grey_height = s.grey_before.rows;
+  out.grey_before.assign(s.grey_before.data, s.grey_before.data + s.grey_before.total());
+  return out;
+}
+
+void Observer::resume(ObserverState state) {
+  State& s = *state_;
+  const auto pixels = static_cast<size_t>(s.camera.width_px) * size_t(s.camera.height_px);
+  const bool fits =
+      state.background.has_value() == s.background.has_value() &&
+      (!state.background || state.background->luma.size() == s.background->luma.size()) &&
+      (state.grey_before.empty() || state.grey_before.size() == pixels) &&
+      state.appearance.size() == s.appearance.states().size();
+  if (!fits) throw InputError("an observer's state is of other images or classes than its camera");
+  s.background = std::move(state.background);
+  s.appearance.resume(std::move(state.appearance));
+  s.scene = std::move(state.scene);
+  s.frames = state.frames;
+  s.grey_before.release();
+  if (!state.grey_before.empty())
+    s.grey_before =
+        cv::Mat(state.grey_height, state.grey_width, CV_8U, state.grey_before.data()).clone();
+}
+
 void Observer::observe(const cv::Mat& frame_bgr, const Region& region, CameraEvidence& out) {
   State& s = *state_;
   if (frame_bgr.type() != CV_8UC3 || frame_bgr.cols != s.full_camera.width_px ||

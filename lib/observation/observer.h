@@ -6,6 +6,7 @@
 // camera(), the camera of the shrunk image.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -53,6 +54,16 @@ struct ObserverInput {
 // Which appearances a body's parts have.
 std::array<bool, kAppearanceCount> appearances_of(const Body& body);
 
+// All that an observer has learned and remembers between frames.
+struct ObserverState {
+  std::optional<BackgroundModel> background;
+  std::vector<AppearanceState> appearance;
+  ColourTable scene;  // the colours of the first image; only without a background
+  int grey_width = 0, grey_height = 0;
+  std::vector<uint8_t> grey_before;  // the last frame; empty = none
+  int64_t frames = 0;
+};
+
 class Observer {
  public:
   // Throws InputError when the background is enabled and missing or of another size.
@@ -75,6 +86,12 @@ class Observer {
 
   // Whether any class has been learned.
   bool knows_walker() const;
+
+  // An observer made of the same configuration and input that takes the state of another one, left
+  // there between two frames, goes on as that one. InputError for a state of images of another
+  // size.
+  ObserverState state() const;
+  void resume(ObserverState state);
 
  private:
   struct State;

@@ -50,6 +50,24 @@ std::vector<FrameRecord> Tracker::finish() {
   return out;
 }
 
+TrackerState Tracker::state() const {
+  return {frame_,    starts_,       filter_.state(), last_seen_,
+          supports_, frames_below_, frames_beaten_,  losses_};
+}
+
+void Tracker::resume(TrackerState state) {
+  mode_ = Mode::kTracking;
+  scene_.initial.reset();  // used up
+  frame_ = state.frame;
+  starts_ = state.starts;
+  filter_.resume(std::move(state.filter));
+  last_seen_ = state.last_seen;
+  supports_ = std::move(state.supports);
+  frames_below_ = state.frames_below;
+  frames_beaten_ = state.frames_beaten;
+  losses_ = state.losses;
+}
+
 void Tracker::consume(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
   switch (mode_) {
     case Mode::kSearching:

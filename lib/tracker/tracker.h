@@ -34,6 +34,21 @@ struct TrackerConfig {
   double seek = 4;            // s for which a lost walker is looked for only where they can be
 };
 
+// Where the walker was last surely seen, and how they went on.
+struct LastSeen {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero(), velocity = position;  // m, m/s
+  uint32_t frame = 0;
+};
+
+// All that the next frame of a tracker in its tracking mode depends on.
+struct TrackerState {
+  uint32_t frame = 0, starts = 0;
+  FilterState<WalkerParticle> filter;
+  std::optional<LastSeen> last_seen;
+  std::deque<double> supports;
+  int frames_below = 0, frames_beaten = 0, losses = 0;
+};
+
 class Tracker {
  public:
   Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig& config, uint64_t seed,
@@ -50,6 +65,12 @@ class Tracker {
   // Times that the track was lost after it had been found.
   int losses() const { return losses_; }
 
+  // A tracker of the same scene, configuration and seed that takes the state of another one goes on
+  // as that one. There is a state only while tracking(): what a search has in hand is large and
+  // short-lived.
+  TrackerState state() const;
+  void resume(TrackerState state);
+
  private:
   enum class Mode { kSearching, kStarting, kTracking };
   void consume(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
@@ -60,12 +81,6 @@ class Tracker {
   void settle(std::vector<FrameRecord>& out);
   void track(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   WalkerFilterContext context(bool first) const;
-  // Where the walker was last surely seen, and how they went on.
-  struct LastSeen {
-    Eigen::Vector2d position, velocity;  // m, m/s
-    uint32_t frame;
-  };
-
   bool within_reach(const Eigen::Vector2d& place, uint32_t frame) const;
   void see(const FrameEstimate& estimate);
   double figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const;

@@ -148,12 +148,16 @@ TEST(BatchCommand, GoesOnListsFailuresAndExitsWithOne) {
   const std::string in = folder / "in", out = folder / "out";
   EXPECT_EQ(run_walktrack({"batch", in, "-o", out, "--list"}).out,
             "waiting\tbad one\nwaiting\tother\n");
+  EXPECT_EQ(run_walktrack({"batch", in, "-o", out, "--dry-run"}).out, "bad one\nother\n");
+  EXPECT_EQ(run_walktrack({"batch", in, "-o", out, "--dry-run", "--retry-failed"}).out, "");
   EXPECT_FALSE(std::filesystem::exists(out));
   const ProgramResult result = run_walktrack({"batch", in, "-o", out, "--jobs", "2"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("0 complete, 0 degraded, 2 failed, 0 left; see "));
   EXPECT_THAT(read_file(out + "/failures.txt"), StartsWith("bad one: exit "));
   EXPECT_THAT(read_file(out + "/failures.txt"), HasSubstr("\nother: exit "));
+  EXPECT_EQ(run_walktrack({"batch", in, "-o", out, "--dry-run", "--retry-failed"}).out,
+            "bad one\nother\n");
 }
 
 class CalibrateCommand : public testing::Test {

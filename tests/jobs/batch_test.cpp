@@ -126,6 +126,23 @@ TEST_F(BatchTest, RunAgainItDoesOnlyWhatIsNotComplete) {
   EXPECT_EQ(runs("ok"), 2u);
 }
 
+TEST_F(BatchTest, RetriesNoneButThoseThatFailed) {
+  for (const char* mode : {"ok", "lost", "fail"}) add(mode, mode);
+  run_batch(job_, {});
+  add("new", "ok");
+  add("fail", "ok");  // repaired
+  job_.retry_failed = true;
+  ASSERT_EQ(sequences_to_do(job_).size(), 1u);
+  EXPECT_EQ(sequences_to_do(job_)[0].name, "fail");
+  const BatchOutcome outcome = run_batch(job_, {});
+  EXPECT_EQ(outcome.complete, 2);
+  EXPECT_EQ(outcome.waiting, 1);
+  EXPECT_EQ(runs("fail"), 2u);
+  EXPECT_EQ(runs("ok"), 1u);
+  EXPECT_FALSE(fs::exists(job_.output / "new"));
+  EXPECT_TRUE(sequences_to_do(job_).empty());
+}
+
 TEST_F(BatchTest, ShardsCoverEverySequenceOnce) {
   for (int i = 0; i < 7; ++i) add(numbered(i), "ok");
   const auto all = find_sequences(job_.folder, job_.output);
@@ -162,7 +179,7 @@ TEST_F(BatchTest, StopsWhenAskedAndLeavesTheRestWaiting) {
 }
 
 TEST_F(BatchTest, TwoWorkersNeverDoOneSequenceTwice) {
-  for (int i = 0; i < 12; ++i) add(numbered(i), "ok");
+  for (int i = 0; i < 12; ++i) add(numbered(i), i % 3 == 0 ? "fail" : "ok");
   job_.jobs = 2;
   std::thread other([&] { run_batch(job_, {}); });
   run_batch(job_, {});

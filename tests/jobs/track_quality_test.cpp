@@ -1,22 +1,37 @@
 #include "jobs/track_quality.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/run_program.h"
 
 namespace walktrack {
 namespace {
 
-// Somebody who stands still, tracked but in the frames named.
-TrackedFrames standing(int count, std::initializer_list<size_t> lost) {
-  TrackedFrames frames;
-  frames.records.resize(static_cast<size_t>(count));
-  for (FrameRecord& record : frames.records) {
-    record.tracked = true;
-    record.estimate.joint_count = kJointCountWithoutArms;
-  }
-  for (const size_t i : lost) frames.records[i].tracked = false;
-  return frames;
+FrameRecord still() {
+  FrameRecord record;
+  record.tracked = true;
+  record.estimate.joint_count = kJointCountWithoutArms;
+  return record;
 }
+
+class QualityOf : public testing::Test {
+ protected:
+  // Somebody who does what `record` says in every frame, tracked but in the frames named.
+  TrackedFrames standing(int count, std::initializer_list<int> lost,
+                         const FrameRecord& record = still()) const {
+    TrackedFrames frames{30, FrameFile(folder_ / "frames.bin")};
+    for (int i = 0; i < count; ++i) {
+      FrameRecord each = record;
+      each.tracked = std::ranges::find(lost, i) == lost.end();
+      frames.records.append(each);
+    }
+    return frames;
+  }
+  TemporaryFolder folder_;
+};
 
 const QualityMeasure& named(const Quality& quality, const std::string& name) {
   for (const QualityMeasure& m : quality)
@@ -24,20 +39,21 @@ const QualityMeasure& named(const Quality& quality, const std::string& name) {
   throw std::out_of_range(name);
 }
 
-TEST(QualityOf, CountsLostFramesFromTheFirstTrackedOneOn) {
+TEST_F(QualityOf, CountsLostFramesFromTheFirstTrackedOneOn) {
   const Quality quality = quality_of(standing(12, {0, 1, 5, 6}), GateConfig{});
   EXPECT_DOUBLE_EQ(named(quality, "lost_percent").value, 20);
   EXPECT_FALSE(named(quality, "lost_percent").passed());
 }
 
-TEST(QualityOf, NobodyTrackedLosesNothing) {
+TEST_F(QualityOf, NobodyTrackedLosesNothing) {
   EXPECT_EQ(named(quality_of(standing(2, {0, 1}), GateConfig{}), "lost_percent").value, 0);
-  EXPECT_EQ(named(quality_of(TrackedFrames{}, GateConfig{}), "leg_swaps_per_min").value, 0);
+  EXPECT_EQ(named(quality_of(standing(0, {}), GateConfig{}), "leg_swaps_per_min").value, 0);
 }
 
-TEST(QualityOf, FeetBelowTheGroundFailTheirGate) {
-  TrackedFrames frames = standing(12, {});
-  for (FrameRecord& record : frames.records) record.estimate.joints[Joint::kLeftToe].z() = -0.02;
+TEST_F(QualityOf, FeetBelowTheGroundFailTheirGate) {
+  FrameRecord sunken = still();
+  sunken.estimate.joints[Joint::kLeftToe].z() = -0.02;
+  const TrackedFrames frames = standing(12, {}, sunken);
   GateConfig gates;
   gates.least_steps = 0;
   gates.penetration = 0.015;
@@ -48,7 +64,7 @@ TEST(QualityOf, FeetBelowTheGroundFailTheirGate) {
   EXPECT_EQ(first_failure(quality_of(frames, gates)), "");
 }
 
-TEST(QualityOf, WhoStandsDoesNotWalk) {
+TEST_F(QualityOf, WhoStandsDoesNotWalk) {
   const Quality quality = quality_of(standing(12, {}), GateConfig{});
   EXPECT_THAT(first_failure(quality), testing::HasSubstr("(gate at least 1)"));
 }

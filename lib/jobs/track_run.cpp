@@ -1,0 +1,157 @@
+#include "jobs/track_run.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+
+#include "body/kinematics.h"
+#include "core/errors.h"
+#include "core/parallel_for.h"
+
+namespace walktrack {
+
+namespace {
+
+int threads_of(const TrackJob& job) {
+  const int wanted = job.config.values.threads;
+  const int threads = wanted > 0 ? wanted : hardware_threads();
+  cv::setNumThreads(threads);
+  return threads;
+}
+
+TrackSetup timed_set_up(const TrackJob& job, double frame_rate,
+                        const std::vector<ObserverState>& learned, const JobControl& control,
+                        Stopwatch& watch) {
+  const auto start = Clock::now();
+  TrackSetup setup = set_up(job.scene, job.config.values, frame_rate, learned, control);
+  watch.add("background", start);
+  return setup;
+}
+
+}  // namespace
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void Stopwatch::add(std::string_view stage, Clock::time_point since) {
+  const double seconds = seconds_since(since);
+  for (auto& [name, sum] : stages_) {
+    if (name != stage) continue;
+    sum += seconds;
+    return;
+  }
+  stages_.emplace_back(stage, seconds);
+}
+
+bool CheckpointTimer::due() const {
+  constexpr double kMostShare = 0.01;  // of the time that checkpoints may take
+  return seconds_ == 0 || seconds_since(last_) >= std::max(seconds_, cost_ / kMostShare);
+}
+
+void CheckpointTimer::wrote(Clock::time_point since) {
+  cost_ = seconds_since(since);
+  last_ = Clock::now();
+}
+
+TrackRun::TrackRun(const TrackJob& job, double frame_rate, const ResultFolder& folder,
+                   Origin origin, std::optional<Checkpoint> checkpoint, const JobControl& control)
+    : job_(job),
+      checkpoint_file_(folder.file(std::string(kCheckpointFile))),
+      origin_(std::move(origin)),
+      threads_(threads_of(job)),
+      setup_(timed_set_up(job, frame_rate,
+                          checkpoint ? checkpoint->observers : std::vector<ObserverState>{},
+                          control, watch_)),
+      prior_(load_gait_prior()),
+      tracker_(setup_.scene, prior_, job.config.values.tracker, job.config.values.seed, threads_),
+      evidence_(setup_.observers.size()),
+      frames_{frame_rate, FrameFile(folder.file(std::string(kFramesFile)),
+                                    checkpoint ? checkpoint->records : 0)},
+      first_frame_(checkpoint ? checkpoint->frames_read : 0),
+      frames_read_(first_frame_),
+      timer_(job.config.values.checkpoint.seconds) {
+  for (const Camera& camera : setup_.scene.cameras)
+    everywhere_.push_back(search_region(camera, job.scene.subject.height));
+  if (checkpoint) tracker_.resume(std::move(checkpoint->tracker));
+}
+
+void TrackRun::skip(SceneVideo& video, const JobControl& control) const {
+  SceneFrames images;
+  for (uint64_t i = 0; i < first_frame_ && !control.stopping(); ++i) {
+    if (!video.read(images)) {
+      throw InputError(fmt::format("{}: the film ends at frame {}, before the checkpoint's {}",
+                                   job_.scene.file.string(), i, first_frame_));
+    }
+    control.progress("skipping what is done", i + 1, first_frame_);
+  }
+}
+
+void TrackRun::step(const SceneFrames& images) {
+  observe(images);
+  follow();
+  learn();
+  ++frames_read_;
+  if (tracker_.tracking() && timer_.due()) write_checkpoint();
+}
+
+bool TrackRun::finish(bool resumable) {
+  const bool noted = resumable && tracker_.tracking() && frames_read_ > first_frame_;
+  if (noted) write_checkpoint();
+  for (const FrameRecord& record : tracker_.finish()) frames_.records.append(record);
+  return noted || (resumable && std::filesystem::exists(checkpoint_file_));
+}
+
+Region TrackRun::region(size_t camera) const {
+  if (!tracker_.tracking()) return everywhere_[camera];
+  constexpr double kReach = 0.5;  // m around the last pose: limbs, and the way of one frame
+  const FrameEstimate& last = frames_.records.back().estimate;
+  return person_region(setup_.scene.cameras[camera], last.pose.root.head<2>(),
+                       job_.scene.subject.height, kReach + last.speed * setup_.scene.dt);
+}
+
+void TrackRun::observe(const SceneFrames& images) {
+  const auto start = Clock::now();
+  for (size_t c = 0; c < setup_.observers.size(); ++c) {
+    if (!images.fresh[c]) {
+      evidence_[c] = CameraEvidence{};  // a repeated frame says nothing new
+      setup_.observers[c].forget_previous_frame();
+      continue;
+    }
+    setup_.observers[c].observe(images.images[c], region(c), evidence_[c]);
+  }
+  watch_.add("evidence", start);
+}
+
+void TrackRun::follow() {
+  const auto start = Clock::now();
+  for (const FrameRecord& record : tracker_.push(evidence_)) frames_.records.append(record);
+  watch_.add("filter", start);
+}
+
+// Once tracked, every frame teaches what the walker looks like.
+void TrackRun::learn() {
+  if (!tracker_.tracking() || !job_.config.values.observation.foreground.enabled) return;
+  const auto start = Clock::now();
+  const Body& body = setup_.scene.model.body;
+  const Pose& pose = frames_.records.back().estimate.pose;
+  const PosedParts parts = pose_parts(body, forward_kinematics(body, pose));
+  for (size_t c = 0; c < setup_.observers.size(); ++c)
+    setup_.observers[c].learn(evidence_[c], project_parts(setup_.scene.cameras[c], parts));
+  watch_.add("appearance", start);
+}
+
+void TrackRun::write_checkpoint() {
+  const auto start = Clock::now();
+  Checkpoint checkpoint{origin_, frames_read_,    frames_.records.size(), frames_.records.bytes(),
+                        {},      tracker_.state()};
+  for (const Observer& observer : setup_.observers)
+    checkpoint.observers.push_back(observer.state());
+  frames_.records.flush();
+  walktrack::write_checkpoint(checkpoint_file_, checkpoint);
+  timer_.wrote(start);
+  watch_.add("checkpoints", start);
+}
+
+}  // namespace walktrack

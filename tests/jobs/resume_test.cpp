@@ -1,0 +1,176 @@
+// A track that another process goes on with ends with the same bytes as one that nobody disturbed.
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/errors.h"
+#include "io/frame_file.h"
+#include "jobs/track.h"
+#include "tests/run_program.h"
+
+namespace walktrack {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kFrames = 24;
+
+struct Killed {};  // what a test throws to leave a job in the middle, with nothing tidied up
+
+class Resume : public testing::Test {
+ protected:
+  TrackJob job(const std::string& name) const {
+    TrackJob job;
+    job.scene = read_scene(fs::path(WALKTRACK_SOURCE_DIR) / "data/demo/scene.yaml");
+    job.scene.cameras.resize(cameras_);
+    // Told where to start: six frames later it is tracked.
+    job.scene.initial = InitialState{0, {-2.5, 0}, 0, 1.25, {}};
+    job.scene.last_frame = kFrames - 1;
+    Config& config = job.config.values;
+    config.tracker.filter.particles = 40;
+    config.tracker.filter.moves = 1;
+    config.tracker.start.particles = 10;
+    config.tracker.start.seconds = 0.2;
+    config.observation.person_px = 50;  // small images, for speed
+    config.checkpoint.seconds = 0;
+    job.output = folder_.path() / name;
+    job.overlay = false;
+    if (change_) change_(config);
+    return job;
+  }
+  // Tracks until so many frames are done, and is killed.
+  void kill(TrackJob job, size_t frames) const {
+    JobControl control;
+    control.report = [&](const Progress& progress) {
+      if (progress.what == "tracking" && progress.done == frames) throw Killed{};
+    };
+    EXPECT_THROW(track_scene(job, control), Killed);
+  }
+  static TrackOutcome resume(TrackJob job) {
+    job.resume = true;
+    return track_scene(job, {});
+  }
+  // Every file but the page, which shows the times, and run.json without them.
+  std::map<std::string, std::string> result(const std::string& name) const {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : fs::directory_iterator(folder_.path() / name)) {
+      const std::string file = entry.path().filename().string();
+      if (file != "report.html") found[file] = read_file(entry.path());
+    }
+    Json run = Json::parse(found.at("run.json"));
+    run.erase("timing");
+    found["run.json"] = run.dump();
+    return found;
+  }
+  int resumed_at(const std::string& name) const {
+    return Json::parse(read_file(folder_ / (name + "/run.json")))["timing"]["resumed_at_frame"];
+  }
+  void expect_same_after_kill(size_t frames) {
+    track_scene(job("whole"), {});
+    ASSERT_EQ(resumed_at("whole"), 0);
+    kill(job("killed"), frames);
+    resume(job("killed"));
+    EXPECT_GT(resumed_at("killed"), 0);
+    EXPECT_EQ(result("killed"), result("whole"));
+  }
+
+  TemporaryFolder folder_;
+  size_t cameras_ = 1;
+  std::function<void(Config&)> change_;
+};
+
+TEST_F(Resume, AfterAKillItEndsWithTheSameBytes) {
+  cameras_ = 2;
+  track_scene(job("whole"), {});
+  const auto whole = result("whole");
+  EXPECT_FALSE(whole.contains("checkpoint.bin"));
+  EXPECT_FALSE(whole.contains("frames.bin"));
+  // Before there is a checkpoint, in the middle twice, after the last frame.
+  kill(job("killed"), 5);
+  for (const size_t frames : {size_t{9}, size_t{16}, size_t{kFrames}}) {
+    TrackJob again = job("killed");
+    again.resume = true;
+    kill(again, frames);
+    EXPECT_FALSE(fs::exists(folder_ / "killed/run.json"));
+  }
+  resume(job("killed"));
+  EXPECT_EQ(resumed_at("killed"), kFrames);
+  EXPECT_EQ(result("killed"), whole);
+}
+
+// What a killed process has written after its last checkpoint is done again.
+TEST_F(Resume, FramesAfterTheCheckpointAreDoneAgain) {
+  track_scene(job("whole"), {});
+  kill(job("killed"), 12);
+  const std::string checkpoint = read_file(folder_ / "killed/checkpoint.bin");
+  TrackJob again = job("killed");
+  again.resume = true;
+  kill(again, 20);
+  folder_.write("killed/checkpoint.bin", checkpoint);  // as if none had been due since
+  resume(job("killed"));
+  EXPECT_EQ(resumed_at("killed"), 12);
+  EXPECT_EQ(result("killed"), result("whole"));
+}
+
+TEST_F(Resume, WithoutABackground) {
+  change_ = [](Config& config) { config.observation.background.enabled = false; };
+  expect_same_after_kill(15);
+}
+
+TEST_F(Resume, WithoutFlowAndColours) {
+  change_ = [](Config& config) {
+    config.observation.flow.enabled = config.observation.foreground.enabled = false;
+  };
+  expect_same_after_kill(15);
+}
+
+TEST_F(Resume, WhoIsToldToStopLeavesACheckpointOfThatFrame) {
+  track_scene(job("whole"), {});
+  std::atomic<bool> stop{false};
+  JobControl control;
+  control.stop_request = &stop;
+  control.report = [&](const Progress& progress) {
+    stop = stop || (progress.what == "tracking" && progress.done == 15);
+  };
+  TrackJob stopped = job("stopped");
+  stopped.config.values.checkpoint.seconds = 1e6;
+  const TrackOutcome outcome = track_scene(stopped, control);
+  EXPECT_EQ(outcome.status, TrackStatus::kInterrupted);
+  EXPECT_TRUE(outcome.resumable);
+  EXPECT_TRUE(fs::exists(folder_ / "stopped/run.partial.json"));
+  resume(stopped);
+  EXPECT_EQ(resumed_at("stopped"), 15);
+  auto found = result("stopped"), whole = result("whole");
+  found.erase("run.json");  // which says that checkpoints were to be rare
+  whole.erase("run.json");
+  EXPECT_EQ(found, whole);
+}
+
+TEST_F(Resume, ACheckpointOfSomethingElseIsRefusedOrLeftBehind) {
+  kill(job("killed"), 12);
+  TrackJob other = job("killed");
+  other.config.values.seed = 2;
+  try {
+    resume(other);
+    FAIL() << "another seed";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("of another configuration; -y starts anew"));
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "killed/checkpoint.bin"));
+  other.config.values.seed = 1;
+  other.config.values.threads = 1;  // changes no result
+  fs::resize_file(folder_ / "killed/frames.bin", 100);
+  EXPECT_THROW(resume(other), UsageError);
+  other.overwrite = true;
+  EXPECT_NO_THROW(resume(other));
+  EXPECT_EQ(resumed_at("killed"), 0);
+}
+
+}  // namespace
+}  // namespace walktrack
