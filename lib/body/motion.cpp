@@ -42,6 +42,11 @@ Vector3d between(const Motion& motion, Joint joint, size_t i, double s) {
 
 }  // namespace
 
+Ensemble ensemble_of(std::vector<Motion> members) {
+  const size_t size = members.size();
+  return {size, [members = std::move(members)](size_t index) { return members[index]; }};
+}
+
 JointPositions unknown_joints() {
   JointPositions out;
   out.at.fill(Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));

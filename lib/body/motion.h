@@ -2,6 +2,7 @@
 // evaluated; what nobody knows is NaN.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,14 @@ struct Motion {
 };
 
 inline bool known(const Eigen::Vector3d& point) { return point.allFinite(); }
+
+// Motions over the same times that are as likely as another one, handed out one at a time: each is
+// as long as the film.
+struct Ensemble {
+  size_t size = 0;
+  std::function<Motion(size_t index)> member{};
+};
+Ensemble ensemble_of(std::vector<Motion> members);
 
 // All joints unknown.
 JointPositions unknown_joints();

@@ -115,7 +115,8 @@ class ParticleFilter {
     FilterReport report;
     Rng rng(seed_, Purpose::kResampling, frame);
     weigh(log_likelihood, report);
-    if (report.dead == static_cast<int>(size())) {
+    // Also when those that this frame leaves alive had died before, and were not replaced yet.
+    if (log_sum_exp(set_.log_weights) == kDead) {
       report.all_dead = true;
       report.log_evidence = kDead;
       return report;

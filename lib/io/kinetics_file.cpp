@@ -58,20 +58,6 @@ std::vector<double> values_of(const KineticsFrame& frame, const WorldFrame& worl
   return out;
 }
 
-// Half width of the band of column `k` over the members that know it; NaN for fewer than two.
-double half_width(const std::vector<std::vector<double>>& members, size_t k) {
-  double sum = 0, squares = 0;
-  size_t count = 0;
-  for (const auto& member : members) {
-    if (std::isfinite(member[k])) sum += member[k], ++count;
-  }
-  if (count < 2 || 2 * count < members.size()) return kNone;
-  const double mean = sum / static_cast<double>(count);
-  for (const auto& member : members)
-    if (std::isfinite(member[k])) squares += (member[k] - mean) * (member[k] - mean);
-  return kBandSd * std::sqrt(squares / static_cast<double>(count - 1));
-}
-
 double rate_of(const Kinetics& kinetics) {
   const size_t n = kinetics.time.size();
   return n > 1 ? static_cast<double>(n - 1) / (kinetics.time.back() - kinetics.time.front()) : 0;
@@ -96,7 +82,7 @@ std::string header(const Kinetics& kinetics, const Subject& subject, const Kinet
       t.negative_work, t.cost_of_transport, t.peak_load);
 }
 
-std::string table(std::string text, const Kinetics& kinetics, std::span<const Kinetics> members,
+std::string table(std::string text, const Kinetics& kinetics, const KineticsBands& bands,
                   const WorldFrame& world) {
   const std::vector<std::string> names = column_names();
   text += "t";
@@ -104,14 +90,11 @@ std::string table(std::string text, const Kinetics& kinetics, std::span<const Ki
   text += "\n";
   for (size_t i = 0; i < kinetics.frames.size(); ++i) {
     text += csv_number(kinetics.time[i]);
-    std::vector<std::vector<double>> others;
-    for (const Kinetics& member : members)
-      if (member.frames[i].known) others.push_back(values_of(member.frames[i], world));
     const std::vector<double> values = kinetics.frames[i].known
                                            ? values_of(kinetics.frames[i], world)
                                            : std::vector<double>(names.size(), kNone);
     for (size_t k = 0; k < names.size(); ++k) {
-      const double half = half_width(others, k);
+      const double half = bands.half_width(i, k);
       for (const double value : {values[k], values[k] - half, values[k] + half})
         append_number(text, ',', value);
     }
@@ -122,10 +105,34 @@ std::string table(std::string text, const Kinetics& kinetics, std::span<const Ki
 
 }  // namespace
 
-std::string kinetics_csv(const Kinetics& kinetics, std::span<const Kinetics> members,
+void KineticsBands::add(const Kinetics& member) {
+  rows_.resize(member.frames.size());
+  for (size_t i = 0; i < rows_.size(); ++i) {
+    if (!member.frames[i].known) continue;
+    const std::vector<double> values = values_of(member.frames[i], world_);
+    rows_[i].columns.resize(values.size());
+    ++rows_[i].members;
+    for (size_t k = 0; k < values.size(); ++k) {
+      if (!std::isfinite(values[k])) continue;
+      Sum& sum = rows_[i].columns[k];
+      const double away = values[k] - sum.mean;
+      sum.mean += away / ++sum.count;
+      sum.squares += away * (values[k] - sum.mean);
+    }
+  }
+}
+
+double KineticsBands::half_width(size_t row, size_t column) const {
+  if (row >= rows_.size() || rows_[row].members == 0) return kNone;
+  const Sum& sum = rows_[row].columns[column];
+  if (sum.count < 2 || 2 * sum.count < rows_[row].members) return kNone;
+  return kBandSd * std::sqrt(sum.squares / (sum.count - 1));
+}
+
+std::string kinetics_csv(const Kinetics& kinetics, const KineticsBands& bands,
                          const Subject& subject, const KineticsConfig& config,
                          const WorldFrame& world) {
-  return table(header(kinetics, subject, config), kinetics, members, world);
+  return table(header(kinetics, subject, config), kinetics, bands, world);
 }
 
 std::string simulated_kinetics_csv(const Kinetics& kinetics, const Subject& subject) {
@@ -136,7 +143,7 @@ std::string simulated_kinetics_csv(const Kinetics& kinetics, const Subject& subj
       "stated.\n"
       "# Subject: height {:.3f} m, mass {:.2f} kg\n",
       rate_of(kinetics), subject.height, subject.mass);
-  return table(comment, kinetics, {}, {});
+  return table(comment, kinetics, KineticsBands({}), {});
 }
 
 GroundForces read_ground_forces(const std::filesystem::path& path) {

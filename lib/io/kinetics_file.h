@@ -13,8 +13,8 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
+#include <vector>
 
 #include "camera/world_frame.h"
 #include "kinetics/force_error.h"
@@ -22,8 +22,31 @@
 
 namespace walktrack {
 
-// `members`: the kinetics of other motions over the same times.
-std::string kinetics_csv(const Kinetics& kinetics, std::span<const Kinetics> members,
+// How much the columns of each row differ over members: mean and sum of squared differences as
+// members come (Welford 1962), so that none has to be kept.
+class KineticsBands {
+ public:
+  explicit KineticsBands(const WorldFrame& world) : world_(world) {}
+  // The kinetics of another motion over the same times.
+  void add(const Kinetics& member);
+  // Half the band's width in a column of a row; NaN unless two members, and half of those that know
+  // the row's body, know it.
+  double half_width(size_t row, size_t column) const;
+
+ private:
+  struct Sum {
+    double mean = 0, squares = 0;
+    int count = 0;
+  };
+  struct Row {
+    int members = 0;
+    std::vector<Sum> columns;
+  };
+  WorldFrame world_;
+  std::vector<Row> rows_;
+};
+
+std::string kinetics_csv(const Kinetics& kinetics, const KineticsBands& bands,
                          const Subject& subject, const KineticsConfig& config,
                          const WorldFrame& world);
 

@@ -54,6 +54,19 @@ std::string failure_reason(const BatchJob& job, const ChildEnd& end, const fs::p
   return fmt::format("exit {}{}{}", end.exit_code, words.empty() ? "" : ": ", words);
 }
 
+// Results stay below the output folder: what leads elsewhere was not made by a batch.
+void refuse_links(const BatchJob& job, const std::vector<Sequence>& sequences) {
+  for (const Sequence& sequence : sequences) {
+    fs::path folder = job.output;
+    for (const fs::path& part : fs::path(sequence.name)) {
+      folder /= part;
+      if (fs::is_symlink(folder))
+        throw UsageError(
+            describe({folder.string(), 0, ""}, "a link", "a folder of the batch's own"));
+    }
+  }
+}
+
 // When the sequence failed; nullopt if it has not.
 std::optional<fs::file_time_type> failure_time(const Sequence& sequence) {
   std::error_code none;
@@ -81,7 +94,7 @@ std::optional<Running> start(const BatchJob& job, const Waiting& waiting) {
   std::optional<Claim> claim = Claim::try_take(sequence.output);
   // Another worker may have done it between the look and the claim.
   if (!claim || waiting.done_by_another(job)) return std::nullopt;
-  fs::remove(sequence.output / "failure.txt");
+  for (const char* earlier : {"failure.txt", "log.txt"}) fs::remove(sequence.output / earlier);
   if (!sequence.video.empty()) {
     write_file_atomically(sequence.scene, scene_for_video(job.scene_template, sequence.video));
   }
@@ -185,6 +198,7 @@ BatchOutcome run_batch(const BatchJob& job, const JobControl& control) {
   }
   fs::create_directories(job.output);
   const std::vector<Sequence> own = shard_of(all, job.shard, job.shards);
+  refuse_links(job, own);
   clear_dead_claims(own);
   Runner runner(job, control, sequences_to_do(job));
   runner.run();

@@ -73,10 +73,10 @@ KineticsTotals write_motion_tables(const AnalysedMotion& analysed, const Kinetic
     return kinetics(motion, contacts, analysed.subject, analysed.gravity, config);
   };
   const Kinetics result = forces(analysed.motion);
-  std::vector<Kinetics> members;
-  for (const Motion& member : analysed.members) members.push_back(forces(member));
+  KineticsBands bands(analysed.world);
+  for (size_t m = 0; m < analysed.members.size; ++m) bands.add(forces(analysed.members.member(m)));
   folder.write("kinetics.csv",
-               kinetics_csv(result, members, analysed.subject, config, analysed.world));
+               kinetics_csv(result, bands, analysed.subject, config, analysed.world));
   folder.write("ground_reaction.mot", mot_from_ground_reactions(result));
   folder.write("joint_moments.sto", sto_from_joint_moments(result));
   return result.totals;

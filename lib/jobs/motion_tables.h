@@ -15,7 +15,7 @@ namespace walktrack {
 
 struct AnalysedMotion {
   Motion motion;
-  std::vector<Motion> members;  // as likely ones, for the bands; may be none
+  Ensemble members;  // as likely ones, for the bands; may be none
   std::vector<SupportTransfer> transfers;
   std::vector<AngleRow> angles;  // one for each row
   double rate = 30;              // Hz

@@ -81,22 +81,21 @@ JointUncertainty uncertainty_of(const TrackedFrames& frames) {
   return out;
 }
 
-std::vector<Motion> ensemble_of(const TrackedFrames& frames) {
-  size_t members = 0;
+Ensemble ensemble_of(const TrackedFrames& frames) {
+  Ensemble out;
   for (const FrameRecord& record : frames.records) {
-    if (record.tracked) members = record.samples.size();
+    if (record.tracked) out.size = record.samples.size();
   }
-  std::vector<Motion> out(members);
-  for (size_t i = 0; i < frames.records.size(); ++i) {
-    const FrameRecord& record = frames.records[i];
-    for (size_t m = 0; m < members; ++m) {
-      out[m].time.push_back(time_of(frames, i));
-      out[m].joints.push_back(unknown_joints());
-      if (!record.tracked) continue;
-      for (size_t j = 0; j < record.estimate.joint_count; ++j)
-        out[m].joints.back().at[j] = record.samples[m].at[j];
+  out.member = [&frames](size_t m) {
+    Motion motion;
+    for (const FrameRecord& record : frames.records) {
+      motion.time.push_back(time_of(frames, motion.time.size()));
+      motion.joints.push_back(unknown_joints());
+      for (size_t j = 0; record.tracked && j < record.estimate.joint_count; ++j)
+        motion.joints.back().at[j] = record.samples[m].at[j];
     }
-  }
+    return motion;
+  };
   return out;
 }
 
@@ -104,20 +103,27 @@ std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames) {
   // The transfer is dated some frames after it, when the images have told the particles apart.
   constexpr double kHindsight = 0.1;  // s
   const auto later = static_cast<size_t>(std::lround(kHindsight * frames.frame_rate));
-  const auto stands_left = [&](size_t i) { return frames.records[i].estimate.left_stance > 0.5; };
+  struct Support {
+    bool tracked, left;
+    Spread since;
+  };
+  std::vector<Support> support;
+  for (const FrameRecord& record : frames.records)
+    support.push_back(
+        {record.tracked, record.estimate.left_stance > 0.5, record.estimate.since_transfer});
   std::vector<SupportTransfer> out;
-  for (size_t i = 1; i < frames.records.size(); ++i) {
-    if (!frames.records[i].tracked || !frames.records[i - 1].tracked) continue;
-    if (stands_left(i) == stands_left(i - 1)) continue;
+  for (size_t i = 1; i < support.size(); ++i) {
+    if (!support[i].tracked || !support[i - 1].tracked) continue;
+    if (support[i].left == support[i - 1].left) continue;
     size_t at = i;
-    while (at < i + later && at + 1 < frames.records.size() && frames.records[at + 1].tracked &&
-           stands_left(at + 1) == stands_left(i))
+    while (at < i + later && at + 1 < support.size() && support[at + 1].tracked &&
+           support[at + 1].left == support[i].left)
       ++at;
-    const Spread& since = frames.records[at].estimate.since_transfer;
+    const Spread& since = support[at].since;
     const double now = time_of(frames, at);
     // Few particles with another history pull the mean out of their own band.
     const double usual = std::clamp(since.mean, since.p05, since.p95);
-    out.push_back({stands_left(i) ? Side::kLeft : Side::kRight,
+    out.push_back({support[i].left ? Side::kLeft : Side::kRight,
                    {now - usual, now - since.p95, now - since.p05}});
   }
   return out;

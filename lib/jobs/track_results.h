@@ -25,7 +25,8 @@ Motion motion_of(const TrackedFrames& frames);
 JointUncertainty uncertainty_of(const TrackedFrames& frames);
 // Motions that the particles hold for possible: one of each place in the order in which resampling
 // keeps families of particles together, so that a member is mostly one family's history.
-std::vector<Motion> ensemble_of(const TrackedFrames& frames);
+// Members are read from the frames when they are asked for.
+Ensemble ensemble_of(const TrackedFrames& frames);
 // When the walkers' weight changed onto a foot.
 std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames);
 

@@ -223,11 +223,11 @@ std::array<Banded, N> banded_all(const Reading& reading, const std::vector<Commo
 
 }  // namespace
 
-GaitTable gait_table(const Motion& motion, std::span<const Motion> members,
+GaitTable gait_table(const Motion& motion, const Ensemble& members,
                      std::span<const SupportTransfer> transfers) {
   const Reading reading = read(motion);
   std::vector<Reading> others;
-  for (const Motion& member : members) others.push_back(read(member));
+  for (size_t m = 0; m < members.size; ++m) others.push_back(read(members.member(m)));
   GaitTable table;
   for (const Contact& contact : reading.contacts) {
     table.contacts.push_back(contact_row(contact, others));

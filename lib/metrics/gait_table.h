@@ -100,8 +100,7 @@ struct SupportTransfer {
   Banded time;
 };
 
-// `members`: motions over the same times, any number.
-GaitTable gait_table(const Motion& motion, std::span<const Motion> members,
+GaitTable gait_table(const Motion& motion, const Ensemble& members,
                      std::span<const SupportTransfer> transfers);
 
 }  // namespace walktrack

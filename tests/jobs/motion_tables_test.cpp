@@ -48,7 +48,7 @@ class MotionTables : public testing::Test {
 TEST_F(MotionTables, OfTheDemoSayWhatTheDemoIs) {
   AnalysedMotion demo;
   demo.motion = read_motion(kDemo / "truth.csv");
-  demo.members = {demo.motion, demo.motion, demo.motion};
+  demo.members = ensemble_of({demo.motion, demo.motion, demo.motion});
   const KineticsTotals totals = write_motion_tables(demo, {}, ResultFolder(folder_, true));
   const auto gait = nlohmann::json::parse(read_text_file(folder_ / "gait.json", size_t{1} << 20));
   const auto& both = gait.at("summary").at("both");

@@ -14,6 +14,7 @@ FrameRecord still() {
   FrameRecord record;
   record.tracked = true;
   record.estimate.joint_count = kJointCountWithoutArms;
+  for (Eigen::Vector3d& joint : record.estimate.joints.at) joint.setZero();
   return record;
 }
 

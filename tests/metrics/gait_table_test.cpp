@@ -72,7 +72,7 @@ TEST(GaitTable, BandsAreTheMembersSpread) {
     members.push_back(walk_motion({}));
     for (double& time : members.back().time) time += late;
   }
-  const GaitTable table = gait_table(walk_motion({}), members, {});
+  const GaitTable table = gait_table(walk_motion({}), ensemble_of(members), {});
   const auto& at = table.contacts[3].at;
   // The 5 % point of five numbers 0.01 apart is 0.2 of the way from the first to the second.
   EXPECT_NEAR(at[kFootStrike].p95 - at[kFootStrike].value, 0.018, 1e-6);
@@ -86,7 +86,7 @@ TEST(GaitTable, WithoutMostMembersThereIsNoBand) {
   std::vector<Motion> members(5, motion);
   for (size_t m = 0; m < 3; ++m)
     members[m] = changed(motion, [](JointPositions& joints, size_t) { joints = unknown_joints(); });
-  const GaitTable table = gait_table(motion, members, {});
+  const GaitTable table = gait_table(motion, ensemble_of(members), {});
   EXPECT_TRUE(std::isfinite(table.contacts[3].at[kFootStrike].value));
   EXPECT_TRUE(std::isnan(table.contacts[3].at[kFootStrike].p05));
 }
@@ -102,7 +102,7 @@ TEST(GaitTable, MembersAreComparedOverTheStepsTheySaw) {
     members.push_back(changed(limping, [&](JointPositions& joints, size_t row) {
       if (row >= rows) joints = unknown_joints();
     }));
-  const GaitTable table = gait_table(limping, members, {});
+  const GaitTable table = gait_table(limping, ensemble_of(members), {});
   for (const SummaryColumn k : {kMeanStepLength, kMeanStepWidth, kMeanStrideLength}) {
     // A stance that the cut shortens has its place from fewer rows: a foot stands still, so equal.
     EXPECT_NEAR(table.both[k].p95 - table.both[k].p05, 0, 1e-3) << kSummaryColumns[k];
@@ -120,7 +120,7 @@ TEST(GaitTable, BandsStayAmongWhatMembersShow) {
       for (size_t j = 0; j < joints.at.size(); ++j)
         joints.at[j].x() += 0.06 * std::sin(double(m * m) + double(i) * (0.5 + 0.1 * double(m)));
     }));
-  const GaitTable table = gait_table(walk_motion({.duration = 2.5}), members, {});
+  const GaitTable table = gait_table(walk_motion({.duration = 2.5}), ensemble_of(members), {});
   for (const Summary* summary : {&table.both, &table.left, &table.right}) {
     for (size_t k = 0; k < kSummaryColumnCount; ++k) {
       const Banded& each = (*summary)[k];
