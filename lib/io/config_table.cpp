@@ -85,7 +85,8 @@ void add_motion(ParameterTable& table) {
   m.number("clock", &M::clock, 0, 1, "how far the phase strays from the walker's, s per sqrt(s)");
   m.number("turning", &M::turning, 0, 100, "the usual rate of turning, rad/s");
   m.number("misfit", &M::misfit, 0, 10, "multiplies how far angles stray from the walker's");
-  m.number("ball_drift", &M::ball_drift, 0, 1, "of a standing foot, m per sqrt(s)");
+  m.number("ball_drift", &M::ball_drift, 0, 1, "of a standing foot along its way, m per sqrt(s)");
+  m.number("ball_slip", &M::ball_slip, 0, 1, "and across it, m per sqrt(s)");
   m.number("landing", &M::landing, 0, 1, "uncertainty of where a foot comes down, m");
   m.number("settling", &M::settling, 1e-3, 10, "in which that dies away, s");
   m.number("arrival", &M::arrival, 0, 10, "uncertainty of the first foot's place, m");

@@ -108,14 +108,20 @@ fs::path write_scene(const Film& film, const Shot& shot, const fs::path& folder)
   return folder / "scene.yaml";
 }
 
-TrackOutcome track(const Film& film, const fs::path& scene, const fs::path& output) {
-  TrackJob job;
-  job.scene = read_scene(scene);
+ConfigWithOrigin config_of(const Film& film) {
+  ConfigWithOrigin config;
   // Few particles: this is about surviving, not about accuracy.
   for (const char* setting : {"threads=1", "filter.particles=150", "start.particles=40"}) {
-    apply_setting(job.config, setting, "selftest");
+    apply_setting(config, setting, "selftest");
   }
-  for (const std::string& setting : film.settings) apply_setting(job.config, setting, "selftest");
+  for (const std::string& setting : film.settings) apply_setting(config, setting, "selftest");
+  return config;
+}
+
+TrackOutcome track(const fs::path& scene, ConfigWithOrigin config, const fs::path& output) {
+  TrackJob job;
+  job.scene = read_scene(scene);
+  job.config = std::move(config);
   job.output = output;
   job.overlay = false;
   return track_scene(job, {});
@@ -194,11 +200,13 @@ Film film_of_standing(double speed, double turn_rate) {
 }
 
 TrialResult try_film(const Film& film, const fs::path& folder) {
+  ConfigWithOrigin config = config_of(film);  // a setting that is refused is a fault of the trial
   try {
     Shot shot = shoot(film);
     const fs::path scene = write_scene(film, shot, folder);
     shot.frames.clear();  // so that the memory told is the tracker's
-    return judged(track(film, scene, folder / "result"), shot.truth, folder / "result");
+    return judged(track(scene, std::move(config), folder / "result"), shot.truth,
+                  folder / "result");
   } catch (const InputError& error) {
     return {.end = TrialEnd::kReported, .what = error.what()};
   } catch (const UsageError& error) {

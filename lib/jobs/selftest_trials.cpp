@@ -171,18 +171,22 @@ constexpr std::array kTrials{
           [](const fs::path& f) { return try_many_particles("1000000", f); }},
     Trial{"no noise at all", false,
           [](const fs::path& f) {
-            return try_settings({"motion.torque_noise_scale=0", "motion.planar_misfit_deg=0",
-                                 "motion.ball_drift=0", "motion.landing=0", "motion.arrival=0",
-                                 "motion.control_noise=0", "motion.aim_drift=0"},
-                                f);
+            return try_settings(
+                {"motion.torque_noise_scale=0", "motion.clock=0", "motion.turning=0",
+                 "motion.misfit=0", "motion.ball_drift=0", "motion.ball_slip=0", "motion.landing=0",
+                 "motion.arrival=0", "motion.control_noise=0", "motion.aim_drift=0"},
+                f);
           }},
     Trial{"noise a thousand times", false,
           [](const fs::path& f) {
             Film film = film_of_walk();
             film.options.duration = 0.5;  // what flies about takes time to search for
             film.settings = {"motion.torque_noise_scale=1000",
-                             "motion.planar_misfit_deg=90",
+                             "motion.clock=1",
+                             "motion.turning=80",
+                             "motion.misfit=10",
                              "motion.ball_drift=1",
+                             "motion.ball_slip=1",
                              "motion.landing=1",
                              "motion.arrival=10",
                              "motion.control_noise=1",

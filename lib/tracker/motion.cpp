@@ -131,10 +131,12 @@ Outcome simulate(const MotionContext& context, WalkerParticle& particle, Rng& rn
   return Outcome::kAlive;
 }
 
-double ball_sigma(const MotionContext& context, const WalkerParticle& particle) {
+Eigen::Vector2d ball_sigma(const MotionContext& context, const WalkerParticle& particle) {
   const MotionConfig& config = context.config;
-  const double fresh = std::exp(-particle.walker.since_transfer / config.settling);
-  return std::hypot(config.ball_drift * std::sqrt(context.dt), config.landing * fresh);
+  if (particle.arriving) return Eigen::Vector2d::Constant(config.arrival);
+  const double fresh = config.landing * std::exp(-particle.walker.since_transfer / config.settling);
+  const double root = std::sqrt(context.dt);
+  return {std::hypot(config.ball_drift * root, fresh), std::hypot(config.ball_slip * root, fresh)};
 }
 
 // The walker as it is becomes the frame's prediction, and its noise is drawn.
@@ -144,7 +146,7 @@ bool predict(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   if (!particle.velocity_per_impulse.allFinite()) return false;
   particle.predicted = particle.walker;
   particle.predicted_ball = particle.ball;
-  particle.ball_sigma = particle.arriving ? context.config.arrival : ball_sigma(context, particle);
+  particle.ball_sigma = ball_sigma(context, particle);
   draw_noise(context, particle, rng);
   realise(context.model, context.scale, particle);
   return true;

@@ -86,9 +86,8 @@ void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& pa
   const double heading = particle.extra[kHeading];
   const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
   particle.ball =
-      particle.predicted_ball +
-      particle.ball_sigma *
-          (z[kBallNoise] * ahead + z[kBallNoise + 1] * Eigen::Vector2d(-ahead.y(), ahead.x()));
+      particle.predicted_ball + particle.ball_sigma.x() * z[kBallNoise] * ahead +
+      particle.ball_sigma.y() * z[kBallNoise + 1] * Eigen::Vector2d(-ahead.y(), ahead.x());
   particle.pose =
       pose_of(model, walker, particle.stance, particle.aim, particle.ball, particle.extra);
 }

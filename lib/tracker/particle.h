@@ -80,7 +80,8 @@ struct WalkerParticle {
   KneedState predicted;
   Eigen::Matrix<double, 5, 5> velocity_per_impulse;  // rad/s per N m s of each torque noise
   Eigen::Vector2d predicted_ball = Eigen::Vector2d::Zero();
-  double ball_sigma = 0;  // m, of the standing foot's place in this frame
+  // Of the standing foot's place in this frame, along and across the heading, m.
+  Eigen::Vector2d ball_sigma = Eigen::Vector2d::Zero();
   Extras predicted_extra{};
   std::array<double, kNoiseCount> noise{};  // standard normal
 

@@ -38,6 +38,14 @@ TEST(ConfigFile, NamesLineKeyFoundAndAllowed) {
   EXPECT_THAT(message_for_file("seed: {a\n"), HasSubstr("broken YAML"));
 }
 
+// What the fuzzer starts from should reach every parameter.
+TEST(ConfigFile, TheFuzzersSeedStatesEveryKey) {
+  ConfigWithOrigin config;
+  apply_config_file(config, WALKTRACK_SOURCE_DIR "/tests/fuzz/corpus/config/everything.yaml");
+  for (const auto& [key, value] : config_values(config.values))
+    EXPECT_TRUE(config.origin.contains(key)) << key;
+}
+
 TEST(ConfigFile, MissingKeysAndEmptyFilesMeanDefaults) {
   const TemporaryFolder folder;
   ConfigWithOrigin config;

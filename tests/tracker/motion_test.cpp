@@ -13,7 +13,8 @@ namespace {
 // All noise off: the walk of the prior, nothing else.
 MotionConfig quiet() {
   MotionConfig config;
-  config.torque_noise_scale = config.clock = config.ball_drift = config.landing = 0;
+  config.torque_noise_scale = config.clock = config.ball_drift = config.ball_slip = config.landing =
+      0;
   config.misfit = config.turning = config.arrival = 0;
   config.control_noise = config.aim_drift = 0;
   return config;

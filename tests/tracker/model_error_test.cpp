@@ -1,0 +1,97 @@
+#include "tracker/model_error.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
+
+#include "tests/camera/made_camera.h"
+
+namespace walktrack {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+const Vector3d kHead(0, 0, 1.6), kFeet(0, 0, 0.1);
+
+Camera camera_from(const Vector3d& eye) {
+  return looking_at(lens({640, 480}, {600, 600}, {319.5, 239.5}), eye, {0, 0, 0.85});
+}
+
+double sd_along(const Matrix3d& covariance, const Vector3d& direction) {
+  return std::sqrt(direction.dot(covariance * direction));
+}
+
+// The header's formula: both ends are seen e wrong, h apart, at distance D much larger than h.
+TEST(FigureCovariance, OneCameraKnowsTheDistanceLeast) {
+  const double distance = 12, height = kHead.z() - kFeet.z();
+  const std::vector<Camera> cameras{camera_from({0, -distance, 0.85})};
+  const Matrix3d covariance = figure_covariance(cameras, kHead, kFeet);
+  const double aside = sd_along(covariance, Vector3d::UnitX());
+  const double along = sd_along(covariance, Vector3d::UnitY());
+  // Two views of one number; the ends stand h/2 off the axis on either side, hence D / (h/2). What
+  // nobody sees is known to a metre.
+  const double seen = aside * distance / (height / 2), expected = seen / std::hypot(1, seen);
+  EXPECT_NEAR(along, expected, 0.01 * expected);
+  EXPECT_NEAR(sd_along(covariance, Vector3d::UnitZ()), aside, 0.01 * aside);
+}
+
+TEST(FigureCovariance, TurnsWithTheWorld) {
+  const std::vector<Camera> cameras{camera_from({2, -6, 1.5}), camera_from({5, 3, 2})};
+  const Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, -1).normalized()).matrix();
+  std::vector<Camera> turned = cameras;
+  for (Camera& camera : turned) camera.rotation = camera.rotation * turn.transpose();
+  const Matrix3d expected = turn * figure_covariance(cameras, kHead, kFeet) * turn.transpose();
+  EXPECT_TRUE(figure_covariance(turned, turn * kHead, turn * kFeet).isApprox(expected, 1e-9));
+}
+
+TEST(FigureCovariance, ACameraMoreNeverWidens) {
+  std::vector<Camera> cameras;
+  Matrix3d before = figure_covariance(cameras, kHead, kFeet);
+  EXPECT_TRUE(before.isApprox(Matrix3d::Identity(), 1e-9)) << "unseen: known to a metre";
+  for (const Vector3d& eye : {Vector3d(0, -7, 1), Vector3d(6, -2, 2), Vector3d(-4, 5, 1.5),
+                              Vector3d(0, 0, -40)}) {  // the last one looks from below the ground
+    cameras.push_back(camera_from(eye));
+    const Matrix3d now = figure_covariance(cameras, kHead, kFeet);
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> gain(before - now);
+    EXPECT_GT(gain.eigenvalues().minCoeff(), -1e-12);
+    before = now;
+  }
+}
+
+TEST(FigureCovariance, ACameraThatLooksAwayTellsNothing) {
+  const std::vector<Camera> one{camera_from({0, -7, 1})};
+  std::vector<Camera> two = one;
+  two.push_back(looking_at(lens({640, 480}, {600, 600}, {319.5, 239.5}), {5, 0, 1}, {20, 0, 1}));
+  EXPECT_EQ(figure_covariance(one, kHead, kFeet), figure_covariance(two, kHead, kFeet));
+}
+
+TEST(AddModelError, WidensEverySpreadAndLeavesMeans) {
+  FrameEstimate estimate;
+  estimate.joint_count = kJointCountWithoutArms;
+  estimate.joints[Joint::kHead] = kHead;
+  for (const Joint ankle : {Joint::kLeftAnkle, Joint::kRightAnkle}) estimate.joints[ankle] = kFeet;
+  // Skewed, and one whose few strays pull the mean out of its band.
+  for (auto& joint : estimate.spread) joint.fill({1, 0.01, 0.99, 1.03});
+  estimate.spread[0][0] = {1, 0.01, 1.001, 1.004};
+  estimate.angles.fill({0.5, 0.02, 0.48, 0.53});
+  const FrameEstimate before = estimate;
+  add_model_error(std::vector{camera_from({0, -7, 1})}, estimate);
+  for (size_t j = 0; j < estimate.joint_count; ++j) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const Spread &was = before.spread[j][axis], &is = estimate.spread[j][axis];
+      EXPECT_EQ(is.mean, was.mean);
+      EXPECT_GT(is.sd, was.sd);
+      EXPECT_LT(is.p05, was.p05);
+      EXPECT_GT(is.p95, was.p95);
+      EXPECT_LE(is.p05, is.mean);
+    }
+  }
+  // Nothing added is nothing known: a joint that is not modelled stays as it is.
+  EXPECT_EQ(estimate.spread[kJointCountWithoutArms][0].sd, 0.01);
+  EXPECT_GT(estimate.angles[kKneeAngleL].sd, before.angles[kKneeAngleL].sd);
+  // The camera looks along y: the distance is known least.
+  EXPECT_GT(estimate.spread[1][1].sd, 3 * estimate.spread[1][0].sd);
+}
+
+}  // namespace
+}  // namespace walktrack
