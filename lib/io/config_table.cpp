@@ -113,7 +113,7 @@ void add_search(ParameterTable& table) {
   s.number("window", &S::window, 0.1, 10, "film that a walk is read from, s");
   s.number("slowest", &S::slowest, 0, 10, "who is slower is not walking, m/s");
   s.number("fastest", &S::fastest, 0.1, 20, "m/s");
-  s.number("complete", &S::complete, 0, 1, "least score of a frame, share of the median");
+  s.number("complete", &S::complete, 0, 1, "least score of a moment, share of the median");
   s.number("least_score", &S::least_score, 0, kAnyPositive, "of a figure in any frame, nats");
   s.integer("candidates", &S::candidates, 1, 1000, "places of a frame that lines go through");
   s.integer("grid_px", &S::grid_px, 1, 1000, "spacing of places at 640 px of image width, px");
@@ -138,6 +138,8 @@ void add_track(ParameterTable& table) {
            "time of doing worse than a stiff figure until the track is lost, s");
   t.number("seek", &T::seek, 0, 1000,
            "time for which a lost walker is looked for only within reach, s");
+  t.number("model_error", &T::model_error, 0, 100,
+           "multiplies what bands hold beyond the particles' spread");
   t.number("recall", &T::recall, 0.1, 100, "past that the median is taken over, s");
   t.integer("samples", &T::samples, 0, 1000,
             "particles of a frame kept: the overlay's, and for bands");

@@ -102,7 +102,7 @@ Eigen::Matrix3d figure_covariance(std::span<const Camera> cameras, const Eigen::
   return kFigureError * kFigureError * information.inverse();
 }
 
-void add_model_error(std::span<const Camera> cameras, FrameEstimate& estimate) {
+void add_model_error(std::span<const Camera> cameras, double scale, FrameEstimate& estimate) {
   const JointPositions& joints = estimate.joints;
   const Eigen::Vector3d figure =
       figure_covariance(cameras, joints[Joint::kHead],
@@ -112,10 +112,11 @@ void add_model_error(std::span<const Camera> cameras, FrameEstimate& estimate) {
     const auto [level, upright] = joint_error(j);
     for (size_t axis = 0; axis < 3; ++axis) {
       const double common2 = figure[static_cast<Eigen::Index>(axis)];
-      widen(std::hypot(std::sqrt(common2), axis == 2 ? upright : level), estimate.spread[j][axis]);
+      widen(scale * std::hypot(std::sqrt(common2), axis == 2 ? upright : level),
+            estimate.spread[j][axis]);
     }
   }
-  for (size_t k = 0; k < kJointAngleCount; ++k) widen(angle_error(k), estimate.angles[k]);
+  for (size_t k = 0; k < kJointAngleCount; ++k) widen(scale * angle_error(k), estimate.angles[k]);
 }
 
 }  // namespace walktrack

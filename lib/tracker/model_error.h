@@ -25,7 +25,7 @@ namespace walktrack {
 Eigen::Matrix3d figure_covariance(std::span<const Camera> cameras, const Eigen::Vector3d& head,
                                   const Eigen::Vector3d& feet);
 
-// Widens the spreads of joints and angles. Means stay.
-void add_model_error(std::span<const Camera> cameras, FrameEstimate& estimate);
+// Widens the spreads of joints and angles by `scale` times the sizes measured. Means stay.
+void add_model_error(std::span<const Camera> cameras, double scale, FrameEstimate& estimate);
 
 }  // namespace walktrack

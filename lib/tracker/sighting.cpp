@@ -195,11 +195,24 @@ void measure_spread(const Vector2d& ray, const WindowScore& score, size_t frames
       2 * kStep / time * spread_of({-kStep * ray, kStep * ray}, walk, score, frames, dt);
 }
 
-// Nobody hidden or cut off: the score never falls far below its median.
+// The least mean of `span` consecutive numbers.
+double least_mean(std::span<const double> values, size_t span) {
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i + span <= values.size(); ++i) {
+    const auto part = values.subspan(i, span);
+    least = std::min(least, std::accumulate(part.begin(), part.end(), 0.0) / double(span));
+  }
+  return least;
+}
+
+// Nobody hidden or cut off: the score does not stay far below its median. For a moment it may: a
+// person's long step has poses that no figure resembles.
 bool seen_throughout(const Walk& walk, const WindowScore& score, size_t frames, double dt,
                      const SightingConfig& config) {
+  constexpr double kMoment = 0.15;  // s
   std::vector<double> scores = scores_along(score, walk.line, walk.line.velocity, frames, 1, dt);
-  const double least = *std::min_element(scores.begin(), scores.end());
+  const auto moment = static_cast<size_t>(std::max(1L, std::lround(kMoment / dt)));
+  const double least = least_mean(scores, std::min(moment, scores.size()));
   std::nth_element(scores.begin(), scores.begin() + long(scores.size() / 2), scores.end());
   return least >= config.least_score && least >= config.complete * scores[scores.size() / 2];
 }

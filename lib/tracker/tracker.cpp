@@ -146,8 +146,11 @@ bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
 
 WalkerFilterContext Tracker::context(bool first) const {
   const NoiseScale scale = first ? start_scale(config_.start, frame_scale_) : frame_scale_;
-  return {
-      scene_, {scene_.model, prior_, config_.motion, scale, scene_.dt}, config_.samples, threads_};
+  return {scene_,
+          {scene_.model, prior_, config_.motion, scale, scene_.dt},
+          config_.samples,
+          threads_,
+          config_.model_error};
 }
 
 void Tracker::begin(const Sighting& sighting, std::optional<double> stride_phase) {

@@ -32,6 +32,7 @@ struct TrackerConfig {
   int samples = 20;           // particles kept of every frame to show the spread
   double recall = 1.5;        // s of past likelihoods that the median is taken over
   double seek = 4;            // s for which a lost walker is looked for only where they can be
+  double model_error = 1;     // multiplies what bands hold beyond the particles' spread
 };
 
 // Where the walker was last surely seen, and how they went on.

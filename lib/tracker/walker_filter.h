@@ -27,6 +27,7 @@ struct WalkerFilterContext {
   MotionContext motion;
   int samples;  // particles kept of a frame
   int threads;
+  double model_error = 1;  // multiplies what tracker/model_error.h adds to the spreads
 };
 
 // Takes `filter` through frame number `frame`. `first`: the particles have just been drawn, and

@@ -75,7 +75,7 @@ TEST(AddModelError, WidensEverySpreadAndLeavesMeans) {
   estimate.spread[0][0] = {1, 0.01, 1.001, 1.004};
   estimate.angles.fill({0.5, 0.02, 0.48, 0.53});
   const FrameEstimate before = estimate;
-  add_model_error(std::vector{camera_from({0, -7, 1})}, estimate);
+  add_model_error(std::vector{camera_from({0, -7, 1})}, 1, estimate);
   for (size_t j = 0; j < estimate.joint_count; ++j) {
     for (size_t axis = 0; axis < 3; ++axis) {
       const Spread &was = before.spread[j][axis], &is = estimate.spread[j][axis];
