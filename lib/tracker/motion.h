@@ -26,7 +26,7 @@ struct MotionConfig {
   double turning = 0.08;        // rad/s: the usual rate of turning
   double misfit = 0.7;          // multiplies how far people's angles stray from the walker's
   double ball_drift = 0.03;     // m per sqrt(s): the drawn foot does not roll as the walker's does
-  double ball_slip = 0.006;     // m per sqrt(s): nor does a standing foot quite keep its line
+  double ball_slip = 0.012;     // m per sqrt(s): nor does a standing foot quite keep its line
   double landing = 0.02;        // m, along and across: where a foot comes down
   double settling = 0.05;       // s after the strike in which that uncertainty dies away
   double arrival = 0.15;        // m, the same when a walker is first seen
