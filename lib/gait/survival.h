@@ -22,8 +22,4 @@ std::vector<double> survival(const GaitPrior& prior, const KneedParameters& para
                              const SurvivalTrial& trial, const std::vector<double>& times,
                              int threads);
 
-// When one walker fell, s, or `longest`.
-double walking_time(const KneedModel& model, const PriorGait& gait, const SurvivalTrial& trial,
-                    uint32_t walker, double longest);
-
 }  // namespace walktrack

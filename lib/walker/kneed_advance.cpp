@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "walker/kneed_incidents.h"
+
 namespace walktrack {
 namespace {
 
-constexpr double kMinStep = 1e-7;          // s; a walker that needs less is reported as diverged
-constexpr double kMaxRate = 1e3;           // rad/s; ten times what a sprinter's shank reaches
-constexpr int kMaxStopEvents = 64;         // in one call; a step has about four
-constexpr double kHastyTransfer = 0.02;    // s; a step takes ten times that
-constexpr int kMaxHastyTransfers = 8;      // in a row
-constexpr double kTimeTolerance = 1e-13;   // s, of a located event
-constexpr double kGuardTolerance = 1e-13;  // rad, m or N m: rounding of a guard
+constexpr double kHastyTransfer = 0.02;  // s; a step takes ten times that
+constexpr int kMaxHastyTransfers = 8;    // in a row
 
 // A point of the trajectory with the acceleration and the swing foot there.
 struct Node {
@@ -55,9 +52,6 @@ struct Motion {
   }
 };
 
-// Positive while all is well (a held stop's torque included); an event is the fall through zero.
-enum class Guard { kStanceKnee, kSwingKnee, kFootHeight, kFootBehind };
-
 double guard_value(Guard guard, const Node& node) {
   const KneedState& s = node.state;
   switch (guard) {
@@ -74,43 +68,15 @@ double guard_value(Guard guard, const Node& node) {
   return 0;
 }
 
-// Time in (begin, end] at which the guard, positive before and not positive at `end`, reaches zero:
-// the Illinois variant of regula falsi (a bracket's end that stays twice loses half its weight),
-// and bisection while the guard still leaves zero itself.
+// Time in (begin, end] at which the guard, positive before and not positive at `end`, reaches zero.
 double locate(const Motion& motion, Guard guard, const Node& from, double begin, double end) {
   const auto value = [&](double t) {
     return guard_value(guard, t == 0 ? from : motion.step(from, t));
   };
-  double low = begin, high = end, at_low = value(low), at_high = value(high);
-  int low_stays = 0, high_stays = 0;
-  constexpr int kMaxTrials = 60;
-  for (int i = 0; i < kMaxTrials && high - low > kTimeTolerance; ++i) {
-    const bool secant = at_low > kGuardTolerance;
-    const double t =
-        secant ? high - at_high * (high - low) / (at_high - at_low) : 0.5 * (low + high);
-    const double at_t = value(t);
-    if (secant && std::abs(at_t) <= kGuardTolerance) return t;
-    if (at_t > 0) {
-      low = t;
-      at_low = at_t;
-      low_stays = 0;
-      if (++high_stays > 1) at_high *= 0.5;
-    } else {
-      high = t;
-      at_high = at_t;
-      high_stays = 0;
-      if (++low_stays > 1) at_low *= 0.5;
-    }
-  }
-  return high;
+  FallSearch search(begin, value(begin), end, value(end));
+  while (!search.done()) search.take(value(search.trial()));
+  return search.root();
 }
-
-enum class Outcome { kStop, kStrike, kStumble };
-
-struct Incident {
-  double time = 0;
-  Outcome outcome = Outcome::kStop;
-};
 
 // A strike or stumble of the swing foot within a step of length h, if any.
 bool foot_incident(const Motion& motion, const Node& from, const Node& to, double h,
@@ -125,11 +91,12 @@ bool foot_incident(const Motion& motion, const Node& from, const Node& to, doubl
     entry = motion.step(from, ahead_since).foot;
   }
   if (entry.height < -kGuardTolerance) {
-    incident = {ahead_since, entry.height_rate < 0 ? Outcome::kStrike : Outcome::kStumble};
+    incident = {ahead_since,
+                entry.height_rate < 0 ? IncidentKind::kStrike : IncidentKind::kStumble};
     return true;
   }
   if (after.height > 0) return false;
-  incident = {locate(motion, Guard::kFootHeight, from, ahead_since, h), Outcome::kStrike};
+  incident = {locate(motion, Guard::kFootHeight, from, ahead_since, h), IncidentKind::kStrike};
   return true;
 }
 
@@ -141,7 +108,7 @@ bool first_incident(const Motion& motion, const Node& from, const Node& to, doub
     if (guard_value(knee, to) >= -kGuardTolerance) continue;
     const double time = locate(motion, knee, from, 0, h);
     if (found && first.time <= time) continue;
-    first = {time, Outcome::kStop};
+    first = {time, IncidentKind::kStop};
     found = true;
   }
   return found;
@@ -171,23 +138,23 @@ void note_clearance(const Node& from, Node& to) {
   to.state.clearance = std::min(to.state.clearance, least);
 }
 
-void transfer(const Motion& motion, KneedState& state, KneedAdvance& result) {
+}  // namespace
+
+void transfer_support(const KneedModel& model, const KneedControls& controls, const Vector5& noise,
+                      KneedState& state, KneedAdvance& result) {
   const bool hasty = state.since_transfer < kHastyTransfer && state.transfers > 0;
   const int hasty_transfers = hasty ? state.hasty_transfers + 1 : 0;
-  const KneedTransfer change =
-      kneed_support_transfer(motion.model, motion.controls.toe_off_impulse, state);
+  const KneedTransfer change = kneed_support_transfer(model, controls.toe_off_impulse, state);
   result.event = KneedEvent::kDiverged;
   if (hasty_transfers > kMaxHastyTransfers || !change.state.qd.allFinite()) return;
   result.event = KneedEvent::kTransfer;
   result.impulse = change.impulse;
-  result.step_length = kneed_swing_foot(motion.model, state).lead;
+  result.step_length = kneed_swing_foot(model, state).lead;
   result.clearance = state.clearance;
   state = change.state;
   state.hasty_transfers = hasty_transfers;
-  settle_knee_stops(motion.model, motion.controls, motion.noise, state);
+  settle_knee_stops(model, controls, noise, state);
 }
-
-}  // namespace
 
 KneedAdvance kneed_advance(const KneedModel& model, const KneedControls& controls,
                            const Vector5& noise, KneedState& state, double duration,
@@ -219,14 +186,14 @@ KneedAdvance kneed_advance(const KneedModel& model, const KneedControls& control
     note_clearance(node, next);
     node = next;
     result.elapsed = h == remaining ? duration : result.elapsed + h;
-    if ((happens && incident.outcome == Outcome::kStumble) ||
+    if ((happens && incident.kind == IncidentKind::kStumble) ||
         has_fallen(model, node.state, limits)) {
       result.event = KneedEvent::kFallen;
       break;
     }
     if (!happens) continue;
-    if (incident.outcome == Outcome::kStrike) {
-      transfer(motion, node.state, result);
+    if (incident.kind == IncidentKind::kStrike) {
+      transfer_support(model, controls, noise, node.state, result);
       break;
     }
     settle_knee_stops(model, controls, noise, node.state);

@@ -7,15 +7,11 @@
 #include <cmath>
 
 #include "walker/kneed_advance.h"
+#include "walker/kneed_incidents.h"
 #include "walker/kneed_points.h"
 
 namespace walktrack {
 namespace {
-
-// Flexion below which a knee is at its stop, rad, and flexion rate below which it rests there,
-// rad/s: far above rounding, far below what anybody can see.
-constexpr double kAtStop = 1e-9;
-constexpr double kAtRest = 1e-9;
 
 struct StopSet {
   std::array<bool, 2> at{};         // knees that touch their stop
@@ -101,9 +97,7 @@ std::array<double, 2> settle_knee_stops(const KneedModel& model, const KneedCont
 double kneed_step_size(const KneedModel& model, const KneedControls& controls,
                        const KneedState& state, double max_step) {
   // Row r of every spring: bounds of the largest eigenvalues of M^-1 K and M^-1 D are the sums of
-  // stiffness r' M^-1 r and damping r' M^-1 r. RK4 is stable to 2.8 of either; 0.5 keeps its error
-  // per radian of oscillation below 1e-3.
-  constexpr double kReach = 0.5;
+  // stiffness r' M^-1 r and damping r' M^-1 r.
   constexpr std::array<std::array<double, 5>, 4> kRows{
       {{1, -1, 0, 0, 0}, {0, -1, 1, 0, 0}, {0, -1, 0, 1, 0}, {0, 0, -1, 0, 1}}};
   const std::array<const SpringDamper*, 4> springs{&controls.torso, &controls.hip,
@@ -117,7 +111,7 @@ double kneed_step_size(const KneedModel& model, const KneedControls& controls,
     square += std::abs(springs[i]->stiffness) * mobility;
     decay += std::abs(springs[i]->damping) * mobility;
   }
-  return std::min(max_step, kReach / std::max(std::sqrt(square), decay));
+  return std::min(max_step, kStepReach / std::max(std::sqrt(square), decay));
 }
 
 }  // namespace walktrack

@@ -7,7 +7,7 @@
 #include "body/kinematics.h"
 #include "observation/silhouette.h"
 #include "tests/bench/scenes.h"
-#include "walker/kneed_advance.h"
+#include "walker/kneed_batch.h"
 
 namespace walktrack {
 namespace {
@@ -33,6 +33,13 @@ void count_walkers() {
     KneedState state = c.states[i];
     kneed_advance(c.model, c.controls[i], c.torques[i], state, 0.1);
     return state.q[0];
+  });
+  const std::vector<double> durations(c.states.size(), 0.1);
+  std::vector<KneedState> states = c.states;
+  std::vector<KneedAdvance> runs(states.size());
+  count("walking_batch", 1, [&](size_t) {
+    kneed_advance_batch(c.model, c.controls, c.torques, durations, states, runs);
+    return states.back().q[0];
   });
   count("gait_lookup", 16, [&](size_t i) {
     return gait_at(c.prior, c.parameters, 0.8 + 0.05 * static_cast<double>(i), 0.65).period;

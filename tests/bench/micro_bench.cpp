@@ -12,7 +12,7 @@
 #include "tests/bench/limits.h"
 #include "tests/bench/peers.h"
 #include "tests/bench/scenes.h"
-#include "walker/kneed_advance.h"
+#include "walker/kneed_batch.h"
 
 namespace walktrack {
 namespace {
@@ -119,6 +119,66 @@ void frame_scalar(benchmark::State& state) {
   });
 }
 BENCHMARK(frame_scalar);
+
+std::vector<Vector5> drawn_torques(const WalkerCrowd& c) {
+  std::vector<Vector5> torques(kWalkers);
+  for (size_t i = 0; i < kWalkers; ++i) {
+    Rng rng(1, Purpose::kTorque, 0, static_cast<uint32_t>(i));
+    torques[i] = draw_torques(rng, c.gait.units, {}, kFrame);
+  }
+  return torques;
+}
+
+// The same for all at once.
+void frame_batch(benchmark::State& state) {
+  const WalkerCrowd& c = crowd();
+  const KneedLimits limits{.max_step = 0.002};
+  const std::vector<double> durations(kWalkers, kFrame);
+  std::vector<KneedState> walkers;
+  std::vector<KneedAdvance> runs(kWalkers);
+  for (auto _ : state) {
+    walkers = c.states;
+    kneed_advance_batch(c.model, c.controls, drawn_torques(c), durations, walkers, runs, limits);
+    benchmark::ClobberMemory();
+  }
+  set_items(state, kWalkers);
+}
+BENCHMARK(frame_batch);
+
+// One evaluation of the dynamics inside the batch kernel: four for each of 17 sub-steps, one at the
+// begin. Walkers who meet no event; loading and storing of states included.
+void dynamics_batch(benchmark::State& state) {
+  const WalkerCrowd& c = crowd();
+  const KneedLimits limits{.max_step = 0.002};
+  std::vector<size_t> quiet;
+  for (size_t i = 0; i < kWalkers; ++i) {
+    KneedState s = c.states[i], half = s;
+    kneed_advance(c.model, c.controls[i], c.torques[i], half, 0.5 * kFrame, limits);
+    const auto run = kneed_advance(c.model, c.controls[i], c.torques[i], s, kFrame, limits);
+    const bool same = s.stance_stop == c.states[i].stance_stop &&
+                      s.swing_stop == c.states[i].swing_stop && half.stance_stop == s.stance_stop &&
+                      half.swing_stop == s.swing_stop;
+    if (same && run.event == KneedEvent::kNone) quiet.push_back(i);
+  }
+  quiet.resize(512);
+  std::vector<KneedControls> controls;
+  std::vector<Vector5> torques;
+  std::vector<KneedState> starts, walkers;
+  for (const size_t i : quiet) {
+    controls.push_back(c.controls[i]);
+    torques.push_back(c.torques[i]);
+    starts.push_back(c.states[i]);
+  }
+  const std::vector<double> durations(quiet.size(), kFrame);
+  std::vector<KneedAdvance> runs(quiet.size());
+  for (auto _ : state) {
+    walkers = starts;
+    kneed_advance_batch(c.model, controls, torques, durations, walkers, runs, limits);
+    benchmark::ClobberMemory();
+  }
+  set_items(state, static_cast<double>(quiet.size()) * (4 * 17 + 1));
+}
+BENCHMARK(dynamics_batch);
 
 void normal_ours(benchmark::State& state) {
   Rng rng(1, Purpose::kTest);

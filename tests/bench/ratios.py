@@ -23,9 +23,13 @@ YARDSTICK = "dynamics_tmt_eigen"
 TARGETS = [
     ("silhouette_log_ratio", "silhouette_scanline_limit", "at most", 1.5),
     ("silhouette_per_pixel", "silhouette_log_ratio", "at least", 14),
+    ("dynamics_batch", "dynamics_soa_limit", "at most", 2),
+    ("dynamics_mujoco", "dynamics_batch", "at least", 50),
+    ("dynamics_tmt_eigen", "dynamics_batch", "at least", 15),
+    ("frame_batch", "dynamics_soa_limit", "at most", 150),  # 1.5 us where the limit is 10 ns
+    ("frame_scalar", "frame_batch", "", None),
     ("dynamics_mujoco", "dynamics_scalar", "", None),
     ("dynamics_tmt_eigen", "dynamics_scalar", "", None),
-    ("dynamics_scalar", "dynamics_soa_limit", "", None),
     ("normal_ours", "normal_std", "", None),
 ]
 
