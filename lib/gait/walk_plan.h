@@ -17,16 +17,34 @@ struct WalkPlan {
   std::vector<SpeedChange> changes;  // times ascend
   double step_length = 0;            // m; 0: what people prefer at the speed
   double feedback = 1;               // strength, 0 switches it off
-  // Neighbouring gaits lie in each other's basins. At 0.3 m/s^2 walkers fall that slow down from
-  // 1.7 to 1.0 m/s, at 0.2 they do not.
-  double acceleration = 0.2;  // m/s^2
+  double acceleration = 0.2;         // m/s^2, at most: see next_gait()
 };
 
-// The speed wanted at a time: ramps of `acceleration` from each change on.
-double wanted_speed(const WalkPlan& plan, double time);
+// The speed that a plan asks for at a time.
+double planned_speed(const WalkPlan& plan, double time);
 
-// The gait of the table for the speed wanted at a time.
-PriorGait planned_gait(const GaitPrior& prior, const KneedParameters& parameters,
-                       const WalkPlan& plan, double time);
+// Slowest and fastest speed of the table for a body, m/s.
+struct SpeedRange {
+  double least, most;
+};
+SpeedRange speed_range(const GaitPrior& prior, const KneedParameters& parameters);
+
+// How far a walk has followed its plan; starts with the plan's first speed.
+struct PlanProgress {
+  double time = 0;   // s, of the last transfer
+  double speed = 0;  // m/s, aimed at; 0: the walk has not begun
+  SectionVector section = SectionVector::Zero();
+};
+
+// The gait with which a walk begins, at a time (s).
+PriorGait first_gait(const GaitPrior& prior, const KneedParameters& parameters,
+                     const WalkPlan& plan, double time, PlanProgress& progress);
+
+// The gait of the step after a transfer that left `state` at `time`. The speed aimed at goes
+// towards the planned one; downwards the slower the further the walker lags behind the gait it aims
+// at, and not at all while it lags far and still moves towards it. A walker that is hurried to slow
+// down falls (from 1.3 to 0.7 m/s at 0.1 m/s^2 within 6 s), one that is waited for does not.
+PriorGait next_gait(const GaitPrior& prior, const KneedParameters& parameters, const WalkPlan& plan,
+                    double time, const KneedState& state, PlanProgress& progress);
 
 }  // namespace walktrack

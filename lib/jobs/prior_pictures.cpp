@@ -102,15 +102,16 @@ std::string strip(const GaitPrior& prior, const KneedParameters& walker, double 
   const PriorGait gait = gait_at(prior, walker, speed, step);
   std::string out = text(10, y - 60, name, "start");
   KneedState state = gait.start;
+  KneedControls controls = gait.controls;
   for (int i = 0; i < kSteps * kFigures; ++i) {
     // Figures stand apart further than they walk, to be told apart.
     const double shift = kLeft + 45.0 * i - kScale * kneed_posture(model, state).hip.x();
     out += figure(kneed_posture(model, state), {shift, y}, kScale, state.transfers % 2 == 0);
     double left = gait.period / kFigures;
     while (left > 0) {
-      const KneedAdvance run =
-          kneed_advance(model, next_controls(gait, state), Vector5::Zero(), state, left);
+      const KneedAdvance run = kneed_advance(model, controls, Vector5::Zero(), state, left);
       if (run.event == KneedEvent::kFallen || run.event == KneedEvent::kDiverged) return out;
+      if (run.event == KneedEvent::kTransfer) controls = next_controls(gait, state);
       left -= run.event == KneedEvent::kNone ? left : run.elapsed;
     }
   }

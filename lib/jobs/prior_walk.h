@@ -8,7 +8,8 @@
 namespace walktrack {
 
 // The job with start, controls and later steps out of the shipped table, for the parameters of
-// `job.model`. UsageError where the model is not the kneed walker with a torso.
+// `job.model`; good for one walk, whose progress it keeps. UsageError where the model is not the
+// kneed walker with a torso and where the table does not hold a speed of the plan.
 SimulateJob with_prior(SimulateJob job, const WalkPlan& plan);
 
 }  // namespace walktrack

@@ -1,10 +1,13 @@
 #include "jobs/prior_walk.h"
 
 #include <algorithm>
+#include <utility>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "tests/message_of.h"
 
 namespace walktrack {
 namespace {
@@ -47,13 +50,32 @@ TEST(PriorWalk, WalksUpAndDown) {
 }
 
 TEST(PriorWalk, ChangesSpeedOnTheWayWithoutFalling) {
-  const Recording recording = walked({.speed = 0.9, .changes = {{3, 1.7}, {9, 1.0}}}, 15);
+  const Recording recording = walked({.speed = 0.9, .changes = {{3, 1.7}, {9, 1.0}}}, 25);
   EXPECT_EQ(recording.end.health, Health::kSound);
   const std::vector<double> all = speeds(recording);
   EXPECT_NEAR(all[2], 0.9, 0.06);
   EXPECT_NEAR(*std::max_element(all.begin(), all.end()), 1.7, 0.12);
   EXPECT_NEAR(all.back(), 1.0, 0.08);
   EXPECT_EQ(recording.changes.size(), static_cast<size_t>(recording.steps));
+}
+
+TEST(PriorWalk, SlowsDownWithoutFalling) {
+  for (const auto& [from, to] : {std::pair{1.3, 0.7}, {1.3, 0.9}, {2.0, 0.6}}) {
+    const Recording recording = walked({.speed = from, .changes = {{2, to}}}, 30);
+    EXPECT_EQ(recording.end.health, Health::kSound) << from << " to " << to;
+    EXPECT_NEAR(speeds(recording).back(), to, 0.05 * to);
+  }
+}
+
+TEST(PriorWalk, SpeedsThatTheTableDoesNotHoldAreErrors) {
+  const auto message = [](const WalkPlan& plan) {
+    SimulateJob job;
+    job.model = default_model("kneed");
+    return message_of<UsageError>([&] { with_prior(job, plan); });
+  };
+  EXPECT_THAT(message({.speed = 0.1, .changes = {}}),
+              testing::AllOf(testing::HasSubstr("0.1 m/s"), testing::HasSubstr("0.50 to 2.20")));
+  EXPECT_THAT(message({.speed = 1.3, .changes = {{2, 3.5}}}), testing::HasSubstr("3.5 m/s"));
 }
 
 TEST(PriorWalk, IsForTheKneedWalkerAlone) {
