@@ -17,10 +17,9 @@ inline constexpr double kGuardTolerance = 1e-13;  // rad, m or N m: rounding of 
 // of oscillation below 1e-3.
 inline constexpr double kStepReach = 0.5;
 // Flexion below which a knee is at its stop, rad, and flexion rate below which it rests there,
-// rad/s: far above rounding, far below what anybody can see. Two knees that throw each other off
-// their stops do it ever more slowly and without end; the latter ends it.
+// rad/s: far above rounding, far below what anybody can see.
 inline constexpr double kAtStop = 1e-9;
-inline constexpr double kAtRest = 1e-7;
+inline constexpr double kAtRest = 1e-9;
 
 // Positive while all is well (a held stop's torque included); an event is the fall through zero.
 enum class Guard { kStanceKnee, kSwingKnee, kFootHeight, kFootBehind };

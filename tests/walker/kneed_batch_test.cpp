@@ -70,9 +70,16 @@ double distance(const KneedState& a, const KneedState& b) {
 }
 
 void expect_agreement(const Crowd& batch, const Crowd& scalar, double tolerance) {
+  size_t given_up = 0;
   for (size_t i = 0; i < batch.size(); ++i) {
     SCOPED_TRACE(i);
     const KneedAdvance &a = batch.results[i], &b = scalar.results[i];
+    // Two knees that throw each other off their stops, ever more slowly, end at rounding: either
+    // code may come to rest or give up.
+    if (a.event != b.event && b.event == KneedEvent::kDiverged) {
+      EXPECT_LE(++given_up, batch.size() / 100);
+      continue;
+    }
     ASSERT_EQ(a.event, b.event);
     EXPECT_NEAR(a.elapsed, b.elapsed, tolerance);
     EXPECT_NEAR(a.step_length, b.step_length, tolerance);
