@@ -1,12 +1,18 @@
 // walktrack track: one scene becomes a result folder.
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "core/errors.h"
+#include "io/files.h"
 #include "io/scene.h"
 #include "jobs/track.h"
 #include "terminal.h"
 
 namespace walktrack {
+
+namespace po = boost::program_options;
 
 namespace {
 
@@ -25,21 +31,43 @@ int exit_code(TrackStatus status) {
   return kFailed;
 }
 
+double above_zero(const char* option, const std::string& text) {
+  const std::optional<double> value = number_from_text(text);
+  if (!value || *value <= 0) throw UsageError(describe({"", 0, option}, text, "a number above 0"));
+  return *value;
+}
+
+// Both options are other words for budget.frame_ms.
+void set_budget(const std::string& fps, const std::string& budget_ms, ConfigWithOrigin& config) {
+  constexpr double kMsPerSecond = 1000;
+  if (!fps.empty() && !budget_ms.empty())
+    throw UsageError("--fps and --budget-ms exclude each other");
+  if (fps.empty() && budget_ms.empty()) return;
+  const bool rate = !fps.empty();
+  const double ms =
+      rate ? kMsPerSecond / above_zero("--fps", fps) : above_zero("--budget-ms", budget_ms);
+  apply_setting(config, "budget.frame_ms=" + shortest_number(ms), rate ? "--fps" : "--budget-ms");
+}
+
 }  // namespace
 
 int run_track(const Arguments& arguments) {
   std::string scene;
   bool no_overlay = false, resume = false;
+  std::string fps, budget_ms;
   CommandLine line({.name = "track",
                     .operands = "SCENE.yaml",
                     .about = "Tracks the walker of one scene: 3-D joints and angles with their "
                              "uncertainty,\nan overlay video for each camera, and run.json, in the "
                              "folder --output.",
                     .example = "walktrack track data/demo/scene.yaml -o out/demo"});
-  namespace po = boost::program_options;
-  line.options().add_options()("no-overlay", po::bool_switch(&no_overlay),
-                               "write no overlay videos")(
-      "resume", po::bool_switch(&resume),
+  auto add = line.options().add_options();
+  add("no-overlay", po::bool_switch(&no_overlay), "write no overlay videos");
+  add("fps", po::value(&fps)->value_name("N"),
+      "keep to so many frames/s by adapting the particles, within budget.least_particles and "
+      "budget.most_particles; results then depend on the machine's speed: not deterministic");
+  add("budget-ms", po::value(&budget_ms)->value_name("N"), "the same, as milliseconds a frame");
+  add("resume", po::bool_switch(&resume),
       "go on from the last checkpoint of a run that was killed or interrupted, to the same bytes; "
       "with -y, one that does not fit is left behind");
   line.operand("SCENE.yaml", &scene);
@@ -47,6 +75,7 @@ int run_track(const Arguments& arguments) {
   TrackJob job;
   job.output = line.required_output();
   job.config = line.config();
+  set_budget(fps, budget_ms, job.config);
   job.overlay = !no_overlay;
   job.resume = resume;
   job.overwrite = line.common().overwrite;

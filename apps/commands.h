@@ -12,6 +12,7 @@ int run_check(const Arguments& arguments);
 int run_config(const Arguments& arguments);
 int run_cycle(const Arguments& arguments);
 int run_evaluate(const Arguments& arguments);
+int run_plan(const Arguments& arguments);
 int run_prior(const Arguments& arguments);
 int run_render(const Arguments& arguments);
 int run_selftest(const Arguments& arguments);

@@ -27,6 +27,7 @@ constexpr std::array kCommands{
     Command{"config", "print the commented defaults or the effective configuration", run_config},
     Command{"cycle", "find a limit cycle of a walker and what it is like", run_cycle},
     Command{"evaluate", "measure estimates against a truth", run_evaluate},
+    Command{"plan", "say what tracking would model, why, and what it costs", run_plan},
     Command{"prior", "build or show the table of gaits", run_prior},
     Command{"render", "render a motion as synthetic video with its truth", run_render},
     Command{"selftest", "try extremes on this program and say how they end", run_selftest},

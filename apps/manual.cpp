@@ -58,7 +58,7 @@ void print_end() {
   fmt::print(
       ".SH ENVIRONMENT\n.TP\n.B NO_COLOR\nIf set and not empty, progress is shown without colour.\n"
       ".SH FILES\n.TP\n.I /usr/share/walktrack/demo\nA synthetic walk with its truth.\n"
-      ".TP\n.I /usr/share/walktrack/configs\nModels of walkers.\n"
+      ".TP\n.I /usr/share/walktrack/configs\nPresets of the configuration and models of walkers.\n"
       ".TP\n.I /usr/share/doc/walktrack\nThe guide.\n"
       ".SH EXAMPLE\n.nf\nwalktrack check /usr/share/walktrack/demo/scene.yaml\n"
       "walktrack track /usr/share/walktrack/demo/scene.yaml \\-o demo\n.fi\n");

@@ -30,6 +30,15 @@ struct GateConfig {
   double jitter = 2500;      // m/s^3
 };
 
+// Particles that follow the clock, so that frames keep to a time. What comes out then depends on
+// the machine's speed and load: it is the one thing in the configuration that makes results differ
+// from run to run.
+struct BudgetConfig {
+  double frame_ms = 0;        // for a frame, from decoding to the estimate; 0 = none
+  int least_particles = 50;   // never fewer, even if frames take longer
+  int most_particles = 2000;  // never more
+};
+
 // The page to look at.
 struct ReportConfig {
   double embed_mb = 24;  // of overlay films inside it; larger ones are played from beside it
@@ -48,6 +57,7 @@ struct Config {
   TrackerConfig tracker;
   KineticsConfig kinetics;
   GateConfig gates;
+  BudgetConfig budget;
   ReportConfig report;
   CheckpointConfig checkpoint;
 };

@@ -157,6 +157,15 @@ void add_track(ParameterTable& table) {
   g.number("jitter", &G::jitter, 0, 1e9, "mean third derivative of the joints, m/s^3");
 }
 
+void add_budget(ParameterTable& table) {
+  using B = BudgetConfig;
+  ParameterGroup<B> b(table, "budget", "particles that follow the clock: no longer deterministic",
+                      &Config::budget);
+  b.number("frame_ms", &B::frame_ms, 0, kAnyPositive, "that a frame may take, ms; 0 = no budget");
+  b.integer("least_particles", &B::least_particles, 1, 10'000'000, "even if frames take longer");
+  b.integer("most_particles", &B::most_particles, 1, 10'000'000, "even if there is time");
+}
+
 void add_report(ParameterTable& table) {
   using R = ReportConfig;
   ParameterGroup<R> r(table, "report", "report.html", &Config::report);
@@ -176,6 +185,7 @@ ParameterTable make_table() {
   add_filter(table);
   add_search(table);
   add_track(table);
+  add_budget(table);
   add_report(table);
   return table;
 }

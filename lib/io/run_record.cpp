@@ -88,9 +88,9 @@ std::string run_json(const RunRecord& record) {
   root["timing"] = {{"command_line", record.command_line},
                     {"threads", record.threads},
                     {"seconds", record.seconds},
-                    {"tracking_cpu_seconds", record.tracking_cpu_seconds},
                     {"resumed_at_frame", record.resumed_at_frame},
-                    {"stage_seconds", object_of(record.stage_seconds)}};
+                    {"stage_seconds", object_of(record.stage_seconds)},
+                    {"stage_cpu_seconds", object_of(record.stage_cpu_seconds)}};
   // Names come from outside and may be no UTF-8.
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -40,11 +40,11 @@ struct RunRecord {
 
   // The timing block.
   std::vector<std::string> command_line;
-  int threads = 1;                                            // in fact used
-  std::vector<std::pair<std::string, double>> stage_seconds;  // in order of the stages
-  double tracking_cpu_seconds = 0;  // of all threads, between background and output
-  double seconds = 0;               // altogether
-  int resumed_at_frame = 0;         // that these times begin with
+  int threads = 1;  // in fact used
+  // In order of the stages: passed on the clock, and worked by all threads together.
+  std::vector<std::pair<std::string, double>> stage_seconds, stage_cpu_seconds;
+  double seconds = 0;        // altogether
+  int resumed_at_frame = 0;  // that these times begin with
 };
 
 std::string run_json(const RunRecord& record);

@@ -156,9 +156,10 @@ double median(std::vector<double> values) {
   return values.empty() ? kNone : quantile(std::move(values), 0.5);
 }
 
-double tracking_seconds(const Json& record) {
+// `clock`: stage_seconds or stage_cpu_seconds.
+double tracking_seconds(const Json& record, const char* clock) {
   double seconds = 0;
-  for (const auto& [stage, value] : record.at("timing").at("stage_seconds").items())
+  for (const auto& [stage, value] : record.at("timing").at(clock).items())
     if (stage != "background" && stage != "output") seconds += value.get<double>();
   return seconds;
 }
@@ -188,8 +189,8 @@ SweepRun measure(const Sweep& sweep, const Trial& trial, int repeats, const Trut
   std::vector<double> seconds, cpu_seconds;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     const Json again = sweep.record({trial.setting, trial.seed, repeat});
-    seconds.push_back(tracking_seconds(again) / frames);
-    cpu_seconds.push_back(again.at("timing").at("tracking_cpu_seconds").get<double>() / frames);
+    seconds.push_back(tracking_seconds(again, "stage_seconds") / frames);
+    cpu_seconds.push_back(tracking_seconds(again, "stage_cpu_seconds") / frames);
   }
   out.seconds_per_frame = median(std::move(seconds));
   out.cpu_seconds_per_frame = median(std::move(cpu_seconds));
@@ -220,6 +221,8 @@ std::optional<Truth> reference_of(const SweepJob& job, Sweep& sweep, const Sweep
 }  // namespace
 
 SweepReport run_sweep(const SweepJob& job, const JobControl& control) {
+  if (job.config.values.budget.frame_ms > 0)
+    throw UsageError("budget.frame_ms: a sweep measures settings as they are; leave it 0");
   SweepReport report;
   report.scene = job.scene.file.filename().string();
   report.knobs = job.knobs;

@@ -1,7 +1,6 @@
 #include "jobs/track.h"
 
 #include <algorithm>
-#include <ctime>
 #include <limits>
 
 #include <fmt/format.h>
@@ -69,6 +68,12 @@ std::string_view status_word(TrackStatus status) {
   return "";
 }
 
+std::string pace_note(const BudgetConfig& budget) {
+  return fmt::format(
+      "not deterministic: {} to {} particles, as many as {:g} ms a frame allowed on this machine",
+      budget.least_particles, budget.most_particles, budget.frame_ms);
+}
+
 RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackOutcome& outcome,
                     const Quality& quality, const WrittenTables& tables, double seconds) {
   const TrackedFrames& frames = run.frames();
@@ -80,6 +85,8 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackOutcome
   out.config = job.config;
   out.status = status_word(outcome.status);
   if (!outcome.trouble.empty()) out.notes.push_back(outcome.trouble);
+  const bool paced = job.config.values.budget.frame_ms > 0;
+  if (paced) out.notes.push_back(pace_note(job.config.values.budget));
   out.numbers = {{"frames", double(frames.records.size())},
                  {"tracked_frames", double(counts.tracked)},
                  {"first_tracked_frame", double(counts.first)},
@@ -102,12 +109,13 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackOutcome
       {"left_stance",
        by_frame(frames, [](const FrameRecord& r) { return r.estimate.left_stance; })},
       {"speed", by_frame(frames, [](const FrameRecord& r) { return r.estimate.speed; })}};
+  if (paced) out.by_frame.emplace_back("particles", run.particles_used());
   out.digest = tables.digest;
   out.command_line = job.command_line;
   out.threads = run.threads();
   out.resumed_at_frame = run.first_frame();
   out.stage_seconds = run.watch().stages();
-  out.tracking_cpu_seconds = outcome.cpu_seconds;
+  out.stage_cpu_seconds = run.watch().cpu_stages();
   out.seconds = seconds;
   return out;
 }
@@ -147,19 +155,17 @@ bool follow_film(TrackRun& run, SceneVideo& video, const JobControl& control,
   const auto total = static_cast<size_t>(std::max(0, video.frame_count()));
   run.skip(video, control);
   const auto start = Clock::now();
-  const std::clock_t cpu = std::clock();
   SceneFrames images;
   bool stopped = false;
   while (!(stopped = control.stopping())) {
-    const auto decode = Clock::now();
+    const Moment decode;
     if (!video.read(images)) break;
     run.watch().add("decode", decode);
-    run.step(images);
+    run.step(images, decode);
     control.progress("tracking", static_cast<size_t>(run.frames_read()), total);
   }
   outcome.resumable = run.finish(stopped);
   outcome.frames = run.frames_read();
-  outcome.cpu_seconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   outcome.frames_per_second = (outcome.frames - run.first_frame()) / seconds_since(start);
   return stopped;
 }
@@ -180,7 +186,7 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   const Quality quality = quality_of(frames, job.config.values.gates);
   outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
   outcome.tracked = count(frames).tracked;
-  const auto writing = Clock::now();
+  const Moment writing;
   const AnalysedMotion analysed = analysed_motion(frames, job.scene);
   const JointUncertainty uncertainty = uncertainty_of(frames);
   KineticsConfig forces = job.config.values.kinetics;

@@ -41,7 +41,6 @@ struct TrackOutcome {
   TrackStatus status = TrackStatus::kTracked;
   int frames = 0, tracked = 0;
   double frames_per_second = 0;   // of tracking, without the overlay
-  double cpu_seconds = 0;         // of tracking, all threads
   bool resumable = false;         // for kInterrupted: there is a checkpoint to go on from
   std::string trouble;            // for kCutShort and kBelowGates: what happened
   std::filesystem::path look_at;  // the file to open first

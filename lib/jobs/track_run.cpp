@@ -1,6 +1,7 @@
 #include "jobs/track_run.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
@@ -23,10 +24,19 @@ int threads_of(const TrackJob& job) {
 TrackSetup timed_set_up(const TrackJob& job, double frame_rate,
                         const std::vector<ObserverState>& learned, const JobControl& control,
                         Stopwatch& watch) {
-  const auto start = Clock::now();
+  const Moment start;
   TrackSetup setup = set_up(job.scene, job.config.values, frame_rate, learned, control);
   watch.add("background", start);
   return setup;
+}
+
+void grow(Stopwatch::Stages& stages, std::string_view stage, double seconds) {
+  for (auto& [name, sum] : stages) {
+    if (name != stage) continue;
+    sum += seconds;
+    return;
+  }
+  stages.emplace_back(stage, seconds);
 }
 
 }  // namespace
@@ -35,14 +45,11 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void Stopwatch::add(std::string_view stage, Clock::time_point since) {
-  const double seconds = seconds_since(since);
-  for (auto& [name, sum] : stages_) {
-    if (name != stage) continue;
-    sum += seconds;
-    return;
-  }
-  stages_.emplace_back(stage, seconds);
+double Stopwatch::add(std::string_view stage, const Moment& since) {
+  const double seconds = seconds_since(since.clock);
+  grow(stages_, stage, seconds);
+  grow(cpu_stages_, stage, static_cast<double>(std::clock() - since.cpu) / CLOCKS_PER_SEC);
+  return seconds;
 }
 
 bool CheckpointTimer::due() const {
@@ -65,6 +72,7 @@ TrackRun::TrackRun(const TrackJob& job, double frame_rate, const ResultFolder& f
                           checkpoint ? checkpoint->observers : std::vector<ObserverState>{},
                           control, watch_)),
       prior_(load_gait_prior()),
+      budget_(job.config.values.budget),
       tracker_(setup_.scene, prior_, job.config.values.tracker, job.config.values.seed, threads_),
       evidence_(setup_.observers.size()),
       frames_{frame_rate, FrameFile(folder.file(std::string(kFramesFile)),
@@ -75,6 +83,11 @@ TrackRun::TrackRun(const TrackJob& job, double frame_rate, const ResultFolder& f
   for (const Camera& camera : setup_.scene.cameras)
     everywhere_.push_back(search_region(camera, job.scene.subject.height));
   if (checkpoint) tracker_.resume(std::move(checkpoint->tracker));
+  if (!budget_.on()) return;
+  particles_used_.assign(first_frame_, std::numeric_limits<double>::quiet_NaN());
+  const size_t resumed = tracker_.particles().states.size();
+  tracker_.use_particles(budget_.bounded(resumed > 0 ? static_cast<double>(resumed)
+                                                     : job.config.values.tracker.filter.particles));
 }
 
 void TrackRun::skip(SceneVideo& video, const JobControl& control) const {
@@ -88,10 +101,11 @@ void TrackRun::skip(SceneVideo& video, const JobControl& control) const {
   }
 }
 
-void TrackRun::step(const SceneFrames& images) {
+void TrackRun::step(const SceneFrames& images, const Moment& since) {
   observe(images);
   follow();
   learn();
+  pace(since);
   ++frames_read_;
   if (tracker_.tracking() && timer_.due()) write_checkpoint();
 }
@@ -112,7 +126,7 @@ Region TrackRun::region(size_t camera) const {
 }
 
 void TrackRun::observe(const SceneFrames& images) {
-  const auto start = Clock::now();
+  const Moment start;
   for (size_t c = 0; c < setup_.observers.size(); ++c) {
     if (!images.fresh[c]) {
       evidence_[c] = CameraEvidence{};  // a repeated frame says nothing new
@@ -125,15 +139,29 @@ void TrackRun::observe(const SceneFrames& images) {
 }
 
 void TrackRun::follow() {
-  const auto start = Clock::now();
+  const Moment start;
   for (const FrameRecord& record : tracker_.push(evidence_)) frames_.records.append(record);
-  watch_.add("filter", start);
+  filter_seconds_ = watch_.add("filter", start);
+}
+
+// Under a budget, as many particles for the next frame as there is time for. Frames of searching
+// and starting take what they take.
+void TrackRun::pace(const Moment& since) {
+  if (!budget_.on()) return;
+  if (!tracker_.tracking()) {
+    particles_used_.push_back(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  const auto used = static_cast<int>(tracker_.particles().states.size());
+  particles_used_.push_back(used);
+  tracker_.use_particles(
+      budget_.next(used, seconds_since(since.clock) - filter_seconds_, filter_seconds_));
 }
 
 // Once tracked, every frame teaches what the walker looks like.
 void TrackRun::learn() {
   if (!tracker_.tracking() || !job_.config.values.observation.foreground.enabled) return;
-  const auto start = Clock::now();
+  const Moment start;
   const Body& body = setup_.scene.model.body;
   const Pose& pose = frames_.records.back().estimate.pose;
   const PosedParts parts = pose_parts(body, forward_kinematics(body, pose));
@@ -143,14 +171,14 @@ void TrackRun::learn() {
 }
 
 void TrackRun::write_checkpoint() {
-  const auto start = Clock::now();
+  const Moment start;
   Checkpoint checkpoint{origin_, frames_read_,    frames_.records.size(), frames_.records.bytes(),
                         {},      tracker_.state()};
   for (const Observer& observer : setup_.observers)
     checkpoint.observers.push_back(observer.state());
   frames_.records.flush();
   walktrack::write_checkpoint(checkpoint_file_, checkpoint);
-  timer_.wrote(start);
+  timer_.wrote(start.clock);
   watch_.add("checkpoints", start);
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <ctime>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "io/checkpoint_file.h"
 #include "io/result_folder.h"
 #include "io/scene_video.h"
+#include "jobs/particle_budget.h"
 #include "jobs/track.h"
 #include "jobs/track_results.h"
 #include "jobs/track_setup.h"
@@ -25,14 +27,23 @@ inline constexpr std::array kFilesOfWork{kCheckpointFile, kFramesFile};
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start);
 
-// Seconds by stage, in the order of first use.
+// A point in time, and of the work of all threads.
+struct Moment {
+  Clock::time_point clock = Clock::now();
+  std::clock_t cpu = std::clock();
+};
+
+// Seconds by stage, in the order of first use: passed on the clock, and worked by all threads.
 class Stopwatch {
  public:
-  void add(std::string_view stage, Clock::time_point since);
-  const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
+  using Stages = std::vector<std::pair<std::string, double>>;
+  // Returns the seconds passed.
+  double add(std::string_view stage, const Moment& since);
+  const Stages& stages() const { return stages_; }
+  const Stages& cpu_stages() const { return cpu_stages_; }
 
  private:
-  std::vector<std::pair<std::string, double>> stages_;
+  Stages stages_, cpu_stages_;
 };
 
 // When a checkpoint is worth its time.
@@ -55,8 +66,9 @@ class TrackRun {
 
   // Takes the frames that came before the checkpoint from the video. InputError if it ends there.
   void skip(SceneVideo& video, const JobControl& control) const;
-  // The next frame: evidence, tracking, learning, and a checkpoint if one is due.
-  void step(const SceneFrames& images);
+  // The next frame, `since` it began to be decoded: evidence, tracking, learning, and a checkpoint
+  // if one is due.
+  void step(const SceneFrames& images, const Moment& since);
   // After the last frame. `resumable`: another process may go on here; false if it could not.
   bool finish(bool resumable);
 
@@ -65,6 +77,8 @@ class TrackRun {
   int losses() const { return tracker_.losses(); }
   int threads() const { return threads_; }
   const TrackedFrames& frames() const { return frames_; }
+  // By frame, NaN while not tracking; empty without a budget.
+  const std::vector<double>& particles_used() const { return particles_used_; }
   Stopwatch& watch() { return watch_; }
   const Stopwatch& watch() const { return watch_; }
 
@@ -73,6 +87,7 @@ class TrackRun {
   void observe(const SceneFrames& images);
   void follow();
   void learn();
+  void pace(const Moment& since);
   void write_checkpoint();
 
   const TrackJob& job_;
@@ -82,12 +97,15 @@ class TrackRun {
   Stopwatch watch_;
   TrackSetup setup_;
   GaitPrior prior_;
+  ParticleBudget budget_;
   Tracker tracker_;
   std::vector<Region> everywhere_;
   SceneEvidence evidence_;
   TrackedFrames frames_;
   uint64_t first_frame_, frames_read_;  // of the film
   CheckpointTimer timer_;
+  double filter_seconds_ = 0;  // of the newest frame
+  std::vector<double> particles_used_;
 };
 
 }  // namespace walktrack

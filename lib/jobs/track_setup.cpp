@@ -63,8 +63,7 @@ Observer make_observer(const Scene& scene, const SceneCamera& camera, const Conf
   const ObservationConfig& observation = config.observation;
   ObserverInput input;
   input.camera = camera.camera;
-  input.shrink = shrink_factor(expected_height_px(scene, camera.camera, config.tracker.sighting),
-                               observation.person_px);
+  input.shrink = working_scale(scene, camera.camera, config).shrink;
   input.appearances = appearances_of(body);
   input.occluders = camera.occluders;
   if (learned) {
@@ -89,6 +88,11 @@ void set_beginning(const Scene& scene, double frame_rate, TrackerScene& out) {
 }
 
 }  // namespace
+
+WorkingScale working_scale(const Scene& scene, const Camera& camera, const Config& config) {
+  const double person_px = expected_height_px(scene, camera, config.tracker.sighting);
+  return {person_px, shrink_factor(person_px, config.observation.person_px)};
+}
 
 TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
                   std::span<const ObserverState> learned, const JobControl& control) {

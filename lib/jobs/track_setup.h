@@ -23,6 +23,13 @@ struct TrackSetup {
 TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
                   std::span<const ObserverState> learned, const JobControl& control);
 
+// How large a camera's images are worked on.
+struct WorkingScale {
+  double person_px;  // height of the standing subject in the image as it is filmed
+  int shrink;        // factor by which images are shrunk
+};
+WorkingScale working_scale(const Scene& scene, const Camera& camera, const Config& config);
+
 // Where to look in the next frame: around the walker once tracked, everywhere before.
 Region search_region(const Camera& camera, double subject_height);
 

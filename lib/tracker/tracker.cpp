@@ -68,6 +68,17 @@ void Tracker::resume(TrackerState state) {
   losses_ = state.losses;
 }
 
+void Tracker::use_particles(int count) {
+  config_.filter.particles = count;
+  const auto& set = filter_.particles();
+  if (mode_ != Mode::kTracking || set.states.size() == static_cast<size_t>(count)) return;
+  std::vector<uint32_t> chosen(static_cast<size_t>(count));
+  systematic_resample(set.log_weights, 0.5, chosen);
+  std::vector<WalkerParticle> states;
+  for (const uint32_t i : chosen) states.push_back(set.states[i]);
+  filter_.start(std::move(states));
+}
+
 void Tracker::consume(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
   switch (mode_) {
     case Mode::kSearching:

@@ -60,6 +60,10 @@ class Tracker {
   // The records of frames that still wait at the end of the film.
   std::vector<FrameRecord> finish();
 
+  // From the next frame on, so many particles: those there are become more or fewer in proportion
+  // to their weights.
+  void use_particles(int count);
+
   // Whether the newest frame has been tracked, so that its particles say where the person is.
   bool tracking() const { return mode_ == Mode::kTracking; }
   const ParticleSet<WalkerParticle>& particles() const { return filter_.particles(); }

@@ -87,6 +87,24 @@ TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {
   EXPECT_LT(joint_errors(truth, found).by_joint[size_t(Joint::kPelvis)].absolute.median, 0.15);
 }
 
+// No machine tracks a frame in a microsecond: the particles fall to the fewest allowed.
+TEST_F(Track, UnderABudgetTheParticlesFollowTheClockWithinBoundsAndTheRecordSaysSo) {
+  TrackJob paced = job(60, "paced");
+  paced.config.values.budget = {.frame_ms = 1e-3, .least_particles = 25, .most_particles = 50};
+  EXPECT_GT(track_scene(paced, {}).tracked, 30);
+  const nlohmann::json run = run_json("paced");
+  const nlohmann::json particles = run.at("by_frame").at("particles");
+  ASSERT_EQ(particles.size(), 61u);
+  EXPECT_TRUE(particles.front().is_null());  // not found yet
+  EXPECT_EQ(particles.back(), 25);
+  for (const nlohmann::json& each : particles) {
+    if (each.is_null()) continue;
+    EXPECT_GE(each, 25);
+    EXPECT_LE(each, 50);
+  }
+  EXPECT_EQ(run.at("notes").at(0).get<std::string>().find("not deterministic: 25 to 50"), 0u);
+}
+
 TEST_F(Track, AnEmptySceneHasNobodyInIt) {
   TrackJob empty = job(30, "empty");
   for (SceneCamera& camera : empty.scene.cameras) camera.video = camera.background;

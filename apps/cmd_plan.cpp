@@ -1,0 +1,28 @@
+// walktrack plan: what tracking would model and cost.
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "jobs/plan.h"
+
+namespace walktrack {
+
+int run_plan(const Arguments& arguments) {
+  std::string file;
+  bool json = false;
+  CommandLine line({.name = "plan",
+                    .operands = "SCENE.yaml",
+                    .about =
+                        "Says what tracking this scene would model and why, how large a particle's "
+                        "state is, what a\nframe is expected to cost in time and memory, and what "
+                        "the scene may not need. Tracks nothing.",
+                    .example = "walktrack plan data/demo/scene.yaml"});
+  line.options().add_options()("json", boost::program_options::bool_switch(&json), "print JSON");
+  line.operand("SCENE.yaml", &file);
+  if (!line.parse(arguments)) return kDone;
+  const ConfigWithOrigin config = line.config();
+  const Plan plan = plan_scene(read_scene(file), config);
+  line.hand_over(json ? plan_json(plan) : plan_text(plan));
+  return kDone;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,60 @@
+#include "jobs/cost_model.h"
+
+#include <algorithm>
+#include <array>
+
+namespace walktrack {
+
+namespace {
+
+// Nanoseconds, as scripts/measure_costs.py prints them.
+constexpr double kDecoding = 5.38;
+constexpr double kBackground = 77.5;
+constexpr double kAppearance = 3.45;
+constexpr double kFlowMeasured = 535;
+constexpr double kFlowWeighed = 298;
+constexpr double kPartProjected = 661;
+constexpr double kRowSummed = 6.95;
+constexpr double kWalker = 1.32e5;
+constexpr double kPartPosed = 868;
+
+// Mean layers of a frame with one, two, three cameras.
+constexpr std::array<double, 3> kLayers{4.0, 4.4, 4.7};
+
+constexpr double kMsPerNs = 1e-6;
+
+FrameCost::OfCamera camera_cost(const FrameWork& work, const CameraWork& camera) {
+  const double parts = work.poses * work.parts;
+  FrameCost::OfCamera out;
+  out.decoding = kMsPerNs * kDecoding * camera.filmed_px;
+  if (work.background) out.background = kMsPerNs * kBackground * camera.region_px;
+  out.appearance = kMsPerNs * kAppearance * camera.region_px * work.classes;
+  if (work.flow) out.flow = kMsPerNs * (kFlowMeasured * camera.region_px + kFlowWeighed * parts);
+  const bool silhouettes = work.background || work.classes > 0;
+  if (silhouettes || work.flow) out.projection = kMsPerNs * kPartProjected * parts;
+  if (silhouettes) out.silhouettes = kMsPerNs * kRowSummed * work.poses * camera.rows;
+  return out;
+}
+
+}  // namespace
+
+FrameCost frame_cost(const FrameWork& work) {
+  FrameCost out;
+  for (const CameraWork& camera : work.cameras) out.cameras.push_back(camera_cost(work, camera));
+  out.walker = kMsPerNs * kWalker * work.particles;
+  out.poses = kMsPerNs * kPartPosed * work.poses * work.parts;
+  return out;
+}
+
+double FrameCost::sum() const {
+  double total = walker + poses;
+  for (const OfCamera& camera : cameras) total += camera.sum();
+  return total;
+}
+
+double usual_layers(int cameras, int max_layers) {
+  const size_t many = std::min(static_cast<size_t>(std::max(cameras, 1)), kLayers.size());
+  return std::min(kLayers[many - 1], static_cast<double>(max_layers));
+}
+
+}  // namespace walktrack

@@ -1,0 +1,63 @@
+// What a frame of tracking is expected to cost: counts of what has to be done, times what each
+// takes.
+//
+//   decoding     a d                      a: pixels of a camera's frame as it is filmed
+//   background   b r                      r: pixels of the shrunk image around the walker
+//   appearance   c r k                    k: appearances told apart
+//   flow         e r + f n m              n: poses weighed, m: parts of the body
+//   projection   g n m
+//   silhouettes  h n y                    y: rows of the shrunk image that the walker covers
+// these for every camera, and once for all
+//   walker       w p                      p: particles
+//   poses        q n m
+//
+// The coefficients are CPU times of all threads together, fitted by scripts/measure_costs.py. They
+// are those of one machine: ratios carry over to others, times only roughly. Over the fifteen
+// settings of the fit the sum was off by 5 % (median), by 34 % at worst (flow alone), given the
+// poses that were in fact weighed; their number varies by a third between scenes. Not in it:
+// searching and the contest of the first half second, learning the background before the first
+// frame, writing results.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace walktrack {
+
+struct CameraWork {
+  std::string name;
+  double filmed_px = 0;  // pixels of a frame as it is filmed
+  double region_px = 0;  // pixels of the shrunk image around the walker
+  double rows = 0;       // that the walker covers there
+};
+
+struct FrameWork {
+  std::vector<CameraWork> cameras;
+  double particles = 0;
+  double poses = 0;  // weighed in a frame, all particles and moves together
+  int parts = 0;     // of the body
+  int classes = 0;   // appearances told apart; 0 = appearance is off
+  bool background = true, flow = true;
+};
+
+// CPU ms a frame; what is off is 0.
+struct FrameCost {
+  struct OfCamera {
+    double decoding = 0, background = 0, appearance = 0, flow = 0, projection = 0, silhouettes = 0;
+    double sum() const {
+      return decoding + background + appearance + flow + projection + silhouettes;
+    }
+  };
+  std::vector<OfCamera> cameras;  // in the order of the work
+  double walker = 0, poses = 0;
+  double sum() const;
+};
+
+FrameCost frame_cost(const FrameWork& work);
+
+// Poses weighed in a frame: once each, and after every tempered layer as often as it is moved. The
+// number of layers depends on how surprising frames are; this is what walks usually take, which
+// grows with the evidence.
+double usual_layers(int cameras, int max_layers);
+
+}  // namespace walktrack

@@ -1,0 +1,55 @@
+// `walktrack plan`: what tracking a scene would model and why, what it would cost, and what the
+// scene does not need. Nothing is tracked: costs are those of cost_model.h.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/config.h"
+#include "io/scene.h"
+#include "jobs/cost_model.h"
+
+namespace walktrack {
+
+struct PlanItem {
+  std::string name;
+  bool on = true;
+  std::string what;  // it is, or would be
+  std::string why;   // it is on or off: a default, the configuration's place, the scene
+  double ms = 0;     // CPU time a frame; 0 for what is off
+};
+
+struct PlanCamera {
+  std::string name;
+  int width_px = 0, height_px = 0, shrink = 1;
+  double person_px = 0;  // height of the standing subject in the shrunk image
+  double ms = 0;         // all that this camera alone costs
+};
+
+struct PlanState {
+  int walker = 0, place = 0, pose = 0, controls = 0;  // numbers that a particle carries
+  int noise = 0;                                      // numbers drawn for it in each frame
+  double bytes_per_particle = 0;                      // all copies and weights of the filter
+  int dimension() const { return walker + place + pose + controls; }
+};
+
+struct Plan {
+  std::string scene;
+  double frame_rate = 0;
+  std::vector<PlanCamera> cameras;
+  std::vector<PlanItem> items;
+  PlanState state;
+  FrameWork work;
+  FrameCost cost;
+  std::vector<std::pair<std::string, double>> memory;  // what it is for, bytes
+  std::vector<std::string> advice;                     // what the scene does not need
+};
+
+// Opens the scene's videos, but reads no frame. InputError for what `track` would refuse, too.
+Plan plan_scene(const Scene& scene, const ConfigWithOrigin& config);
+
+std::string plan_text(const Plan& plan);
+std::string plan_json(const Plan& plan);
+
+}  // namespace walktrack

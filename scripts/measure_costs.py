@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""Fits the coefficients of the cost model (lib/jobs/cost_model.h) and prints them as its source has them.
+
+    scripts/measure_costs.py WALKTRACK OUT
+
+Renders one walk before three cameras, tracks it on one thread with one setting after the other and explains the
+CPU seconds of each stage by the counts that `walktrack plan --json` gives of the same setting; poses are those
+that were in fact weighed. Least squares of relative errors, no coefficient below zero. The last line says how far
+off the fitted model is over the settings. What OUT holds is not done again. Standard library only.
+"""
+import json
+import pathlib
+import statistics
+import sys
+
+from measure_gait import OTHERS, SIDE, run
+
+OPTIONS = f"""frame_rate: 30
+duration: 0.8
+walk: {{speed: 1.25, start: [-0.5, 0], phase: 0.2}}
+initial: true
+background_frames: 10
+cameras:
+  - {SIDE}
+  - {OTHERS[0]}
+  - {OTHERS[1]}
+"""
+FRAMES = 20  # tracked of it
+# Every stage of the work weighs much in some of these.
+SETTINGS = [("particles=40", "cameras=3"), ("particles=120", "cameras=1"), ("particles=40", "cameras=1"),
+            ("particles=300", "cameras=1", "moves=0"), ("particles=60", "cameras=2", "moves=1"),
+            ("particles=40", "cameras=2", "arms=true"), ("particles=60", "cameras=1", "scale=60"),
+            ("particles=40", "cameras=3", "scale=60"), ("particles=60", "cameras=1", "scale=240"),
+            ("particles=40", "cameras=2", "terms=background+foreground"), ("particles=60", "cameras=1", "terms=background"),
+            ("particles=60", "cameras=3", "terms=background"), ("particles=60", "cameras=2", "terms=flow"), ("particles=200", "cameras=2", "moves=0", "terms=background+flow"),
+            ("particles=40", "cameras=1", "arms=true", "scale=240", "terms=background+foreground")]
+KEYS = {"particles": ["filter.particles"], "moves": ["filter.moves"], "scale": ["observation.person_px"], "arms": ["body.arms"]}
+TERMS = ("background", "foreground", "flow")
+
+
+def settings(words):
+    for word in words:
+        name, value = word.split("=")
+        if name == "terms":
+            for term in TERMS:
+                yield from ("--set", f"observation.{term}.enabled={'true' if term in value else 'false'}")
+        elif name != "cameras":
+            yield from ("--set", f"{KEYS[name][0]}={value}")
+        if name == "particles":  # the first half second, too
+            yield from ("--set", f"start.particles={value}")
+
+
+def scene_of(walktrack, out, cameras):
+    full = out / "scene" / "scene.yaml"
+    if not full.exists():
+        out.mkdir(parents=True, exist_ok=True)
+        (out / "options.yaml").write_text(OPTIONS)
+        run(walktrack, "render", "--options", out / "options.yaml", "-o", out / "scene", "-y")
+    file = out / "scene" / f"scene_{cameras}.yaml"
+    dropped = ["name: front", "name: back"][cameras - 1:]
+    lines = [line for line in full.read_text().splitlines() if not any(name in line for name in dropped)]
+    file.write_text("\n".join([*lines, f"last_frame: {FRAMES - 1}"]) + "\n")
+    return file
+
+
+def measured(walktrack, out, words):
+    scene = scene_of(walktrack, out, int(dict(word.split("=") for word in words)["cameras"]))
+    folder = out / "runs" / ",".join(words)
+    options = list(settings(words))
+    if not (folder / "run.json").exists():
+        run(walktrack, "track", scene, "-o", folder, "--no-overlay", "--threads", 1, *options, allowed=(0, 4))
+    record = json.loads((folder / "run.json").read_text())
+    plan = json.loads(run(walktrack, "plan", scene, "--json", *options))
+    return record, plan
+
+
+def features(record, plan):
+    """By stage: CPU ns a frame, and what it is made of."""
+    frames, config = record["numbers"]["frames"], record["config"]
+    images, layers = config["observation"], [n for n in record["by_frame"]["layers"] if n]
+    # The last layer is not followed by moves unless it is resampled, which it nearly always is.
+    poses = config["filter"]["particles"] * (1 + statistics.mean(layers) * config["filter"]["moves"])
+    region, parts = sum(c["region_px"] for c in plan["cameras"]), plan["work"]["parts"]
+    count, rows = len(plan["cameras"]), sum(c["rows"] for c in plan["cameras"])
+    flow, silhouettes = images["flow"]["enabled"], images["background"]["enabled"] or images["foreground"]["enabled"]
+    ns = {stage: 1e9 * s / frames for stage, s in record["timing"]["stage_cpu_seconds"].items()}
+    filmed = sum(c["size_px"][0] * c["size_px"][1] for c in plan["cameras"])
+    return {
+        "decode": (ns["decode"], {"kDecoding": filmed}),
+        "evidence": (ns["evidence"] + ns.get("appearance", 0), {"kDecoding2": filmed, "kBackground": region * images["background"]["enabled"],
+                                       "kAppearance": region * plan["work"]["classes"], "kFlowMeasured": region * flow}),
+        "filter": (ns["filter"], {"kWalker": config["filter"]["particles"], "kPartPosed": poses * parts,
+                                  "kPartProjected": poses * parts * count, "kRowSummed": poses * rows * silhouettes,
+                                  "kFlowWeighed": poses * parts * count * flow}),
+    }, statistics.mean(layers)
+
+
+def fitted(samples):
+    """Coefficients >= 0 that minimise the squares of relative errors, by coordinates."""
+    names = sorted({name for _, made_of in samples for name in made_of})
+    rows = [([made_of.get(name, 0) / ns for name in names], 1.0) for ns, made_of in samples]
+    values = [0.0] * len(names)
+    for _ in range(20000):
+        for k in range(len(names)):
+            square = sum(row[k] ** 2 for row, _ in rows)
+            rest = sum(row[k] * (y - sum(v * f for j, (v, f) in enumerate(zip(values, row)) if j != k)) for row, y in rows)
+            values[k] = max(0.0, rest / square) if square else 0.0
+    return dict(zip(names, values))
+
+
+def main():
+    walktrack, out = sys.argv[1], pathlib.Path(sys.argv[2])
+    stages, layers, totals = {}, {}, []
+    for number, words in enumerate(SETTINGS, 1):
+        print(f"{number}/{len(SETTINGS)} {' '.join(words)}", file=sys.stderr)
+        by_stage, mean_layers = features(*measured(walktrack, out, words))
+        for stage, sample in by_stage.items():
+            stages.setdefault(stage, []).append(sample)
+        layers.setdefault(words[1], []).append(mean_layers)
+        totals.append(by_stage)
+    found = {name: value for samples in stages.values() for name, value in fitted(samples).items()}
+    off = [abs(sum(found[n] * x for _, made_of in one.values() for n, x in made_of.items()) / sum(ns for ns, _ in one.values()) - 1) for one in totals]
+    found["kDecoding"] += found.pop("kDecoding2")
+    for name, value in found.items():
+        print(f"constexpr double {name} = {value:.3g};")
+    print("layers:", {cameras: round(statistics.median(values), 1) for cameras, values in sorted(layers.items())})
+    worst = " ".join(SETTINGS[off.index(max(off))])
+    print(f"off by {100 * statistics.median(off):.0f} % (median), {100 * max(off):.0f} % (worst: {worst})")
+
+
+main()

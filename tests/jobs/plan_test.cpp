@@ -1,0 +1,145 @@
+#include "jobs/plan.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/message_of.h"
+
+namespace walktrack {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+Scene demo() { return read_scene(WALKTRACK_SOURCE_DIR "/data/demo/scene.yaml"); }
+
+Plan plan_with(const std::vector<std::string>& settings, Scene scene = demo()) {
+  ConfigWithOrigin config;
+  for (const std::string& setting : settings) apply_setting(config, setting, "--set");
+  return plan_scene(scene, config);
+}
+
+double ms_with(const std::vector<std::string>& settings) { return plan_with(settings).cost.sum(); }
+
+const PlanItem& item(const Plan& plan, const std::string& name) {
+  for (const PlanItem& each : plan.items)
+    if (each.name == name) return each;
+  throw InputError(name);
+}
+
+std::string advice(const Plan& plan) {
+  std::string text;
+  for (const std::string& sentence : plan.advice) text += sentence + "\n";
+  return text;
+}
+
+TEST(Plan, SharesOfTimeAreAllOfIt) {
+  const Plan plan = plan_with({});
+  double cameras = 0, stages = 0;
+  for (const PlanCamera& camera : plan.cameras) cameras += camera.ms;
+  EXPECT_NEAR(cameras + plan.cost.walker + plan.cost.poses, plan.cost.sum(), 1e-9);
+  const auto json = nlohmann::json::parse(plan_json(plan));
+  for (const auto& [stage, ms] : json.at("cpu_ms_by_stage").items()) stages += ms.get<double>();
+  EXPECT_NEAR(stages, plan.cost.sum(), 1e-9);
+}
+
+TEST(Plan, WhatIsOffCostsNothingAndIsNoCost) {
+  const Plan plan = plan_with({"observation.flow.enabled=false", "body.arms=false",
+                               "observation.foreground.enabled=false"});
+  for (const char* name : {"flow", "arms", "appearance", "slope", "occluders"}) {
+    EXPECT_FALSE(item(plan, name).on) << name;
+    EXPECT_EQ(item(plan, name).ms, 0) << name;
+  }
+  for (const FrameCost::OfCamera& camera : plan.cost.cameras) {
+    EXPECT_EQ(camera.flow, 0);
+    EXPECT_EQ(camera.appearance, 0);
+  }
+  EXPECT_THAT(plan_text(plan), Not(HasSubstr("  flow         ")));
+  EXPECT_THAT(plan_text(plan), HasSubstr("off flow"));
+}
+
+// What an item is said to save is what the plan without it costs less.
+TEST(Plan, SavingsAreDifferencesOfPlans) {
+  const Plan all = plan_with({"body.arms=true"});
+  EXPECT_NEAR(item(all, "flow").ms,
+              all.cost.sum() - ms_with({"body.arms=true", "observation.flow.enabled=false"}), 1e-9);
+  EXPECT_NEAR(item(all, "arms").ms, all.cost.sum() - ms_with({"body.arms=false"}), 1e-9);
+  EXPECT_GT(item(all, "flow").ms, 0);
+  EXPECT_GT(item(all, "arms").ms, 0);
+  EXPECT_GT(item(all, "head").ms, 0);
+}
+
+// The shape of the model: particles' work is proportional to them, images' work does not know them,
+// and a frame shrunk to half its side costs the evidence a quarter.
+TEST(CostModel, HasTheShapeOfTheWork) {
+  const double none = ms_with({"filter.particles=1"}), some = ms_with({"filter.particles=101"});
+  EXPECT_NEAR(ms_with({"filter.particles=1001"}) - none, 10 * (some - none), 1e-6);
+  const Plan one = plan_with({"filter.moves=1"}), three = plan_with({"filter.moves=3"});
+  EXPECT_EQ(one.cost.walker, three.cost.walker);
+  EXPECT_GT(three.cost.poses, 2 * one.cost.poses);
+  EXPECT_EQ(one.cost.cameras[0].background, three.cost.cameras[0].background);
+  const Plan large = plan_with({"observation.person_px=240"}),
+             small = plan_with({"observation.person_px=120"});
+  ASSERT_EQ(large.cameras[0].shrink, 1);
+  ASSERT_EQ(small.cameras[0].shrink, 2);
+  EXPECT_NEAR(large.work.cameras[0].rows, 2 * small.work.cameras[0].rows, 1e-9);
+  EXPECT_EQ(large.cost.cameras[0].decoding, small.cost.cameras[0].decoding);
+  EXPECT_GT(large.cost.cameras[0].background, 2 * small.cost.cameras[0].background);
+  EXPECT_LE(large.cost.cameras[0].background, 4 * small.cost.cameras[0].background + 1e-9);
+  Scene one_camera = demo();
+  one_camera.cameras.resize(1);
+  const Plan alone = plan_with({}, one_camera);
+  EXPECT_LT(alone.cost.sum(), plan_with({}).cost.sum());
+  EXPECT_EQ(alone.cost.walker, plan_with({}).cost.walker);
+}
+
+TEST(Plan, SaysWhereEachChoiceComesFrom) {
+  const Plan plan = plan_with({"body.arms=true"});
+  EXPECT_EQ(item(plan, "arms").why, "body.arms, from --set");
+  EXPECT_EQ(item(plan, "head").why, "body.head, a default");
+  EXPECT_THAT(item(plan, "search").why, HasSubstr("no `initial`"));
+}
+
+TEST(Plan, CountsTheState) {
+  const Plan without = plan_with({}), with = plan_with({"body.arms=true"});
+  EXPECT_EQ(with.state.dimension() - without.state.dimension(), 12);  // 6 angles and their rates
+  EXPECT_EQ(with.state.noise - without.state.noise, 6);
+  EXPECT_GE(without.state.bytes_per_particle, 8.0 * without.state.dimension());
+}
+
+TEST(Plan, AdvisesWhatASceneDoesNotNeed) {
+  const std::string much =
+      advice(plan_with({"body.arms=true", "observation.person_px=300", "filter.particles=2000"}));
+  for (const char* word : {"Flow:", "Arms:", "Scale:", "Particles:", "Cameras:"})
+    EXPECT_THAT(much, HasSubstr(word));
+  Scene one_camera = demo();
+  one_camera.cameras.resize(1);
+  const Plan lean = plan_with({"observation.flow.enabled=false"}, one_camera);
+  EXPECT_TRUE(lean.advice.empty()) << advice(lean);
+  EXPECT_THAT(plan_text(lean), HasSubstr("Nothing in it seems more"));
+  // Flow that is all there is cannot be spared.
+  const Plan flow = plan_with(
+      {"observation.background.enabled=false", "observation.foreground.enabled=false"}, one_camera);
+  EXPECT_THAT(advice(flow), Not(HasSubstr("Flow:")));
+}
+
+// With the way known, the camera beside it is the one to keep.
+TEST(Plan, KnowsTheCameraAtTheSide) {
+  Scene scene = demo();
+  scene.initial = InitialState{0, {0, 0}, 0, std::nullopt, std::nullopt};  // along x
+  EXPECT_THAT(advice(plan_with({}, scene)), HasSubstr("(side)"));
+  EXPECT_FALSE(item(plan_with({}, scene), "search").on);
+}
+
+TEST(Plan, ASlopeIsOnWhereGravityLeans) {
+  Scene scene = demo();
+  scene.gravity = {-9.8 * std::sin(0.1), 0, -9.8 * std::cos(0.1)};
+  EXPECT_TRUE(item(plan_with({}, scene), "slope").on);
+  EXPECT_EQ(item(plan_with({}, scene), "slope").what, "5.7 degrees");
+}
+
+}  // namespace
+}  // namespace walktrack
