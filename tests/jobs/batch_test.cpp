@@ -187,8 +187,8 @@ TEST_F(BatchTest, TwoWorkersNeverDoOneSequenceTwice) {
   run_batch(job_, {});
   other.join();
   for (int i = 0; i < 12; ++i) {
-    if (i % 3 != 0) EXPECT_EQ(runs(numbered(i)), 1u) << i;
-    EXPECT_LE(runs(numbered(i)), 2u) << i;
+    EXPECT_GE(runs(numbered(i)), 1u) << i;
+    EXPECT_LE(runs(numbered(i)), i % 3 == 0 ? 2u : 1u) << i;
   }
 }
 
