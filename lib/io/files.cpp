@@ -112,6 +112,13 @@ void publish_file(const fs::path& temporary, const fs::path& path) {
   flush_to_disk(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
 }
 
+bool is_temporary_name(std::string_view name) {
+  constexpr std::string_view kEnd = ".tmp";
+  if (!name.ends_with(kEnd)) return false;
+  const size_t dot = name.find_last_not_of("0123456789", name.size() - kEnd.size() - 1);
+  return dot != std::string::npos && name[dot] == '.' && dot + 1 < name.size() - kEnd.size();
+}
+
 void refuse_existing(const fs::path& path, bool overwrite) {
   if (!overwrite && fs::exists(path)) {
     throw UsageError(fmt::format("{} exists; -y overwrites it", path.string()));

@@ -42,6 +42,9 @@ class AtomicFile {
 // one, never half of it. std::runtime_error naming the file and the reason.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
+// Whether a name is one that such a file has before it is there: "anything.<number>.tmp".
+bool is_temporary_name(std::string_view name);
+
 // UsageError when the file exists and may not be overwritten.
 void refuse_existing(const std::filesystem::path& path, bool overwrite);
 

@@ -18,17 +18,9 @@ namespace {
 constexpr const char* kComplete = "run.json";
 constexpr const char* kPartial = "run.partial.json";
 
-// "anything.<process>.tmp", as write_file_atomically() calls them.
-bool is_temporary(const std::string& name) {
-  constexpr std::string_view kEnd = ".tmp";
-  if (!name.ends_with(kEnd)) return false;
-  const size_t dot = name.find_last_not_of("0123456789", name.size() - kEnd.size() - 1);
-  return dot != std::string::npos && name[dot] == '.' && dot + 1 < name.size() - kEnd.size();
-}
-
 // The files that a run may leave, besides the two above; those that it was killed over, too.
 bool is_result_file(const std::string& name) {
-  if (is_temporary(name)) return true;
+  if (is_temporary_name(name)) return true;
   for (const char* known :
        {"joints.csv", "joints.trc", "angles.mot", "uncertainty.csv", "angles.csv", "gait.json",
         "gait.csv", "kinetics.csv", "ground_reaction.mot", "joint_moments.sto", "report.html",

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -6,6 +8,7 @@
 #include "io/report_page.h"
 #include "io/text.h"
 #include "jobs/batch.h"
+#include "jobs/claim.h"
 
 namespace walktrack {
 
@@ -110,10 +113,25 @@ std::string overview_html(const std::vector<Sequence>& sequences,
        {"<!--ROWS-->\n", rows}});
 }
 
+// One writer at a time: whoever holds the folder may clear what one that was killed has left.
+Claim claim_of(const std::filesystem::path& folder) {
+  for (;;) {
+    if (auto claim = Claim::try_take(folder)) return std::move(*claim);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+void remove_temporaries(const std::filesystem::path& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (is_temporary_name(entry.path().filename().string())) std::filesystem::remove(entry.path());
+}
+
 }  // namespace
 
 void write_batch_reports(const std::vector<Sequence>& sequences,
                          const std::filesystem::path& output) {
+  const Claim claim = claim_of(output);
+  remove_temporaries(output);
   std::vector<SequenceResult> results;
   for (const Sequence& sequence : sequences) results.push_back(result_of(sequence));
   write_file_atomically(output / "summary.csv", summary_csv(sequences, results));

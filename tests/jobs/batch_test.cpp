@@ -143,6 +143,16 @@ TEST_F(BatchTest, RetriesNoneButThoseThatFailed) {
   EXPECT_TRUE(sequences_to_do(job_).empty());
 }
 
+TEST_F(BatchTest, ClearsWhatAWorkerLeftThatWasKilledOverTheSummary) {
+  add("a", "ok");
+  folder_.write("out/summary.csv.7112345.tmp", "half");
+  folder_.write("out/notes.tmp", "mine");
+  run_batch(job_, {});
+  EXPECT_FALSE(fs::exists(job_.output / "summary.csv.7112345.tmp"));
+  EXPECT_TRUE(fs::exists(job_.output / "notes.tmp"));
+  EXPECT_FALSE(fs::exists(job_.output / Claim::kFile));
+}
+
 TEST_F(BatchTest, ShardsCoverEverySequenceOnce) {
   for (int i = 0; i < 7; ++i) add(numbered(i), "ok");
   const auto all = find_sequences(job_.folder, job_.output);
