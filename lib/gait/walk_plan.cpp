@@ -42,7 +42,7 @@ SpeedRange speed_range(const GaitPrior& prior, const KneedParameters& parameters
 
 PriorGait first_gait(const GaitPrior& prior, const KneedParameters& parameters,
                      const WalkPlan& plan, double time, PlanProgress& progress) {
-  const PriorGait gait = gait_of_plan(prior, parameters, plan, plan.speed);
+  PriorGait gait = gait_of_plan(prior, parameters, plan, plan.speed);
   progress = {time, plan.speed, gait.vector.tail<kSectionSize>()};
   return gait;
 }

@@ -12,7 +12,7 @@ namespace {
 void check_speeds(const GaitPrior& prior, const KneedParameters& parameters, const WalkPlan& plan) {
   constexpr double kRounding = 1.01;  // 2.2 m/s is in a table that ends at 2.199
   const auto [least, most] = speed_range(prior, parameters);
-  const auto check = [least, most](double speed) {
+  const auto check = [least = least, most = most](double speed) {
     if (speed * kRounding >= least && speed <= most * kRounding) return;
     throw UsageError(
         describe({"", 0, "speed"}, fmt::format("{:g} m/s", speed),
