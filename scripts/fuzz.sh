@@ -27,7 +27,7 @@ if [ ${#targets[@]} -eq 0 ]; then
 fi
 for target in "${targets[@]}"; do
   log=build/fuzz/$target.log
-  if ! build/fuzz/fuzz_"$target" $limit -max_len=4096 -timeout=10 -seed="${FUZZ_SEED:-0}" -print_final_stats=1 \
+  if ! build/fuzz/fuzz_"$target" $limit -max_len=4096 -timeout=60 -seed="${FUZZ_SEED:-0}" -print_final_stats=1 \
       -artifact_prefix=build/fuzz/ -dict=tests/fuzz/words.dict \
       build/fuzz/corpus/"$target" tests/fuzz/corpus/"$target" >"$log" 2>&1; then
     tail -40 "$log"

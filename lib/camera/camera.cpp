@@ -112,12 +112,15 @@ Bent bend_everywhere(const Camera& camera, const Vector2d& point) {
           rim.point * unit.transpose() / camera.trusted_radius + rim.jacobian * across};
 }
 
-// Whether the lens still spreads the rays at this radius: along sixteen spokes, the bent point
-// moves outwards with the point, and neither folds (slope 0) nor flies to a pole (slope infinite).
+// Whether the lens still spreads the rays at this radius: along sixteen spokes (one of a fisheye,
+// which is the same all around), the bent point moves outwards with the point, and neither folds
+// (slope 0) nor flies to a pole (slope infinite).
 bool spreads(const Camera& camera, double radius) {
   // The tangent of an angle flattens by nature; of a fisheye it counts that the angle grows.
-  const double stretch = camera.lens == Lens::kFisheye ? 1 + radius * radius : 1;
-  for (int spoke = 0; spoke < 16; ++spoke) {
+  const bool fisheye = camera.lens == Lens::kFisheye;
+  const double stretch = fisheye ? 1 + radius * radius : 1;
+  const int spokes = fisheye ? 1 : 16;
+  for (int spoke = 0; spoke < spokes; ++spoke) {
     const double angle = spoke * kPi / 8;
     const Vector2d unit(std::cos(angle), std::sin(angle));
     const Matrix2d jacobian = bend(camera, radius * unit).jacobian;

@@ -21,6 +21,14 @@ TEST(NearestWord, FindsATypoAndRefusesAStranger) {
   EXPECT_EQ(nearest_word("sed", keys), "seed");
   EXPECT_EQ(nearest_word("background", keys), "");
   EXPECT_EQ(nearest_word("", {}), "");
+  // At the bound: two letters more than six, of which two may differ.
+  EXPECT_EQ(nearest_word("speeds", {"speedsxx"}), "speedsxx");
+  EXPECT_EQ(nearest_word("speeds", {"speedsxxx"}), "");
+}
+
+// Each letter of the word times each of the candidate would be 1e10 steps, half a minute.
+TEST(NearestWord, OfAMegabyteComesAtOnce) {
+  EXPECT_EQ(nearest_word(std::string(1 << 20, 'x'), {std::string(10'000, 'x')}), "");
 }
 
 }  // namespace
