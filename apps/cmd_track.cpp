@@ -26,9 +26,9 @@ int exit_code(TrackStatus status) {
     case TrackStatus::kInterrupted:
       return kInterrupted;
     case TrackStatus::kCutShort:
-      return kUnreadable;
+      break;  // an error of the input
   }
-  return kFailed;
+  return kUnreadable;
 }
 
 double above_zero(const char* option, const std::string& text) {
@@ -85,10 +85,13 @@ int run_track(const Arguments& arguments) {
   Terminal terminal(line.common());
   const JobControl control = terminal.control();
   const TrackOutcome outcome = track_scene(job, control);
-  if (!outcome.trouble.empty()) control.say(outcome.trouble);
+  const bool cut_short = outcome.status == TrackStatus::kCutShort;
+  if (!outcome.trouble.empty() && !cut_short) control.say(outcome.trouble);
   if (outcome.resumable) control.say("interrupted; run again with --resume to go on from here");
   control.say(fmt::format("{} of {} frames tracked, {:.1f} frames/s; open {}", outcome.tracked,
                           outcome.frames, outcome.frames_per_second, outcome.look_at.string()));
+  // Said last, and even with --quiet, though what came before it is kept.
+  if (cut_short) throw InputError(outcome.trouble);
   return exit_code(outcome.status);
 }
 

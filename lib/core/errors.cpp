@@ -14,6 +14,9 @@ std::string describe(const InputPlace& place, std::string_view found, std::strin
   if (!place.key.empty()) text += fmt::format("{}: ", place.key);
   text += fmt::format("found {}", found);
   if (!allowed.empty()) text += fmt::format(", allowed: {}", allowed);
+  // One line, which does nothing to a terminal, whatever was found.
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
   return text;
 }
 

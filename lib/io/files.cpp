@@ -73,6 +73,10 @@ std::string read_text_file(const fs::path& path, size_t max_bytes) {
   if (fs::is_directory(status)) {
     throw InputError(fmt::format("{}: found a folder, allowed: a file", path.string()));
   }
+  // Elsewhere than in /dev, where a shell's own pipes are, nobody may ever write to a pipe.
+  if (!fs::is_regular_file(status) && !path.string().starts_with("/dev/")) {
+    throw InputError(fmt::format("{}: found a pipe or a device, allowed: a file", path.string()));
+  }
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(complaint(path, "cannot be opened", errno));
   std::string text;

@@ -10,8 +10,8 @@
 
 namespace walktrack {
 
-// The whole file. InputError naming the file and the reason, also when it is a folder or larger
-// than `max_bytes`.
+// The whole file. InputError naming the file and the reason, also when it is a folder, a pipe (but
+// /dev/stdin and its like) or larger than `max_bytes`.
 std::string read_text_file(const std::filesystem::path& path, size_t max_bytes);
 
 // The whole text as one finite number in C notation, blanks around it ignored; nullopt if it is

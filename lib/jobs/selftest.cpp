@@ -25,7 +25,7 @@ constexpr size_t kMaxLogBytes = 16u << 20;
 // Of one trial: many times what a sound one takes, so that a busy machine does not look like a
 // hang.
 constexpr ChildLimits kLimits{.seconds = 300, .memory_mb = 4096};
-constexpr ChildLimits kStressLimits{.seconds = 900, .memory_mb = 12'288};
+constexpr ChildLimits kStressLimits{.seconds = 3600, .memory_mb = 12'288};
 
 struct Running {
   size_t index;
@@ -105,6 +105,12 @@ std::vector<TrialResult> run_selftest(const SelftestJob& job, const JobControl& 
       return true;
     });
     control.progress("trials", next - running.size(), names.size());
+  }
+  while (!running.empty()) {  // told to stop: ends them, and leaves nothing of them
+    const size_t index = running.front().index;
+    running.pop_front();
+    fs::remove_all(place(index));
+    fs::remove(log(index));
   }
   std::vector<TrialResult> finished;
   for (size_t i = 0; i < names.size(); ++i) {

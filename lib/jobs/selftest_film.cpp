@@ -1,5 +1,7 @@
 #include "jobs/selftest_film.h"
 
+#include <malloc.h>
+
 #include <cmath>
 
 #include <fmt/format.h>
@@ -27,6 +29,8 @@ constexpr double kLeastMass = 0.5;  // kg, that a scene may state
 constexpr double kFarthest = 1000;  // m; nobody walks out of that in a self-test
 constexpr size_t kMaxTableBytes = 64u << 20;
 constexpr int kBackgroundFrames = 10;
+constexpr size_t kSettled = 100;   // frames after which all that a tracker needs is there
+constexpr double kMostGrowth = 1;  // MB from then on: less than twenty pictures
 constexpr uint32_t kFilmStream = 0, kBackgroundStream = 1;
 
 struct Shot {
@@ -118,13 +122,32 @@ ConfigWithOrigin config_of(const Film& film) {
   return config;
 }
 
-TrackOutcome track(const fs::path& scene, ConfigWithOrigin config, const fs::path& output) {
+// MB on the heap. Not what is resident, which is up to the kernel as well.
+double heap_memory() {
+  const struct mallinfo2 heap = mallinfo2();
+  return static_cast<double>(heap.uordblks + heap.hblkhd) / (1 << 20);
+}
+
+// What memory tracking took, from one frame to the last.
+struct MemoryWatch {
+  double settled = 0, last = 0;  // MB
+
+  void look(const Progress& progress) {
+    if (progress.what != "tracking") return;
+    last = heap_memory();
+    if (progress.done <= kSettled) settled = last;
+  }
+  double growth() const { return last - settled; }
+};
+
+TrackOutcome track(const fs::path& scene, ConfigWithOrigin config, const fs::path& output,
+                   const JobControl& control) {
   TrackJob job;
   job.scene = read_scene(scene);
   job.config = std::move(config);
   job.output = output;
   job.overlay = false;
-  return track_scene(job, {});
+  return track_scene(job, control);
 }
 
 // What no result may hold; empty if it does not. The reader refuses cells that are no numbers.
@@ -205,8 +228,18 @@ TrialResult try_film(const Film& film, const fs::path& folder) {
     Shot shot = shoot(film);
     const fs::path scene = write_scene(film, shot, folder);
     shot.frames.clear();  // so that the memory told is the tracker's
-    return judged(track(scene, std::move(config), folder / "result"), shot.truth,
-                  folder / "result");
+    const fs::path output = folder / "result";
+    MemoryWatch memory;
+    JobControl control;
+    if (film.watch_memory)
+      control.report = [&](const Progress& progress) { memory.look(progress); };
+    TrialResult result =
+        judged(track(scene, std::move(config), output, control), shot.truth, output);
+    if (film.watch_memory) {
+      result.what += fmt::format("; {:+.1f} MB since frame {}", memory.growth(), kSettled);
+      if (memory.growth() > kMostGrowth) result.end = TrialEnd::kFailed;
+    }
+    return result;
   } catch (const InputError& error) {
     return {.end = TrialEnd::kReported, .what = error.what()};
   } catch (const UsageError& error) {

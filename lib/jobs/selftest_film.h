@@ -26,6 +26,7 @@ struct Film {
   bool state_initial = true;           // whether the scene says where the walk begins
   std::string scene_lines;             // more of scene.yaml
   std::vector<std::string> settings;   // of the configuration, key=value
+  bool watch_memory = false;           // fails if tracking takes more of it from frame to frame
 };
 
 // A walk of two seconds across the picture of a camera of 160 x 120 pixels at the side.

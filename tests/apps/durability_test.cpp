@@ -296,6 +296,7 @@ TEST_F(Durability, BrokenSequencesCostOneRowEach) {
     EXPECT_THAT(line, HasSubstr(": exit 3: ")) << "a reason of the input's";
   }
   EXPECT_EQ(named, kinds);
+  EXPECT_THAT(read_file(folder_ / "out/failures.txt"), HasSubstr("frame 1 is 96x71 px"));
   RecordProperty("peak_memory_mb", static_cast<int>(program.peak_memory()));
   // The largest process of all: one that tracks 96 x 72 pixels, not a batch that grows.
   EXPECT_LT(program.peak_memory(), 200);

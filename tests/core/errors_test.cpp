@@ -15,6 +15,11 @@ TEST(Describe, LeavesOutWhatIsUnknown) {
   EXPECT_EQ(describe({"a.csv", 0, ""}, "no rows", ""), "a.csv: found no rows");
 }
 
+TEST(Describe, IsOneLineThatDoesNothingToATerminal) {
+  EXPECT_EQ(describe({"a\nb.yaml", 3, "k\t"}, "'\x1b[2J\x7f'", "\xC3\xBC"),
+            "a b.yaml:3: k : found ' [2J ', allowed: \xC3\xBC");
+}
+
 TEST(NearestWord, FindsATypoAndRefusesAStranger) {
   const std::vector<std::string> keys{"particles", "seed", "flow"};
   EXPECT_EQ(nearest_word("particels", keys), "particles");

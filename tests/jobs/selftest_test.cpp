@@ -12,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 TEST(Trial, EndsAsItsExtremeDeserves) {
   const TemporaryFolder folder;
@@ -40,6 +41,23 @@ TEST(TrialLine, ComesBackAsItWas) {
   EXPECT_EQ(again.peak_memory, 12);
   EXPECT_EQ(trial_from_line("n", "terminate called").end, TrialEnd::kFailed);
   EXPECT_EQ(trial_from_line("n", "terminate called").what, "terminate called");
+}
+
+TEST(Selftest, ToldToStopItLeavesNothing) {
+  const TemporaryFolder folder;
+  SelftestJob job;
+  const std::string script = folder.write(
+      "trial.sh", "#!/bin/sh\nmkdir -p \"$3\" && touch \"$3/film\" && exec sleep 60\n");
+  fs::permissions(script, fs::perms::owner_all);
+  job.command = {script};
+  job.folder = folder.path() / "work";
+  std::atomic<bool> stop = false;
+  JobControl control{.stop_request = &stop};
+  control.report = [&](const Progress&) {
+    if (fs::exists(job.folder / "00/film")) stop = true;
+  };
+  EXPECT_THAT(run_selftest(job, control), IsEmpty());
+  EXPECT_TRUE(fs::is_empty(job.folder));
 }
 
 TEST(Selftest, TellsOfCrashesAndOfProcessesThatSayNothing) {
