@@ -8,6 +8,7 @@
 
 #include "body/kinematics.h"
 #include "core/conventions.h"
+#include "tracker/new_step.h"
 
 namespace walktrack {
 
@@ -206,7 +207,7 @@ MarkovConstants markov_constants(Extra extra) {
     case kCrouch:
       return {deg(8), 3, deg(3), deg(-10), deg(40)};
     case kTilt:
-      return {0, 0.5, deg(6), deg(-20), deg(40)};
+      return {0, 1, deg(9), deg(-20), deg(40)};
     case kThigh:
     case kThighRight:
       return {0, 0.15, deg(6), deg(-30), deg(30)};
@@ -257,8 +258,14 @@ Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng)
 
 Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   particle.arriving = false;
-  particle.pose_before = particle.pose;
+  particle.log_prior = 0;
   predict_extras(context, particle);
+  if (rng.uniform() < context.config.new_steps * context.dt) {
+    begin_step_anew(context, particle, rng);
+    particle.log_prior = -kNewStepCost;
+    return predict(context, particle, rng) ? Outcome::kAlive : Outcome::kDead;
+  }
+  particle.pose_before = particle.pose;
   const Outcome outcome = simulate(context, particle, rng);
   return predict(context, particle, rng) ? outcome : Outcome::kDead;
 }

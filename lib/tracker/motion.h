@@ -33,6 +33,7 @@ struct MotionConfig {
   double control_noise = 0.05;  // relative, per step (gait/gait_prior.h)
   double feedback = 1;          // strength of the correction of controls at a support transfer
   double aim_drift = 0.06;      // relative, per step, of the speed and the step length aimed at
+  double new_steps = 1;         // 1/s: particles that begin a step anew (tracker/new_step.h)
   double torque_noise_scale = 0.15;  // multiplies all five torques
 };
 

@@ -95,6 +95,7 @@ struct WalkerParticle {
 
   KneedControls controls;
   StepAim aim;
+  double log_prior = 0;  // of this frame's prediction, where proposals differ from it, nats
 };
 
 // What all particles of a scene share.
