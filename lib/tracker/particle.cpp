@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "body/kinematics.h"
+#include "core/conventions.h"
 #include "tracker/stride.h"
 
 namespace walktrack {
@@ -12,10 +13,15 @@ namespace {
 
 size_t index(Side side) { return static_cast<size_t>(side); }
 
-// Knees do not bend backwards: the leg's shank follows its thigh.
+// Knees do not bend backwards, nor further than until the heel meets the thigh: there the leg's
+// shank follows its thigh.
 void keep_knees(KneedState& s) {
-  s.q[kStanceShank] = std::max(s.q[kStanceShank], s.q[kStanceThigh]);
-  s.q[kSwingShank] = std::max(s.q[kSwingShank], s.q[kSwingThigh]);
+  constexpr double kDeepestBend = 150 * kPi / 180;  // rad
+  const auto keep = [&](int shank, int thigh) {
+    s.q[shank] = std::clamp(s.q[shank], s.q[thigh], s.q[thigh] + kDeepestBend);
+  };
+  keep(kStanceShank, kStanceThigh);
+  keep(kSwingShank, kSwingThigh);
 }
 
 // A normal number made heavy-tailed: people mostly walk straight on, but when they turn, they turn.
