@@ -26,12 +26,12 @@ void begin_step_anew(const MotionContext& context, WalkerParticle& particle, Rng
   const Eigen::Vector2d root = 2 * root_before - particle.pose_before.root.head<2>();
   const PriorGait gait = aim_anew(context, particle, rng);
   const KneedModel& model = context.model.walker;
-  const double phase = rng.uniform();
+  const double phase = rng.uniform(), elapsed = std::min(context.dt, phase * gait.period);
   if (rng.uniform() < 0.5) particle.stance = other(particle.stance);
   particle.controls = gait.controls;
-  particle.walker = state_at_phase(model, gait, phase);
-  const KneedState earlier =
-      state_at_phase(model, gait, std::max(0.0, phase - context.dt / gait.period));
+  const KneedState earlier = state_at_phase(model, gait, phase - elapsed / gait.period);
+  particle.walker = earlier;
+  kneed_advance(model, gait.controls, Vector5::Zero(), particle.walker, elapsed);
   const auto posed = [&](const KneedState& walker, const Extras& extra) {
     return pose_of(context.model, walker, particle.stance, particle.aim, Eigen::Vector2d::Zero(),
                    extra);
