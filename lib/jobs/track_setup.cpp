@@ -51,9 +51,10 @@ BackgroundModel learn_background(const SceneCamera& camera, const BackgroundConf
   BackgroundSampler sampler(config, shrink);
   const auto total = static_cast<size_t>(source.facts().frame_count);
   cv::Mat frame;
-  for (size_t done = 0; source.read(frame) && !control.stopping(); ++done) {
+  for (size_t done = 0; source.read(frame); ++done) {
     sampler.add(frame);
     control.progress("learning the background", done, total);
+    if (control.stopping()) break;  // not before there is a frame, without which there is no model
   }
   return sampler.model();
 }

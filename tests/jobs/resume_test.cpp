@@ -152,6 +152,16 @@ TEST_F(Resume, WhoIsToldToStopLeavesACheckpointOfThatFrame) {
   EXPECT_EQ(found, whole);
 }
 
+TEST_F(Resume, WhoIsToldToStopBeforeTheFirstFrameIsInterruptedToo) {
+  const std::atomic<bool> stop{true};
+  JobControl control;
+  control.stop_request = &stop;
+  const TrackOutcome outcome = track_scene(job("stopped"), control);
+  EXPECT_EQ(outcome.status, TrackStatus::kInterrupted);
+  EXPECT_EQ(outcome.frames, 0);
+  EXPECT_FALSE(outcome.resumable);
+}
+
 TEST_F(Resume, ACheckpointOfSomethingElseIsRefusedOrLeftBehind) {
   kill(job("killed"), 12);
   TrackJob other = job("killed");
