@@ -4,6 +4,9 @@
 //
 // A frame number counts from 0 at the first frame of the source. Nothing is ever seeked: seeking in
 // compressed video is inexact, so frames before the wanted one are decoded and dropped.
+//
+// Images that change their size are trouble of that frame. Of a video that does so in mid-stream
+// OpenCV 4.6 passes frames on in the first one's size, cut off or filled up, and does not tell.
 #pragma once
 
 #include <filesystem>
