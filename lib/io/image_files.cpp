@@ -155,7 +155,8 @@ bool natural_less(const std::string& a, const std::string& b) {
 }
 
 std::vector<fs::path> image_files(const fs::path& path) {
-  if (fs::is_directory(path)) return images_of_folder(path);
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) return images_of_folder(path);
   if (is_frame_pattern(path)) return images_of_pattern(path);
   if (is_image(path)) return {path};
   return {};

@@ -249,7 +249,8 @@ Scene read_scene(const fs::path& path) {
 }
 
 bool is_frame_pattern(const fs::path& path) {
-  return path.filename().string().find('%') != std::string::npos && !fs::exists(path);
+  std::error_code ignored;  // a name that is too long exists no more than others
+  return path.filename().string().find('%') != std::string::npos && !fs::exists(path, ignored);
 }
 
 }  // namespace walktrack

@@ -29,8 +29,7 @@ constexpr double kLeastMass = 0.5;  // kg, that a scene may state
 constexpr double kFarthest = 1000;  // m; nobody walks out of that in a self-test
 constexpr size_t kMaxTableBytes = 64u << 20;
 constexpr int kBackgroundFrames = 10;
-constexpr size_t kSettled = 100;   // frames after which all that a tracker needs is there
-constexpr double kMostGrowth = 1;  // MB from then on: less than twenty pictures
+constexpr double kMostGrowth = 1;  // MB, from the first half of a film to the second
 constexpr uint32_t kFilmStream = 0, kBackgroundStream = 1;
 
 struct Shot {
@@ -128,16 +127,17 @@ double heap_memory() {
   return static_cast<double>(heap.uordblks + heap.hblkhd) / (1 << 20);
 }
 
-// What memory tracking took, from one frame to the last.
+// The most memory that tracking took in each half of the film: searching takes more than following,
+// and both happen in both.
 struct MemoryWatch {
-  double settled = 0, last = 0;  // MB
+  double first_half = 0, second_half = 0;  // MB
 
   void look(const Progress& progress) {
     if (progress.what != "tracking") return;
-    last = heap_memory();
-    if (progress.done <= kSettled) settled = last;
+    double& half = 2 * progress.done <= progress.total ? first_half : second_half;
+    half = std::max(half, heap_memory());
   }
-  double growth() const { return last - settled; }
+  double growth() const { return second_half - first_half; }
 };
 
 TrackOutcome track(const fs::path& scene, ConfigWithOrigin config, const fs::path& output,
@@ -236,7 +236,7 @@ TrialResult try_film(const Film& film, const fs::path& folder) {
     TrialResult result =
         judged(track(scene, std::move(config), output, control), shot.truth, output);
     if (film.watch_memory) {
-      result.what += fmt::format("; {:+.1f} MB since frame {}", memory.growth(), kSettled);
+      result.what += fmt::format("; second half {:+.1f} MB", memory.growth());
       if (memory.growth() > kMostGrowth) result.end = TrialEnd::kFailed;
     }
     return result;
