@@ -94,7 +94,7 @@ std::string table(std::string text, const Kinetics& kinetics, const KineticsBand
                                            ? values_of(kinetics.frames[i], world)
                                            : std::vector<double>(names.size(), kNone);
     for (size_t k = 0; k < names.size(); ++k) {
-      const double half = bands.half_width(i, k);
+      const double half = bands.half_width(i, k, kinetics.frames[i]);
       for (const double value : {values[k], values[k] - half, values[k] + half})
         append_number(text, ',', value);
     }
@@ -122,11 +122,21 @@ void KineticsBands::add(const Kinetics& member) {
   }
 }
 
-double KineticsBands::half_width(size_t row, size_t column) const {
+// The part of the vertical load's error in a column, N; columns are those of values_of().
+double KineticsBands::model_error(size_t column, const KineticsFrame& frame) const {
+  constexpr size_t kFirstFoot = 3, kColumnsOfFoot = 7, kAxes = 3;
+  if (column < kFirstFoot || column >= kFirstFoot + 2 * kColumnsOfFoot) return 0;
+  const size_t foot = (column - kFirstFoot) / kColumnsOfFoot;
+  const size_t axis = (column - kFirstFoot) % kColumnsOfFoot;
+  if (axis >= kAxes || !frame.feet[foot].centre.allFinite()) return 0;
+  return load_error_ * std::abs(world_.rotation(2, static_cast<Eigen::Index>(axis)));
+}
+
+double KineticsBands::half_width(size_t row, size_t column, const KineticsFrame& frame) const {
   if (row >= rows_.size() || rows_[row].members == 0) return kNone;
   const Sum& sum = rows_[row].columns[column];
   if (sum.count < 2 || 2 * sum.count < rows_[row].members) return kNone;
-  return kBandSd * std::sqrt(sum.squares / (sum.count - 1));
+  return kBandSd * std::hypot(std::sqrt(sum.squares / (sum.count - 1)), model_error(column, frame));
 }
 
 std::string kinetics_csv(const Kinetics& kinetics, const KineticsBands& bands,

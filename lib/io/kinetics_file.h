@@ -8,7 +8,8 @@
 //     ankle_dorsiflexion_nm, powers hip_w, knee_w, ankle_w,
 //   kinetic_energy_j, potential_energy_j, unexplained_force_n, unexplained_moment_nm,
 // each but t followed by its 5-95 % band, <column>_p05 and _p95: the value -/+ 1.645 standard
-// deviations over the members, empty without members. Vectors are in the calibration's world axes.
+// deviations over the members, empty without members; of a loaded foot's vertical force together
+// with the model's error, if one is given. Vectors are in the calibration's world axes.
 // Rows without a known body are empty but for t.
 #pragma once
 
@@ -26,12 +27,14 @@ namespace walktrack {
 // members come (Welford 1962), so that none has to be kept.
 class KineticsBands {
  public:
-  explicit KineticsBands(const WorldFrame& world) : world_(world) {}
+  // `load_error`: of a foot's vertical load beyond what members differ, N.
+  explicit KineticsBands(const WorldFrame& world, double load_error = 0)
+      : world_(world), load_error_(load_error) {}
   // The kinetics of another motion over the same times.
   void add(const Kinetics& member);
-  // Half the band's width in a column of a row; NaN unless two members, and half of those that know
-  // the row's body, know it.
-  double half_width(size_t row, size_t column) const;
+  // Half the band's width in a column of a row, whose frame is `frame`; NaN unless two members, and
+  // half of those that know the row's body, know it.
+  double half_width(size_t row, size_t column, const KineticsFrame& frame) const;
 
  private:
   struct Sum {
@@ -42,7 +45,10 @@ class KineticsBands {
     int members = 0;
     std::vector<Sum> columns;
   };
+  double model_error(size_t column, const KineticsFrame& frame) const;
+
   WorldFrame world_;
+  double load_error_;
   std::vector<Row> rows_;
 };
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/version.h"
+#include "io/files.h"
 #include "io/sha256.h"
 
 namespace walktrack {
@@ -93,6 +94,16 @@ std::string run_json(const RunRecord& record) {
                     {"stage_cpu_seconds", object_of(record.stage_cpu_seconds)}};
   // Names come from outside and may be no UTF-8.
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::optional<std::string> command_of_result(const std::filesystem::path& folder) {
+  constexpr size_t kMaxBytes = size_t{1} << 30;
+  const std::filesystem::path file = folder / "run.json";
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  const Json root = Json::parse(read_text_file(file, kMaxBytes), nullptr, false);
+  if (!root.is_object() || !root.contains("command") || !root["command"].is_string())
+    return std::nullopt;
+  return root["command"].get<std::string>();
 }
 
 std::string result_digest(const std::string& joints_csv, const std::string& uncertainty_csv) {

@@ -5,6 +5,7 @@
 // block.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -48,6 +49,9 @@ struct RunRecord {
 };
 
 std::string run_json(const RunRecord& record);
+
+// The command that wrote the result folder ("track", …); nullopt where there is none.
+std::optional<std::string> command_of_result(const std::filesystem::path& folder);
 
 // SHA-256 of joints.csv and uncertainty.csv, one after the other.
 std::string result_digest(const std::string& joints_csv, const std::string& uncertainty_csv);

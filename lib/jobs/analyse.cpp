@@ -30,6 +30,11 @@ size_t whole_frames(const Motion& motion) {
       }));
 }
 
+// Tracked joints tremble more than measured ones: their forces want the tracked cut-off.
+bool was_tracked(const fs::path& motion) {
+  return command_of_result(motion.parent_path()) == "track";
+}
+
 RunRecord record_of(const AnalyseJob& job, const fs::path& file, const AnalysedMotion& analysed,
                     const KineticsTotals& totals) {
   RunRecord record;
@@ -40,6 +45,9 @@ RunRecord record_of(const AnalyseJob& job, const fs::path& file, const AnalysedM
   record.status = "analysed";
   if (!job.mass)
     record.notes.push_back("the subject's mass is not known: forces are those of 70 kg");
+  if (was_tracked(file))
+    record.notes.push_back(
+        "a tracked motion: forces are smoothed below kinetics.tracked_cutoff_hz");
   record.numbers = {{"frames", static_cast<double>(analysed.motion.time.size())},
                     {"tracked_frames", static_cast<double>(whole_frames(analysed.motion))},
                     {"height_m", analysed.subject.height},
@@ -69,7 +77,9 @@ AnalyseOutcome analyse(const AnalyseJob& job) {
   analysed.subject.mass = job.mass.value_or(Subject{}.mass);
   analysed.angles = angle_rows(analysed.motion, body_lengths(analysed.subject));
   const ResultFolder folder(job.output, job.overwrite);
-  const KineticsTotals totals = write_motion_tables(analysed, job.config.values.kinetics, folder);
+  KineticsConfig forces = job.config.values.kinetics;
+  if (was_tracked(file)) forces.cutoff_hz = forces.tracked_cutoff_hz;
+  const KineticsTotals totals = write_motion_tables(analysed, forces, folder);
   RunRecord record = record_of(job, file, analysed, totals);
   record.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const std::string text = run_json(record);

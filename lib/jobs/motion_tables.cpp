@@ -65,7 +65,8 @@ std::vector<FootContact> foot_contacts(const Gait& gait) {
 KineticsTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsConfig& config,
                                    const ResultFolder& folder) {
   write_angles(analysed, folder);
-  const GaitTable gait = gait_table(analysed.motion, analysed.members, analysed.transfers);
+  GaitTable gait = gait_table(analysed.motion, analysed.members, analysed.transfers);
+  add_gait_error(analysed.figure_error, analysed.model_error, gait);
   folder.write("gait.json", gait_json(gait));
   folder.write("gait.csv", gait_csv(gait));
   const auto contacts = foot_contacts(gait_from_motion(analysed.motion));
@@ -73,7 +74,8 @@ KineticsTotals write_motion_tables(const AnalysedMotion& analysed, const Kinetic
     return kinetics(motion, contacts, analysed.subject, analysed.gravity, config);
   };
   const Kinetics result = forces(analysed.motion);
-  KineticsBands bands(analysed.world);
+  const double weight = analysed.subject.mass * analysed.gravity.norm();
+  KineticsBands bands(analysed.world, analysed.model_error * kTrackedLoadError * weight);
   for (size_t m = 0; m < analysed.members.size; ++m) bands.add(forces(analysed.members.member(m)));
   folder.write("kinetics.csv",
                kinetics_csv(result, bands, analysed.subject, config, analysed.world));

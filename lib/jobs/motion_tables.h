@@ -9,7 +9,7 @@
 #include "io/angles_file.h"
 #include "io/result_folder.h"
 #include "kinetics/kinetics.h"
-#include "metrics/gait_table.h"
+#include "metrics/gait_error.h"
 
 namespace walktrack {
 
@@ -22,6 +22,8 @@ struct AnalysedMotion {
   Subject subject;
   Eigen::Vector3d gravity{0, 0, -9.80665};  // m/s^2
   WorldFrame world;                         // of the tables
+  FigureError figure_error;  // with model_error: what gait's bands hold beyond the members
+  double model_error = 0;
 };
 
 // The stances as contacts. A stance that an end of the motion cuts, while the other foot's event

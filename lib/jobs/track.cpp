@@ -187,7 +187,8 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
   outcome.tracked = count(frames).tracked;
   const Moment writing;
-  const AnalysedMotion analysed = analysed_motion(frames, job.scene);
+  const AnalysedMotion analysed =
+      analysed_motion(frames, job.scene, job.config.values.tracker.model_error);
   const JointUncertainty uncertainty = uncertainty_of(frames);
   KineticsConfig forces = job.config.values.kinetics;
   forces.cutoff_hz = forces.tracked_cutoff_hz;

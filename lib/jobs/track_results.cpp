@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
@@ -11,6 +12,7 @@
 #include "io/run_record.h"
 #include "io/scene_video.h"
 #include "io/video_writer.h"
+#include "tracker/model_error.h"
 
 namespace walktrack {
 
@@ -46,6 +48,32 @@ std::vector<AngleRow> angles_of(const TrackedFrames& frames) {
     }
   }
   return rows;
+}
+
+// Where the walker is halfway through what was tracked.
+FigureError figure_error_of(const Motion& motion, const Scene& scene) {
+  std::vector<const JointPositions*> seen;
+  for (const JointPositions& joints : motion.joints)
+    if (known(joints[Joint::kPelvis])) seen.push_back(&joints);
+  if (seen.empty()) return {};
+  const JointPositions& joints = *seen[seen.size() / 2];
+  std::vector<Camera> cameras;
+  for (const SceneCamera& each : scene.cameras) cameras.push_back(each.camera);
+  const Eigen::Vector3d pelvis = joints[Joint::kPelvis];
+  const Eigen::Matrix3d covariance =
+      figure_covariance(cameras, joints[Joint::kHead],
+                        0.5 * (joints[Joint::kLeftAnkle] + joints[Joint::kRightAnkle]));
+  const auto sd_along = [&](const Eigen::Vector3d& way) {
+    return std::sqrt(way.dot(covariance * way));
+  };
+  FigureError out{std::numeric_limits<double>::infinity(), 0};
+  for (const Camera& camera : cameras) {
+    const Eigen::Vector3d ray = pelvis - camera_centre(camera);
+    out.scale = std::min(out.scale, sd_along(ray.normalized()) / ray.norm());
+  }
+  const Eigen::Vector3d way = (*seen.back())[Joint::kPelvis] - (*seen.front())[Joint::kPelvis];
+  out.across = sd_along(Eigen::Vector3d::UnitZ().cross(way).stableNormalized());
+  return out;
 }
 
 }  // namespace
@@ -129,10 +157,19 @@ std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames) {
   return out;
 }
 
-AnalysedMotion analysed_motion(const TrackedFrames& frames, const Scene& scene) {
-  return {motion_of(frames), ensemble_of(frames), support_transfers_of(frames),
-          angles_of(frames), frames.frame_rate,   scene.subject,
-          scene.gravity,     scene.world};
+AnalysedMotion analysed_motion(const TrackedFrames& frames, const Scene& scene,
+                               double model_error) {
+  const Motion motion = motion_of(frames);
+  return {motion,
+          ensemble_of(frames),
+          support_transfers_of(frames),
+          angles_of(frames),
+          frames.frame_rate,
+          scene.subject,
+          scene.gravity,
+          scene.world,
+          figure_error_of(motion, scene),
+          model_error};
 }
 
 WrittenTables write_tables(const AnalysedMotion& analysed, const JointUncertainty& uncertainty,

@@ -34,7 +34,8 @@ struct WrittenTables {
   std::string digest;  // of joints.csv and uncertainty.csv
   KineticsTotals totals;
 };
-AnalysedMotion analysed_motion(const TrackedFrames& frames, const Scene& scene);
+// `model_error` multiplies what gait's bands hold beyond the particles' spread.
+AnalysedMotion analysed_motion(const TrackedFrames& frames, const Scene& scene, double model_error);
 WrittenTables write_tables(const AnalysedMotion& analysed, const JointUncertainty& uncertainty,
                            const KineticsConfig& config, const ResultFolder& folder);
 

@@ -13,7 +13,8 @@ using Eigen::Vector2d;
 
 constexpr double kPathWindow = 0.5;      // s; about a step, so that sway and bounce average out
 constexpr double kMatchWithin = 0.25;    // s; under half of the shortest usual stride
-constexpr double kLanded = 0.5;          // of the pelvis's speed; see the header
+constexpr double kRetraction = 0.045;    // of the stride, from the turning point; see the header
+constexpr double kUsualStride = 1.1;     // s, where a motion has one turning point
 constexpr double kLeastProgress = 0.15;  // m/s; slower than any walk, the direction means nothing
 
 // Consecutive rows [begin, end) in which pelvis and feet are known.
@@ -112,41 +113,54 @@ std::vector<size_t> maxima(const std::vector<double>& signal) {
   return found;
 }
 
-// When the ankle, furthest ahead of the pelvis at row `i` of the run, has slowed down to kLanded of
-// the pelvis's speed; nullopt if the run ends before.
-std::optional<double> landing_time(const Motion& motion, const Run& run, Side side, size_t i) {
-  const auto moved = [&](size_t row, Joint joint) {
-    return ground(motion.joints[row + 1][joint] - motion.joints[row - 1][joint]);
-  };
-  double before = 0;
-  for (size_t row = run.begin + std::max<size_t>(i, 1); row + 1 < run.end; ++row) {
-    const Vector2d pelvis = moved(row, Joint::kPelvis);
-    const double speed = moved(row, ankle(side)).dot(pelvis) / pelvis.squaredNorm();
-    if (!(speed > kLanded)) {
-      const double share = before > kLanded ? (speed - kLanded) / (speed - before) : 0;
-      return motion.time[row] - share * (motion.time[row] - motion.time[row - 1]);
-    }
-    before = speed;
-  }
-  return std::nullopt;
-}
-
-void add_events(const Motion& motion, const Run& run, const std::vector<Vector2d>& direction,
-                Side side, std::vector<GaitEvent>& events) {
+// How far the ankle is ahead of the pelvis and the toe behind it, along the direction of walking.
+struct FootSignals {
   std::vector<double> ankle_ahead, toe_behind;
+};
+
+FootSignals foot_signals(const Motion& motion, const Run& run,
+                         const std::vector<Vector2d>& direction, Side side) {
+  FootSignals out;
   for (size_t i = run.begin; i < run.end; ++i) {
     const JointPositions& joints = motion.joints[i];
     const Vector2d pelvis = ground(joints[Joint::kPelvis]);
     const Vector2d& way = direction[i - run.begin];
-    ankle_ahead.push_back(way.dot(ground(joints[ankle(side)]) - pelvis));
-    toe_behind.push_back(-way.dot(ground(joints[toe(side)]) - pelvis));
+    out.ankle_ahead.push_back(way.dot(ground(joints[ankle(side)]) - pelvis));
+    out.toe_behind.push_back(-way.dot(ground(joints[toe(side)]) - pelvis));
   }
-  for (const size_t i : maxima(ankle_ahead)) {
-    const auto landed = landing_time(motion, run, side, i);
-    if (landed) events.push_back({*landed, side, GaitEventKind::kFootStrike});
+  return out;
+}
+
+// Twice the mean time between turning points of the two feet in turn.
+double stride_time(const std::vector<GaitEvent>& turns) {
+  if (turns.size() < 2) return kUsualStride;
+  return 2 * (turns.back().time - turns.front().time) / static_cast<double>(turns.size() - 1);
+}
+
+std::vector<GaitEvent> events_of(const Motion& motion, const Run& run,
+                                 const std::vector<Vector2d>& direction) {
+  const auto sort = [](std::vector<GaitEvent>& events) {
+    std::stable_sort(events.begin(), events.end(),
+                     [](const GaitEvent& a, const GaitEvent& b) { return a.time < b.time; });
+  };
+  std::vector<GaitEvent> strikes, events;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const FootSignals foot = foot_signals(motion, run, direction, side);
+    for (const size_t i : maxima(foot.ankle_ahead))
+      strikes.push_back(
+          {refined_time(motion, run, foot.ankle_ahead, i), side, GaitEventKind::kFootStrike});
+    for (const size_t i : maxima(foot.toe_behind))
+      events.push_back(
+          {refined_time(motion, run, foot.toe_behind, i), side, GaitEventKind::kToeOff});
   }
-  for (const size_t i : maxima(toe_behind))
-    events.push_back({refined_time(motion, run, toe_behind, i), side, GaitEventKind::kToeOff});
+  sort(strikes);
+  const double retraction = kRetraction * stride_time(strikes);
+  for (GaitEvent& strike : strikes) {
+    strike.time += retraction;
+    if (strike.time <= motion.time[run.end - 1]) events.push_back(strike);
+  }
+  sort(events);
+  return events;
 }
 
 // Mean of the foot over the flat part of the stance, or over all of it if that part has no row.
@@ -253,11 +267,7 @@ Gait gait_from_motion(const Motion& motion) {
     for (size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
     duration += motion.time[run.end - 1] - motion.time[run.begin];
     const std::vector<Vector2d> direction = directions(motion, run, path);
-    std::vector<GaitEvent> events;
-    for (const Side side : {Side::kLeft, Side::kRight})
-      add_events(motion, run, direction, side, events);
-    std::stable_sort(events.begin(), events.end(),
-                     [](const GaitEvent& a, const GaitEvent& b) { return a.time < b.time; });
+    const std::vector<GaitEvent> events = events_of(motion, run, direction);
     for (const Side side : {Side::kLeft, Side::kRight})
       add_stances(motion, run, events, side, gait.stances);
     gait.events.insert(gait.events.end(), events.begin(), events.end());

@@ -11,7 +11,7 @@
 // between the 5 and 95 % points of the members that saw the same contact; a summary's, of how much
 // the members differ from the motion over the contacts that both have. NaN if fewer than half of
 // the members, or fewer than five, know. It says how far the tracker is from certain, not how far
-// its model is from the person.
+// its model is from the person; metrics/gait_error.h adds that.
 //
 // What few steps cannot tell is NaN too: a symmetry needs two contacts of either side, a spread
 // from step to step needs three steps.

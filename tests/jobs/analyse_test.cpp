@@ -71,6 +71,32 @@ TEST_F(Analyse, ForcesGoWithTheMass) {
   EXPECT_NEAR(whole, 2 * half, 1e-4);
 }
 
+// Joints that `track` wrote want its cut-off, wherever they are analysed.
+TEST_F(Analyse, ForcesOfATrackedFolderAreSmoothedAsTrackingDoes) {
+  const fs::path tracked = folder_.string() + "_tracked";
+  fs::create_directories(tracked);
+  fs::copy_file(kDemo / "truth.csv", tracked / "joints.csv", fs::copy_options::overwrite_existing);
+  const auto smoothed_below = [&](const fs::path& motion) {
+    AnalyseJob one = job(motion);
+    one.overwrite = true;
+    analyse(one);
+    const std::string text = read_text_file(folder_ / "kinetics.csv", size_t{1} << 24);
+    const std::string words = "smoothed without lag below ";
+    return std::stod(text.substr(text.find(words) + words.size()));
+  };
+  const KineticsConfig config;
+  EXPECT_EQ(smoothed_below(tracked), config.cutoff_hz);
+  for (const auto& [command, expected] :
+       {std::pair{"track", config.tracked_cutoff_hz}, std::pair{"analyse", config.cutoff_hz}}) {
+    write_file_atomically(tracked / "run.json", std::string(R"({"command": ")") + command + "\"}");
+    EXPECT_EQ(smoothed_below(tracked), expected) << command;
+    EXPECT_EQ(smoothed_below(tracked / "joints.csv"), expected) << command;
+  }
+  write_file_atomically(tracked / "run.json", "no JSON");
+  EXPECT_EQ(smoothed_below(tracked), config.cutoff_hz);
+  fs::remove_all(tracked);
+}
+
 // OpenSim storage files: columns by name.
 std::map<std::string, std::vector<double>> read_storage(const fs::path& file) {
   std::ifstream in(file);

@@ -53,7 +53,7 @@ TEST_F(MotionTables, OfTheDemoSayWhatTheDemoIs) {
   const auto gait = nlohmann::json::parse(read_text_file(folder_ / "gait.json", size_t{1} << 20));
   const auto& both = gait.at("summary").at("both");
   EXPECT_NEAR(both.at("speed_m_s").at("value").get<double>(), 1.25, 0.05);
-  // Three equal members leave no doubt.
+  // Three equal members leave no doubt, and of the model's error nothing was said.
   EXPECT_EQ(both["step_time_s"]["p05"], both["step_time_s"]["p95"]);
   EXPECT_TRUE(fs::exists(folder_ / "gait.csv"));
   const CsvTable table = read_csv(folder_ / "kinetics.csv");
@@ -70,6 +70,30 @@ TEST_F(MotionTables, OfTheDemoSayWhatTheDemoIs) {
   EXPECT_LT(totals.peak_load, 2);
   EXPECT_GT(totals.cost_of_transport, 0.02);
   EXPECT_LT(totals.cost_of_transport, 0.5);
+}
+
+// A loaded foot's vertical force gets a band beyond its members', other forces do not.
+TEST_F(MotionTables, BandsHoldTheModelsErrorOfLoads) {
+  AnalysedMotion demo;
+  demo.motion = read_motion(kDemo / "truth.csv");
+  demo.members = ensemble_of({demo.motion, demo.motion, demo.motion});
+  demo.model_error = 1;
+  write_motion_tables(demo, {}, ResultFolder(folder_, true));
+  const CsvTable table = read_csv(folder_ / "kinetics.csv");
+  const auto half = [&](const CsvTable::Row& row, const std::string& name) {
+    return 0.5 * (table.number(row, table.column(name + "_p95")) -
+                  table.number(row, table.column(name + "_p05")));
+  };
+  const double expected = 1.6449 * kTrackedLoadError * demo.subject.mass * 9.80665;
+  size_t loaded = 0, swinging = 0;
+  for (const CsvTable::Row& row : table.rows) {
+    const bool stands = table.number(row, table.column("l_grf_z_n")) > 0;
+    EXPECT_NEAR(half(row, "l_grf_z_n"), stands ? expected : 0, 1e-3);
+    EXPECT_NEAR(half(row, "l_grf_x_n"), 0, 1e-3);
+    ++(stands ? loaded : swinging);
+  }
+  EXPECT_GT(loaded, 50u);
+  EXPECT_GT(swinging, 20u);
 }
 
 }  // namespace
