@@ -1,5 +1,8 @@
 // walktrack calibrate: a camera's lens and place.
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -25,9 +28,11 @@ struct BoardOptions {
 
   void declare(CommandLine& line) {
     auto add = line.options().add_options();
-    add("board", po::value(&kind)->default_value("chessboard"), "chessboard or circles");
+    add("board", po::value(&kind)->default_value("chessboard"),
+        "chessboard, circles or asymmetric-circles");
     add("size", po::value(&size)->value_name("CxR"), "inner corners or circles, e.g. 9x6");
-    add("spacing", po::value(&spacing)->value_name("M"), "between neighbours, m, e.g. 0.025");
+    add("spacing", po::value(&spacing)->value_name("M"),
+        "between neighbours (rows of asymmetric circles), m, e.g. 0.025");
   }
 
   static bool read_whole(std::string_view text, int& value) {
@@ -37,10 +42,13 @@ struct BoardOptions {
   }
 
   std::optional<Board> board() const {
-    if (kind != "chessboard" && kind != "circles")
-      throw UsageError(describe({"", 0, "--board"}, kind, "chessboard or circles"));
+    constexpr std::array<std::string_view, 3> kKinds{"chessboard", "circles", "asymmetric-circles"};
+    const auto known = std::find(kKinds.begin(), kKinds.end(), kind);
+    if (known == kKinds.end())
+      throw UsageError(
+          describe({"", 0, "--board"}, kind, "chessboard, circles or asymmetric-circles"));
     if (size.empty() && spacing == 0) return std::nullopt;
-    Board out{kind == "circles" ? BoardKind::kCircles : BoardKind::kChessboard, 0, 0, spacing};
+    Board out{static_cast<BoardKind>(known - kKinds.begin()), 0, 0, spacing};
     const size_t x = size.find('x');
     if (x == std::string::npos || !read_whole(std::string_view(size).substr(0, x), out.columns) ||
         !read_whole(std::string_view(size).substr(x + 1), out.rows))

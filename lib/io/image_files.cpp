@@ -115,6 +115,36 @@ std::vector<fs::path> images_of_pattern(const fs::path& path) {
 
 }  // namespace
 
+std::vector<int> missing_before(const std::vector<fs::path>& images) {
+  const std::vector<int> nothing(images.size(), 0);
+  std::vector<long> numbers;
+  std::string around;
+  for (const fs::path& image : images) {
+    const std::string name = image.stem().string();
+    const size_t end = name.find_last_of("0123456789") + 1;
+    size_t begin = end;
+    while (begin > 0 && is_digit(name[begin - 1])) --begin;
+    if (begin == end || end - begin > 9) return nothing;
+    const std::string rest = name.substr(0, begin) + "|" + name.substr(end);
+    if (!numbers.empty() && rest != around) return nothing;
+    around = rest;
+    numbers.push_back(std::stol(name.substr(begin, end - begin)));
+  }
+  std::vector<long> steps;
+  for (size_t i = 1; i < numbers.size(); ++i) steps.push_back(numbers[i] - numbers[i - 1]);
+  if (steps.empty()) return nothing;
+  const long usual = *std::min_element(steps.begin(), steps.end());
+  std::vector<int> out = nothing;
+  long missing = 0;
+  for (size_t i = 0; i < steps.size(); ++i) {
+    if (usual <= 0 || steps[i] % usual != 0) return nothing;
+    missing += steps[i] / usual - 1;
+    if (missing > std::ssize(images)) return nothing;
+    out[i + 1] = static_cast<int>(steps[i] / usual - 1);
+  }
+  return out;
+}
+
 std::string read_image_file(const fs::path& path, cv::Mat& image) {
   const std::string content = read_text_file(path, kMostImageBytes);
   const auto* bytes = reinterpret_cast<const unsigned char*>(content.data());

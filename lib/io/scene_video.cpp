@@ -83,6 +83,7 @@ bool SceneVideo::read_ahead(size_t camera) {
   const bool believed = std::abs(source.facts().frame_rate / rate - 1) <= kStampsBelieved;
   const bool first = ahead.number < 0;
   ahead.number += first || !believed ? 1 : frames_passed(stamp, ahead.stamp, rate);
+  ahead.number += source.missing_before();
   if (first || stamp > ahead.stamp) ahead.stamp = stamp;
   ahead.waits = true;
   return true;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <opencv2/core/utility.hpp>
@@ -93,7 +94,9 @@ void FrameSource::open_images() {
   if (!reason.empty()) fail(images_.front(), reason, "");
   facts_.width_px = first.cols;
   facts_.height_px = first.rows;
-  facts_.frame_count = static_cast<int>(images_.size());
+  missing_before_ = walktrack::missing_before(images_);
+  facts_.missing = std::accumulate(missing_before_.begin(), missing_before_.end(), 0);
+  facts_.frame_count = static_cast<int>(images_.size()) + facts_.missing;
 }
 
 void FrameSource::check_size(std::optional<cv::Size> expected_px) const {
@@ -127,8 +130,14 @@ double FrameSource::time() const {
                   : std::numeric_limits<double>::quiet_NaN();
 }
 
+int FrameSource::missing_before() const {
+  return images_.empty() || next_frame_ == 0
+             ? 0
+             : missing_before_[static_cast<size_t>(next_frame_) - 1];
+}
+
 bool FrameSource::read_image(cv::Mat& frame) {
-  if (next_frame_ >= facts_.frame_count) return false;
+  if (next_frame_ >= std::ssize(images_)) return false;
   const fs::path& file = images_[static_cast<size_t>(next_frame_)];
   const std::string reason = read_image_file(file, frame);
   if (!reason.empty()) {
@@ -147,7 +156,7 @@ bool FrameSource::read_image(cv::Mat& frame) {
 bool FrameSource::skip(int frames) {
   for (int i = 0; i < frames; ++i) {
     if (!images_.empty()) {
-      if (next_frame_ >= facts_.frame_count) return false;
+      if (next_frame_ >= std::ssize(images_)) return false;
     } else if (!capture_->grab()) {
       note_end();
       return false;

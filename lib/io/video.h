@@ -1,6 +1,6 @@
 // Frames one after another, one in memory at a time: from a video file (FFmpeg), a folder of images
-// in natural order (frame2 before frame10), a printf pattern (frames/%05d.png, numbered without
-// gaps) or a single image.
+// in natural order (frame2 before frame10; a number that is left out is a dropped frame), a printf
+// pattern (frames/%05d.png, numbered without gaps) or a single image.
 //
 // A frame number counts from 0 at the first frame of the source. Nothing is ever seeked: seeking in
 // compressed video is inexact, so frames before the wanted one are decoded and dropped.
@@ -40,6 +40,8 @@ class FrameSource {
   int next_frame() const { return next_frame_; }
   // The container's time stamp of the last frame read or passed, s; NaN for images.
   double time() const;
+  // How many images are missing before the last one read or passed.
+  int missing_before() const;
 
   // The next frame, 8-bit BGR; overwritten by the next call, so clone it to keep it. False at the
   // end and when a frame cannot be read: then trouble() says which and why.
@@ -59,6 +61,7 @@ class FrameSource {
   std::filesystem::path path_;
   std::unique_ptr<cv::VideoCapture> capture_;  // a video file, or
   std::vector<std::filesystem::path> images_;  // image files in order
+  std::vector<int> missing_before_;            // each of them
   cv::Mat unturned_;                           // the decoded frame where frames are turned
   VideoFacts facts_;
   int next_frame_ = 0;
@@ -68,6 +71,10 @@ class FrameSource {
 // The image files of a folder in natural order, of a pattern in the order of its numbers, or the
 // one image. InputError if there is none, or if a number of a pattern is missing.
 std::vector<std::filesystem::path> image_files(const std::filesystem::path& path);
+
+// How many are missing before each image, where names differ in one number alone and its smallest
+// step is the usual one; zeros where names say nothing, or where more were missing than are there.
+std::vector<int> missing_before(const std::vector<std::filesystem::path>& images);
 
 // Decodes one image file into 8-bit BGR, turned as its EXIF data asks. Says why it cannot be; empty
 // if it was. A header that asks for more than kMostPixelsAlongASide is refused before decoding.

@@ -16,9 +16,11 @@ constexpr int kMostFramesTried = 300;      // of a video, evenly spread
 constexpr double kLeastDifference = 0.04;  // of the image width, mean over points: another view
 
 std::string board_name(const Board& board) {
-  return fmt::format("{} of {}x{} {}", board.kind == BoardKind::kChessboard ? "chessboard" : "grid",
-                     board.columns, board.rows,
-                     board.kind == BoardKind::kChessboard ? "inner corners" : "circles");
+  const bool chess = board.kind == BoardKind::kChessboard;
+  return fmt::format("{}{} of {}x{} {}",
+                     board.kind == BoardKind::kAsymmetricCircles ? "asymmetric " : "",
+                     chess ? "chessboard" : "grid", board.columns, board.rows,
+                     chess ? "inner corners" : "circles");
 }
 
 double mean_distance(const PixelPoints& a, const PixelPoints& b) {

@@ -60,6 +60,12 @@ void check_rate(const Scene& scene, const SceneCamera& camera, const VideoFacts&
        fmt::format("set frame_rate: {:g} for this camera, or convert the video", rate)});
 }
 
+void say_dropped(const SceneCamera& camera, int frames, const char* what, CheckReport& report) {
+  if (frames == 0) return;
+  report.findings.push_back({camera.name, false, fmt::format("{} {}", frames, what),
+                             "tracking goes on without them; the others keep their time"});
+}
+
 // A rate that varies, and frames that were dropped: steps between time stamps that differ from
 // their median, or are several of it. Hands back how many frames were dropped.
 int check_steps_between_frames(const SceneCamera& camera, const std::vector<double>& steps,
@@ -77,10 +83,7 @@ int check_steps_between_frames(const SceneCamera& camera, const std::vector<doub
       missing += static_cast<int>(whole) - 1;
     }
   }
-  if (missing > 0) {
-    report.findings.push_back({camera.name, false, fmt::format("{} frames were dropped", missing),
-                               "tracking goes on without them; the others keep their time"});
-  }
+  say_dropped(camera, missing, "frames were dropped", report);
   const double allowed = std::max(kFewUneven, kUnevenShare * static_cast<double>(steps.size()));
   if (uneven <= allowed) return missing;
   report.findings.push_back(
@@ -147,6 +150,7 @@ bool check_videos(const Scene& scene, const JobControl& control, CheckReport& re
           {"", true, "no frame rate: the frames are images", "state frame_rate in the scene"});
       return false;
     }
+    say_dropped(camera, video.missing, "images are missing, by the numbers in their names", report);
     const int dropped = check_stamps(camera, source, report);
     check_rate(scene, camera, video, dropped, scene_rate, report);
   }

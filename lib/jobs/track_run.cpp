@@ -26,7 +26,7 @@ TrackSetup timed_set_up(const TrackJob& job, double frame_rate,
                         Stopwatch& watch) {
   const Moment start;
   TrackSetup setup = set_up(job.scene, job.config.values, frame_rate, learned, control);
-  watch.add("background", start);
+  if (job.config.values.observation.background.enabled) watch.add("background", start);
   return setup;
 }
 

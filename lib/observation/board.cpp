@@ -110,24 +110,27 @@ std::optional<Points> find_circles(const cv::Mat& grey, const Board& board) {
   if (blobs.size() < wanted || blobs.size() > kMostBlobs) return std::nullopt;
   Points points;
   const cv::Ptr<cv::FeatureDetector> candidates_are_given;
-  const int flags = cv::CALIB_CB_SYMMETRIC_GRID;
+  const bool asymmetric = board.kind == BoardKind::kAsymmetricCircles;
+  const int flags = asymmetric ? cv::CALIB_CB_ASYMMETRIC_GRID : cv::CALIB_CB_SYMMETRIC_GRID;
   if (!cv::findCirclesGrid(blobs, {board.columns, board.rows}, points, flags, candidates_are_given))
     return std::nullopt;
-  make_clockwise(board, points);
+  if (!asymmetric) make_clockwise(board, points);
   return points;
 }
 
 }  // namespace
 
 bool has_one_origin(const Board& board) {
+  if (board.kind == BoardKind::kAsymmetricCircles) return board.rows % 2 == 1;
   return board.kind == BoardKind::kChessboard && (board.columns + board.rows) % 2 == 1;
 }
 
 std::vector<Eigen::Vector3d> board_points(const Board& board) {
+  const bool asymmetric = board.kind == BoardKind::kAsymmetricCircles;
   std::vector<Eigen::Vector3d> out;
   for (int r = 0; r < board.rows; ++r)
     for (int c = 0; c < board.columns; ++c)
-      out.emplace_back(c * board.spacing, r * board.spacing, 0);
+      out.emplace_back((asymmetric ? 2 * c + r % 2 : c) * board.spacing, r * board.spacing, 0);
   return out;
 }
 

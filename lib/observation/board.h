@@ -1,11 +1,14 @@
-// Calibration boards in pictures: chessboards, and grids of dark circles on a light ground.
+// Calibration boards in pictures: chessboards, and grids of dark circles on a light ground, their
+// rows one below the other or, asymmetric, each second one shifted by half a circle's distance.
 //
 // A board's points are its inner corners or circle centres, columns x rows of them, row by row:
 // point (c, r) lies at (c, r, 0) * spacing on the board, x along a row, y along a column, and z, to
-// make these right-handed, into the board. Seen from its front, x to y turns clockwise.
+// make these right-handed, into the board. Seen from its front, x to y turns clockwise. Of an
+// asymmetric grid point (c, r) lies at (2 c + r mod 2, r, 0) * spacing.
 //
-// A board looks the same turned by half a turn, unless it is a chessboard with columns + rows odd:
-// then point (0, 0) is the corner whose inner square (towards the middle of the board) is dark.
+// A board looks the same turned by half a turn, unless it is an asymmetric grid of an odd number of
+// rows or a chessboard with columns + rows odd: then point (0, 0) is the corner whose inner square
+// (towards the middle of the board) is dark.
 #pragma once
 
 #include <optional>
@@ -19,12 +22,12 @@ class Mat;
 
 namespace walktrack {
 
-enum class BoardKind { kChessboard, kCircles };
+enum class BoardKind { kChessboard, kCircles, kAsymmetricCircles };
 
 struct Board {
   BoardKind kind = BoardKind::kChessboard;
   int columns = 9, rows = 6;  // of points
-  double spacing = 0.025;     // m, between neighbouring points
+  double spacing = 0.025;     // m, between neighbouring points; of an asymmetric grid, rows
 };
 
 // Whether the picture tells which end of the board is which.

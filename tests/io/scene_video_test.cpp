@@ -107,6 +107,22 @@ TEST_F(SceneVideoTest, FramesAfterDroppedOnesKeepTheirTime) {
   }
 }
 
+// The same of a folder of images, of which two were lost.
+TEST_F(SceneVideoTest, ImagesAfterMissingOnesKeepTheirTime) {
+  write_sample_images(folder_ / "f", {0, 1, 2, 5, 6, 7});
+  SceneVideo video(read_scene(
+      folder_.write("scene.yaml",
+                    "frame_rate: 25\ncameras:\n  - {name: a, video: a.mp4, calibration: c.yaml}\n"
+                    "  - {name: b, video: f, calibration: c.yaml}\n")));
+  EXPECT_EQ(video.frame_count(), 8);
+  for (const int shown : {0, 1, 2, 2, 2, 5, 6, 7}) {
+    ASSERT_TRUE(video.read(frames_));
+    EXPECT_EQ(shown_number(frames_.images[1]), shown);
+    EXPECT_EQ(frames_.fresh[1] != 0, shown == frames_.number);
+  }
+  EXPECT_FALSE(video.read(frames_));
+}
+
 TEST_F(SceneVideoTest, StampsOfAFileThatIsWrongAboutItsRateDoNotCount) {
   SceneVideo video = open(", frame_rate: 50", ", frame_rate: 50", "frame_rate: 50\n");
   for (int i = 0; i < 20; ++i) {

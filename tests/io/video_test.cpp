@@ -79,6 +79,34 @@ TEST(FrameSource, ReadsFoldersInNaturalOrderAndPatternsByNumber) {
   }
 }
 
+TEST(FrameSource, NumbersThatAreLeftOutInAFolderAreDroppedFrames) {
+  const TemporaryFolder folder;
+  write_sample_images(folder / "f", {9, 10, 13, 14});
+  FrameSource source(folder / "f");
+  EXPECT_EQ(source.facts().missing, 2);
+  EXPECT_EQ(source.facts().frame_count, 6);
+  cv::Mat frame;
+  for (const int missing : {0, 0, 2, 0}) {
+    ASSERT_TRUE(source.read(frame));
+    EXPECT_EQ(source.missing_before(), missing);
+  }
+  EXPECT_FALSE(source.read(frame));
+}
+
+TEST(MissingBefore, IsWhatTheNamesSay) {
+  const auto of = [](std::vector<fs::path> names) { return missing_before(names); };
+  using Missing = std::vector<int>;
+  EXPECT_EQ(of({"a2.png", "a3.png", "a5.png"}), (Missing{0, 0, 1}));
+  EXPECT_EQ(of({"a0.png", "a10.png", "a40.png"}), (Missing{0, 0, 2})) << "every tenth";
+  EXPECT_EQ(of({"v1/a1.png", "v1/a2.png", "v1/a4.png"}), (Missing{0, 0, 1}));
+  EXPECT_EQ(of({"cam2_1.png", "cam2_2.png", "cam2_4.png"}), (Missing{0, 0, 1}));
+  EXPECT_EQ(of({"a1.png", "b2.png", "b9.png"}), (Missing{0, 0, 0})) << "names differ otherwise";
+  EXPECT_EQ(of({"a1.png", "a01.png", "a3.png"}), (Missing{0, 0, 0})) << "one number twice";
+  EXPECT_EQ(of({"t1000.png", "t1033.png", "t1067.png"}), (Missing{0, 0, 0})) << "stamps";
+  EXPECT_EQ(of({"a1.png", "a2.png", "a900.png"}), (Missing{0, 0, 0})) << "more than there are";
+  EXPECT_EQ(of({"one.png"}), Missing{0});
+}
+
 TEST(FrameSource, ReadsASingleImage) {
   const TemporaryFolder folder;
   write_sample_images(folder / "f", {5});

@@ -138,13 +138,17 @@ TEST_F(Track, ACompleteResultIsNotOverwrittenUnasked) {
   EXPECT_NO_THROW(track_scene(again, {}));
 }
 
-TEST_F(Track, TermsThatAreOffTakeNoPartAndNoHarm) {
+TEST_F(Track, TermsThatAreOffTakeNoPartNoTimeAndNoHarm) {
   for (const bool background : {true, false}) {
     TrackJob each = job(40, background ? "no_flow" : "no_background");
     each.config.values.observation.flow.enabled = false;
     each.config.values.observation.foreground.enabled = background;
     each.config.values.observation.background.enabled = background;
     EXPECT_NO_THROW(track_scene(each, {}));
+    const auto run = run_json(background ? "no_flow" : "no_background");
+    const auto& stages = run.at("timing").at("stage_seconds");
+    EXPECT_EQ(stages.contains("background"), background) << stages;
+    if (!background) EXPECT_FALSE(stages.contains("appearance")) << stages;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "tests/observation/board_film.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -16,11 +17,30 @@ namespace {
 constexpr int kRaysAcross = 4;
 constexpr double kGround = 120, kPaper = 235, kInk = 25;
 
+// The last point's place, in spacings.
+Vector2d extent(const Board& board) {
+  const int columns =
+      board.kind == BoardKind::kAsymmetricCircles ? 2 * board.columns : board.columns;
+  return {columns - 1, board.rows - 1};
+}
+
+// Asymmetric grids: is a circle's centre near? Rows about p, and in each the nearest column.
+bool in_shifted_circle(const Board& board, const Vector2d& p) {
+  for (const double near : {std::floor(p.y()), std::ceil(p.y())}) {
+    const int row = std::clamp(static_cast<int>(near), 0, board.rows - 1);
+    const double column = std::clamp(std::round((p.x() - row % 2) / 2), 0.0, board.columns - 1.0);
+    if ((p - Vector2d(2 * column + row % 2, row)).norm() < 0.4) return true;
+  }
+  return false;
+}
+
 double shade(const Board& board, const Vector2d& at) {
   const Vector2d p = at / board.spacing;
-  const Vector2d last(board.columns - 1, board.rows - 1);
+  const Vector2d last = extent(board);
   const double margin = board.kind == BoardKind::kChessboard ? 2.0 : 1.5;
   if ((p.array() < -margin).any() || ((p - last).array() > margin).any()) return kGround;
+  if (board.kind == BoardKind::kAsymmetricCircles)
+    return in_shifted_circle(board, p) ? kInk : kPaper;
   if (board.kind == BoardKind::kCircles) {
     const Vector2d nearest = p.array().round().max(0).min(last.array());
     return (p - nearest).norm() < 0.3 ? kInk : kPaper;
@@ -61,7 +81,7 @@ cv::Mat BoardFilm::picture(const Board& board, const Matrix3d& rotation,
     if (!(along > 0)) return std::nullopt;
     return (rotation.transpose() * (along * d - translation)).head<2>();
   };
-  const Vector2d middle = 0.5 * board.spacing * Vector2d(board.columns - 1, board.rows - 1);
+  const Vector2d middle = 0.5 * board.spacing * extent(board);
   const double reach = middle.norm() + 4 * board.spacing;  // past the sheet
   cv::Mat out(height_, width_, CV_8UC3);
   for (int v = 0; v < height_; ++v) {
@@ -90,13 +110,12 @@ BoardPose board_pose(const Camera& lens, const Board& board, const Vector2d& pix
       (Eigen::AngleAxisd(yaw, Vector3d::UnitY()) * Eigen::AngleAxisd(pitch, Vector3d::UnitX()) *
        Eigen::AngleAxisd(roll, Vector3d::UnitZ()))
           .toRotationMatrix();
-  const Vector3d half(0.5 * (board.columns - 1) * board.spacing,
-                      0.5 * (board.rows - 1) * board.spacing, 0);
-  return {turn, middle - turn * half};
+  const Vector2d half = 0.5 * board.spacing * extent(board);
+  return {turn, middle - turn * Vector3d(half.x(), half.y(), 0)};
 }
 
 std::vector<BoardPose> board_poses(const Camera& lens, const Board& board) {
-  const double size = board.spacing * std::max(board.columns, board.rows);
+  const double size = board.spacing * (extent(board).maxCoeff() + 1);
   // So far that the board spans a third of the picture.
   const double distance = 3 * size * lens.focal_px.x() / lens.width_px;
   std::vector<BoardPose> out;

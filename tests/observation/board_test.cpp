@@ -20,6 +20,7 @@ Camera usual_lens() {
 
 constexpr Board kChess{BoardKind::kChessboard, 7, 5, 0.04};  // one end differs
 constexpr Board kCircles{BoardKind::kCircles, 7, 5, 0.04};   // both ends are alike
+constexpr Board kShifted{BoardKind::kAsymmetricCircles, 4, 11, 0.03};
 constexpr Board kUneven{BoardKind::kChessboard, 8, 5, 0.04};
 
 // Largest distance between found points and where the board's points are projected, from whichever
@@ -65,6 +66,26 @@ TEST(Board, CirclesAreFoundToAThirdOfAPixelInTheirOrder) {
     EXPECT_LT(miss, 0.35);
   }
   EXPECT_GE(found, 10);
+}
+
+// Rows are shifted in turn, so the ends of an odd number of rows differ and the order is one.
+TEST(Board, ShiftedCirclesAreFoundInTheirOrderHoweverTheyLie) {
+  const Camera camera = usual_lens();
+  const BoardFilm film(camera);
+  EXPECT_TRUE(has_one_origin(kShifted));
+  EXPECT_FALSE(has_one_origin({BoardKind::kAsymmetricCircles, 4, 10, 0.03}));
+  int found = 0;
+  for (const BoardPose& pose : board_poses(camera, kShifted)) {
+    const double miss = worst_miss(camera, film, kShifted, pose);
+    if (std::isinf(miss)) continue;
+    ++found;
+    EXPECT_LT(miss, 0.35);
+  }
+  EXPECT_GE(found, 10);
+  for (const double roll : {0.0, 0.5 * kPi, kPi, 1.5 * kPi}) {
+    const BoardPose pose = board_pose(camera, kShifted, {240, 180}, 0.9, 0.2, 0.3, roll);
+    EXPECT_LT(worst_miss(camera, film, kShifted, pose), 0.35) << "turned by " << roll;
+  }
 }
 
 TEST(Board, AnUnevenChessboardKeepsItsOriginHoweverItLies) {

@@ -237,6 +237,33 @@ TEST_P(TermAlone, TruePoseBeatsPerturbedPoses) {
   }
 }
 
+// A level of half the size has a quarter of the pixels; each stands for four times the area.
+TEST(Observer, LevelsOfThePyramidWeighTheSameArea) {
+  const World world;
+  ObservationConfig config;
+  config.foreground.enabled = config.flow.enabled = false;
+  const auto gain = [&](int factor) {  // of the true pose over one 10 cm ahead
+    BackgroundSampler sampler(config.background, factor);
+    sampler.add(world.empty);
+    Observer observer(config,
+                      {world.camera, factor, appearances_of(world.body), sampler.model(), {}});
+    CameraEvidence evidence;
+    const double metres_per_px = 5.0 * factor / 320;
+    observer.observe(world.frame(world.pose(0)), whole_image(observer.camera(), metres_per_px),
+                     evidence);
+    const auto score = [&](double x) {
+      return log_likelihood(config, evidence,
+                            project_parts(observer.camera(), posed(world.body, world.pose(x))),
+                            nullptr);
+    };
+    return score(0) - score(0.1);
+  };
+  const double full = gain(1), half = gain(2);
+  EXPECT_GT(full, 0);
+  // Edges blur into a twelfth of the body's width at half the size: a tenth of the sum either way.
+  EXPECT_NEAR(half / full, 1, 0.15);
+}
+
 std::string term_name(const testing::TestParamInfo<int>& info) {
   const std::array<std::string, 3> names{"foreground", "background", "flow"};
   return names[static_cast<size_t>(info.param)];
