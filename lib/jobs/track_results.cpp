@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
 #include "io/motion_file.h"
