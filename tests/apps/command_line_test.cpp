@@ -99,7 +99,7 @@ TEST(CommandLine, NamesMistakes) {
       {{"calibrate"}, 2, "--output is missing"},
       {{"calibrate", "-o", "/tmp/x"}, 2, "--views"},
       {{"calibrate", "--model", "flat", "-o", "/tmp/x"}, 2, "found flat, allowed: pinhole, brown"},
-      {{"calibrate", "--board", "letters"}, 2, "--board: found letters, allowed: chessboard or"},
+      {{"calibrate", "--board", "letters"}, 2, "--board: found letters, allowed: chessboard, circles or"},
       {{"calibrate", "--size", "9by6"}, 2, "--size: found '9by6', allowed: COLUMNSxROWS"},
       {{"calibrate", "--size", "9x6"}, 2, "--spacing: found 0, allowed: metres between"},
       {{"check"}, 2, "SCENE.yaml is missing"},
