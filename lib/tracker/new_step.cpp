@@ -13,7 +13,7 @@ PriorGait aim_anew(const MotionContext& context, WalkerParticle& particle, Rng& 
   StepAim& aim = particle.aim;
   aim.speed *= std::exp(kAimSpread * rng.truncated_normal(2.5));
   aim.step_length *= std::exp(kAimSpread * rng.truncated_normal(2.5));
-  const PriorGait gait =
+  PriorGait gait =
       gait_at(context.prior, context.model.walker.parameters, aim.speed, aim.step_length);
   aim = {gait.speed, gait.step_length};  // within the table
   return gait;
