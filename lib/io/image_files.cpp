@@ -116,7 +116,7 @@ std::vector<fs::path> images_of_pattern(const fs::path& path) {
 }  // namespace
 
 std::vector<int> missing_before(const std::vector<fs::path>& images) {
-  const std::vector<int> nothing(images.size(), 0);
+  std::vector<int> nothing(images.size(), 0);
   std::vector<long> numbers;
   std::string around;
   for (const fs::path& image : images) {
