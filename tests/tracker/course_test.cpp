@@ -13,22 +13,12 @@ namespace {
 
 constexpr double kDt = 1.0 / 30;
 
-std::vector<WalkerParticle> propagated(const MotionContext& context, int count) {
-  std::vector<WalkerParticle> set = walkers(context, 1.3, count);
-  for (size_t i = 0; i < set.size(); ++i) {
-    Rng rng(5, Purpose::kTorque, 0, static_cast<uint32_t>(i));
-    arrive(context, set[i], rng);
-    propagate(context, set[i], rng);
-  }
-  return set;
-}
-
 std::vector<double> equal_weights(size_t count) { return std::vector<double>(count, 0.0); }
 
 TEST(CourseSpread, OfOneParticleIsItsPlaceAndNoSpread) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
-  const std::vector<WalkerParticle> one = propagated(context, 1);
+  const std::vector<WalkerParticle> one = walkers_on_their_way(context, 1);
   const CourseSpread spread = course_spread(one, equal_weights(1));
   EXPECT_NEAR(spread.mean[0], one[0].pose.root.x(), 1e-12);
   EXPECT_NEAR(spread.mean[2], one[0].pose.heading, 1e-12);
@@ -38,7 +28,7 @@ TEST(CourseSpread, OfOneParticleIsItsPlaceAndNoSpread) {
 TEST(CourseSpread, DeadParticlesCountForNothing) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
-  const std::vector<WalkerParticle> set = propagated(context, 2);
+  const std::vector<WalkerParticle> set = walkers_on_their_way(context, 2);
   const double dead = -std::numeric_limits<double>::infinity();
   EXPECT_NEAR(course_spread(set, std::vector<double>{0.0, dead}).mean[0], set[0].pose.root.x(),
               1e-12);
@@ -49,7 +39,7 @@ TEST(CourseSpread, DeadParticlesCountForNothing) {
 TEST(CourseSpread, FactorGivesTheCovariance) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
-  const std::vector<WalkerParticle> set = propagated(context, 50);
+  const std::vector<WalkerParticle> set = walkers_on_their_way(context, 50);
   const CourseSpread spread = course_spread(set, equal_weights(set.size()));
   double shared = 0;
   for (const WalkerParticle& p : set)
@@ -62,7 +52,7 @@ TEST(CourseSpread, FactorGivesTheCovariance) {
 TEST(ChangeCourse, KeepsMeanAndSpread) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
-  std::vector<WalkerParticle> set = propagated(context, 400);
+  std::vector<WalkerParticle> set = walkers_on_their_way(context, 400);
   const CourseSpread before = course_spread(set, equal_weights(set.size()));
   for (size_t i = 0; i < set.size(); ++i) {
     Rng rng(6, Purpose::kMoves, 0, static_cast<uint32_t>(i));
@@ -82,7 +72,7 @@ TEST(ChangeCourse, KeepsMeanAndSpread) {
 TEST(ChangeCourse, TurnsTheFigureRigidlyWithItsPast) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
-  WalkerParticle p = propagated(context, 1)[0];
+  WalkerParticle p = walkers_on_their_way(context, 1)[0];
   CourseSpread spread;
   spread.mean << p.pose.root.x() + 1, p.pose.root.y() - 2, p.pose.heading + 0.4, p.extra[kCrouch],
       p.extra[kTilt];

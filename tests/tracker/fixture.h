@@ -41,4 +41,15 @@ inline std::vector<WalkerParticle> walkers(const MotionContext& context, double 
   return spawn(context, start, sighting, {Side::kLeft, 0.0, 1.0}, 7);
 }
 
+// The same after their first two frames.
+inline std::vector<WalkerParticle> walkers_on_their_way(const MotionContext& context, int count) {
+  std::vector<WalkerParticle> set = walkers(context, 1.3, count);
+  for (size_t i = 0; i < set.size(); ++i) {
+    Rng rng(5, Purpose::kTorque, 0, static_cast<uint32_t>(i));
+    arrive(context, set[i], rng);
+    propagate(context, set[i], rng);
+  }
+  return set;
+}
+
 }  // namespace walktrack

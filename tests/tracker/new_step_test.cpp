@@ -14,16 +14,6 @@ constexpr double kDt = 1.0 / 30;
 
 Rng stream(uint32_t i) { return {5, Purpose::kTorque, 1, i}; }
 
-std::vector<WalkerParticle> walking_set(const MotionContext& context, int count) {
-  std::vector<WalkerParticle> set = walkers(context, 1.3, count);
-  for (size_t i = 0; i < set.size(); ++i) {
-    Rng rng(5, Purpose::kTorque, 0, static_cast<uint32_t>(i));
-    arrive(context, set[i], rng);
-    propagate(context, set[i], rng);
-  }
-  return set;
-}
-
 MotionConfig with_new_steps(double rate) {
   MotionConfig config;
   config.new_steps = rate;
@@ -33,7 +23,7 @@ MotionConfig with_new_steps(double rate) {
 TEST(NewStep, GoesOnFromThePlaceAtTheSpeed) {
   const Walking walking;
   const MotionContext context = walking.context(kDt, with_new_steps(0));
-  for (WalkerParticle& particle : walking_set(context, 50)) {
+  for (WalkerParticle& particle : walkers_on_their_way(context, 50)) {
     const Pose was = particle.pose, before = particle.pose_before;
     particle.predicted_extra = particle.extra_before = particle.extra;
     Rng rng = stream(0);
@@ -51,7 +41,7 @@ TEST(NewStep, TheFrameBeforeBelongsToTheNewStep) {
   const MotionContext context = walking.context(kDt, with_new_steps(0));
   constexpr double kFastestFoot = 7;  // m/s: a swinging foot at 1.7 m/s (1.3 and the aims' spread)
   uint32_t i = 0;
-  for (WalkerParticle& particle : walking_set(context, 50)) {
+  for (WalkerParticle& particle : walkers_on_their_way(context, 50)) {
     particle.predicted_extra = particle.extra_before = particle.extra;
     Rng rng = stream(i++);
     begin_step_anew(context, particle, rng);
@@ -67,7 +57,8 @@ TEST(NewStep, TheFrameBeforeBelongsToTheNewStep) {
 TEST(NewStep, AsManyAsTheRateSaysAndOnBothFeet) {
   const Walking walking;
   const MotionContext context = walking.context(kDt, with_new_steps(6));
-  std::vector<WalkerParticle> set = walking_set(walking.context(kDt, with_new_steps(0)), 1000);
+  std::vector<WalkerParticle> set =
+      walkers_on_their_way(walking.context(kDt, with_new_steps(0)), 1000);
   int begun = 0, exchanged = 0;
   for (size_t i = 0; i < set.size(); ++i) {
     const Side stood = set[i].stance;
@@ -84,7 +75,8 @@ TEST(NewStep, AsManyAsTheRateSaysAndOnBothFeet) {
 
 TEST(NewStep, TheCostIsOfOneFrame) {
   const Walking walking;
-  std::vector<WalkerParticle> set = walking_set(walking.context(kDt, with_new_steps(0)), 1);
+  std::vector<WalkerParticle> set =
+      walkers_on_their_way(walking.context(kDt, with_new_steps(0)), 1);
   Rng rng = stream(0);
   propagate(walking.context(kDt, with_new_steps(30)), set[0], rng);
   ASSERT_EQ(set[0].log_prior, -kNewStepCost);
