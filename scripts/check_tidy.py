@@ -3,7 +3,9 @@
 processors. Fails when it finds anything. A file that was clean is looked at again only when it, a
 header that it includes, its command line, the checks or clang-tidy have changed.
 
-usage: check_tidy.py [BUILD_FOLDER]   (build/ci), configured with Ninja and built
+usage: check_tidy.py [--names] [BUILD_FOLDER]
+  BUILD_FOLDER  build/ci unless told, configured with Ninja and built
+  --names       the names too: as long again as half of all other checks together
 """
 import concurrent.futures
 import hashlib
@@ -19,6 +21,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # The command lines are those of g++: its warnings are its own business.
 OPTIONS = ["--quiet", "--extra-arg=-w", f"--config-file={ROOT}/.clang-tidy"]
+WITHOUT_NAMES = ["--checks=-readability-identifier-naming"]
 
 
 def output_of(*command):
@@ -52,8 +55,8 @@ def key_of(entry, headers, common):
     return digest.hexdigest()
 
 
-def look_at(entry, build, stamp):
-    done = subprocess.run(["clang-tidy", "-p", str(build), *OPTIONS, entry["file"]],
+def look_at(entry, build, options, stamp):
+    done = subprocess.run(["clang-tidy", "-p", str(build), *options, entry["file"]],
                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     if done.returncode == 0:
         stamp.touch()
@@ -61,10 +64,13 @@ def look_at(entry, build, stamp):
 
 
 def main():
-    build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/ci").resolve()
+    names = "--names" in sys.argv
+    folders = [word for word in sys.argv[1:] if word != "--names"]
+    build = pathlib.Path(folders[0] if folders else ROOT / "build/ci").resolve()
+    options = OPTIONS if names else OPTIONS + WITHOUT_NAMES
     stamps = build / "tidy"
     stamps.mkdir(exist_ok=True)
-    common = output_of("clang-tidy", "--version") + (ROOT / ".clang-tidy").read_text() + str(OPTIONS)
+    common = output_of("clang-tidy", "--version") + (ROOT / ".clang-tidy").read_text() + str(options)
     headers = headers_of_objects(build)
     due = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
@@ -78,7 +84,7 @@ def main():
             due[stamp] = entry
     found, begin = 0, time.monotonic()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        looks = {pool.submit(look_at, entry, build, stamp): entry for stamp, entry in due.items()}
+        looks = {pool.submit(look_at, entry, build, options, stamp): entry for stamp, entry in due.items()}
         for look in concurrent.futures.as_completed(looks):
             code, text = look.result()
             if code:
