@@ -1,6 +1,5 @@
-// Walkers wait in two queues: those that can go on, and those that know of an event within their
-// next sub-step. Both are served a vector at a time. A walker's state lies in its KneedState
-// between visits; inside a visit it is a lane of `Lanes`.
+// A walker's state lies in its KneedState between visits to a vector; inside a visit it is a lane
+// of `Lanes`. Who is served when: LaneQueues.
 #include "walker/kneed_batch.h"
 
 #include <algorithm>
@@ -24,19 +23,13 @@ struct BatchInput {
   const KneedLimits& limits;
 };
 
-// How far a walker has come in this call.
-struct Progress {
-  double elapsed = 0, step = 0;  // s; step 0 before the first visit
-  int stop_events = 0;
-};
-
 struct Stepper {
   const BatchInput& in;
   const LaneModel model;
   const LaneBounds bounds;
   const size_t lane_limit = lane_count();
-  std::vector<Progress> progress;
-  std::vector<size_t> ready, met;  // walkers that can go on; that have met an event
+  std::vector<LaneProgress> progress;
+  LaneQueues queues;
 
   explicit Stepper(const BatchInput& input)
       : in(input),
@@ -46,39 +39,34 @@ struct Stepper {
         progress(input.states.size()) {
     for (size_t i = progress.size(); i-- > 0;) {
       in.results[i] = {};
-      if (0 < in.durations[i]) ready.push_back(i);
+      if (0 < in.durations[i]) queues.ready.push_back(i);
     }
   }
 
   void run() {
     Lanes lanes;
-    while (!ready.empty() || !met.empty()) {
-      const bool scarce = ready.size() < lane_limit;
-      if (met.size() >= lane_limit || (scarce && !met.empty())) {
-        take(met, lanes);
-        resolve(lanes);
-      } else {
-        take(ready, lanes);
-        walk(lanes);
-      }
-    }
+    const auto go_on = [&] {
+      take(queues.ready, lanes);
+      walk(lanes);
+    };
+    const auto meet = [&] {
+      take(queues.met, lanes);
+      resolve(lanes);
+    };
+    queues.serve(lane_limit, go_on, meet);
   }
 
   // The last walkers of a queue, evaluated.
   void take(std::vector<size_t>& queue, Lanes& lanes) {
-    lanes.count = std::min(lane_limit, queue.size());
+    LaneQueues::seat(queue, lane_limit, lanes);
     for (size_t lane = 0; lane < lane_limit; ++lane) {
-      const bool live = lane < lanes.count;
-      const size_t i = live ? queue[queue.size() - 1 - lane] : lanes.index[0];
-      lanes.index[lane] = i;
-      lanes.live[0][lane] = live ? 1 : 0;
+      const size_t i = lanes.index[lane];
       lanes.duration[0][lane] = in.durations[i];
       lanes.elapsed[0][lane] = progress[i].elapsed;
       lanes.step[0][lane] = progress[i].step;
       load_state(in.states[i], lane, lanes);
       load_forces(in.controls[i], in.noise[i], lane, lanes);
     }
-    queue.resize(queue.size() - lanes.count);
     evaluate_lanes(model, lanes);
   }
 
@@ -105,7 +93,7 @@ struct Stepper {
     LaneRows<1> steps;
     lane_step_sizes(model, lanes, in.limits.max_step, steps[0]);
     for (size_t lane = 0; lane < lanes.count; ++lane) {
-      Progress& p = progress[lanes.index[lane]];
+      LaneProgress& p = progress[lanes.index[lane]];
       if (p.step != 0) continue;
       p.step = lanes.step[0][lane] = steps[0][lane];
       const bool sound = is_sound(lanes.at, lane) && p.step >= kMinStep;
@@ -140,7 +128,7 @@ struct Stepper {
       store_state(lanes, lane, in.states[i]);
       progress[i].elapsed = lanes.elapsed[0][lane];
       lanes.live[0][lane] = 0;
-      met.push_back(i);
+      queues.met.push_back(i);
     } else if ((verdict.ended & bit) != 0) {
       finish(lanes, lane, has_fallen(lanes, lane) ? KneedEvent::kFallen : KneedEvent::kNone);
     }
@@ -218,7 +206,7 @@ void Stepper::apply(const LaneIncident& incident, Lanes& lanes, size_t lane) {
     }
   }
   progress[i].elapsed = lanes.elapsed[0][lane];
-  if (progress[i].elapsed < in.durations[i]) ready.push_back(i);
+  if (progress[i].elapsed < in.durations[i]) queues.ready.push_back(i);
 }
 
 }  // namespace

@@ -20,56 +20,13 @@
 #define WALKTRACK_KNEED_LANES_H
 #endif
 
-#include <hwy/highway.h>
+#include "walker/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace walktrack::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Tag = hn::CappedTag<double, kMaxLanes>;
-using V = hn::Vec<Tag>;
-using Mask = hn::Mask<Tag>;
-
-HWY_INLINE V all(double value) { return hn::Set(Tag(), value); }
-
-struct SineCosine {
-  V sine, cosine;
-};
-
-// To rounding for |a| < 1e5: a = k pi/2 + r, then the polynomials of fdlibm (Sun Microsystems,
-// 1993).
-HWY_INLINE SineCosine sine_cosine(V a) {
-  const Tag d;
-  const hn::RebindToUnsigned<Tag> du;
-  const V magic = all(0x1.8p52);  // the sum's lowest bits are k
-  const V sum = hn::MulAdd(a, all(2 / kPi), magic);
-  const V k = hn::Sub(sum, magic);
-  const V r = hn::NegMulAdd(k, all(6.123233995736766e-17), hn::NegMulAdd(k, all(kPi / 2), a));
-  const V z = hn::Mul(r, r);
-  V s = hn::MulAdd(z, all(1.58969099521155010221e-10), all(-2.50507602534068634195e-08));
-  s = hn::MulAdd(z, s, all(2.75573137070700676789e-06));
-  s = hn::MulAdd(z, s, all(-1.98412698298579493134e-04));
-  s = hn::MulAdd(z, s, all(8.33333333332248946124e-03));
-  s = hn::MulAdd(z, s, all(-1.66666666666666324348e-01));
-  s = hn::MulAdd(hn::Mul(z, r), s, r);
-  V c = hn::MulAdd(z, all(-1.13596475577881948265e-11), all(2.08757232129817482790e-09));
-  c = hn::MulAdd(z, c, all(-2.75573143513906633035e-07));
-  c = hn::MulAdd(z, c, all(2.48015872894767294178e-05));
-  c = hn::MulAdd(z, c, all(-1.38888888888741095749e-03));
-  c = hn::MulAdd(z, c, all(4.16666666666666019037e-02));
-  c = hn::MulAdd(z, hn::MulAdd(z, c, all(-0.5)), all(1));
-  const auto bits = hn::BitCast(du, sum);
-  const Mask odd = hn::RebindMask(d, hn::TestBit(bits, hn::Set(du, 1)));
-  const auto sine_sign = hn::ShiftLeft<62>(hn::And(bits, hn::Set(du, 2)));
-  const auto cosine_sign =
-      hn::ShiftLeft<62>(hn::And(hn::Add(bits, hn::Set(du, 1)), hn::Set(du, 2)));
-  return {hn::Xor(hn::IfThenElse(odd, c, s), hn::BitCast(d, sine_sign)),
-          hn::Xor(hn::IfThenElse(odd, s, c), hn::BitCast(d, cosine_sign))};
-}
-
-struct Motion {
-  V q[5], qd[5];  // in the coordinates above
-};
+using Motion = MotionOf<5>;  // in the coordinates above
 
 // Everything of a step that does not change within it.
 struct Setting {
@@ -297,39 +254,6 @@ HWY_INLINE void accelerations(const Setting& at, const Motion& motion, V (&qdd)[
   const V thighs = hn::Mul(thigh, hn::NegMulAdd(t.s[1], rate[1], hn::Mul(t.s[2], rate[2])));
   around->height_rate = hn::NegMulAdd(t.v3, rate[3], hn::MulAdd(t.v4, rate[4], thighs));
   around->hip = hn::Add(all(at.model.radius), hn::MulAdd(thigh, t.c[1], t.u3));
-}
-
-// One RK4 step of h; `a1` are the accelerations at `from`.
-HWY_INLINE void rk4(const Setting& at, const Motion& from, const V (&a1)[5], V h, Motion& to) {
-  const V half = hn::Mul(all(0.5), h), sixth = hn::Mul(all(1.0 / 6), h);
-  Motion stage;
-  V a[5], rates[5], accelerations_sum[5];
-  const auto stage_at = [&](V step, const V(&v)[5], const V(&acceleration)[5]) {
-    Motion next;
-    for (int k = 0; k < 5; ++k) {
-      next.q[k] = hn::MulAdd(step, v[k], from.q[k]);
-      next.qd[k] = hn::MulAdd(step, acceleration[k], from.qd[k]);
-    }
-    return next;
-  };
-  stage = stage_at(half, from.qd, a1);
-  accelerations(at, stage, a);
-  for (int k = 0; k < 5; ++k) {
-    rates[k] = hn::MulAdd(all(2), stage.qd[k], from.qd[k]);
-    accelerations_sum[k] = hn::MulAdd(all(2), a[k], a1[k]);
-  }
-  stage = stage_at(half, stage.qd, a);
-  accelerations(at, stage, a);
-  for (int k = 0; k < 5; ++k) {
-    rates[k] = hn::MulAdd(all(2), stage.qd[k], rates[k]);
-    accelerations_sum[k] = hn::MulAdd(all(2), a[k], accelerations_sum[k]);
-  }
-  stage = stage_at(h, stage.qd, a);
-  accelerations(at, stage, a);
-  for (int k = 0; k < 5; ++k) {
-    to.q[k] = hn::MulAdd(sixth, hn::Add(rates[k], stage.qd[k]), from.q[k]);
-    to.qd[k] = hn::MulAdd(sixth, hn::Add(accelerations_sum[k], a[k]), from.qd[k]);
-  }
 }
 
 // The sub-step of kneed_step_size(), of free knees.

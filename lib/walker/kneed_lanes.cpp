@@ -2,11 +2,9 @@
 // at run time.
 #include "walker/kneed_lanes.h"
 
-#include "core/conventions.h"
 #include "walker/kneed_incidents.h"
+#include "walker/lane_targets.h"
 
-// SSE2, AVX2 and AVX-512 are enough: what lies between them has no wider doubles.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "walker/kneed_lanes.cpp"
 #include <hwy/foreach_target.h>
@@ -16,16 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace walktrack::HWY_NAMESPACE {
 namespace {
-
-template <size_t kCount>
-HWY_INLINE void load(const LaneRows<kCount>& rows, V (&values)[kCount]) {
-  for (size_t k = 0; k < kCount; ++k) values[k] = hn::Load(Tag(), rows[k]);
-}
-
-template <size_t kCount>
-HWY_INLINE void store(const V (&values)[kCount], LaneRows<kCount>& rows) {
-  for (size_t k = 0; k < kCount; ++k) hn::Store(values[k], Tag(), rows[k]);
-}
 
 HWY_INLINE Motion motion_at(const LanePoint& at) {
   Motion motion;
@@ -67,21 +55,9 @@ void step_sizes_of(const LaneModel& model, const Lanes& lanes, double max_step, 
   hn::Store(step_sizes(model, lanes.forces, motion_at(lanes.at), max_step), Tag(), sizes);
 }
 
-HWY_INLINE V next_step(const Lanes& lanes, V& remaining) {
-  const Tag d;
-  remaining = hn::Sub(hn::Load(d, lanes.duration[0]), hn::Load(d, lanes.elapsed[0]));
-  return hn::Div(remaining, hn::Ceil(hn::Div(remaining, hn::Load(d, lanes.step[0]))));
-}
-
 void next_steps(const Lanes& lanes, double* h) {
   V remaining;
   hn::Store(next_step(lanes, remaining), Tag(), h);
-}
-
-HWY_INLINE uint64_t bits_of(Mask mask) {
-  uint64_t bits = 0;
-  hn::StoreMaskBits(Tag(), mask, reinterpret_cast<uint8_t*>(&bits));
-  return bits;
 }
 
 struct Arrival {
@@ -125,10 +101,6 @@ HWY_INLINE V clearance_after(const Lanes& lanes, V h, V rise) {
   return hn::IfThenElse(lowest, hn::Min(clearance, least), clearance);
 }
 
-HWY_INLINE void store_if(Mask go, V fresh, double* row) {
-  hn::Store(hn::IfThenElse(go, fresh, hn::Load(Tag(), row)), Tag(), row);
-}
-
 HWY_INLINE void arrive_if(Mask go, const Arrival& to, LanePoint& at) {
   for (size_t k = 0; k < 5; ++k) {
     store_if(go, to.motion.q[k], at.q[k]);
@@ -167,9 +139,7 @@ LaneVerdict sub_step(const LaneModel& model, const LaneBounds& bounds, Lanes& la
   const Mask event = suspects_event(setting(model, lanes), lanes.at, to);
   const Mask good = hn::And(live, sound), go = hn::AndNot(event, good);
 
-  const V duration = hn::Load(d, lanes.duration[0]);
-  const V later = hn::Add(hn::Load(d, lanes.elapsed[0]), h);
-  const V elapsed = hn::IfThenElse(hn::Eq(h, remaining), duration, later);
+  const V elapsed = passed(lanes, h, remaining);
   store_if(go, elapsed, lanes.elapsed[0]);
   store_if(go, hn::Add(hn::Load(d, lanes.since[0]), h), lanes.since[0]);
   store_if(go, clearance_after(lanes, h, to.around.height_rate), lanes.clearance[0]);
@@ -177,13 +147,10 @@ LaneVerdict sub_step(const LaneModel& model, const LaneBounds& bounds, Lanes& la
 
   const Mask fallen = hn::Or(hn::Lt(to.around.hip, all(bounds.least_hip)),
                              hn::Gt(hn::Abs(to.motion.q[0]), all(bounds.max_lean)));
-  const Mask ended = hn::Or(hn::Ge(elapsed, duration), fallen);
+  const Mask ended = hn::Or(hn::Ge(elapsed, hn::Load(d, lanes.duration[0])), fallen);
   return {bits_of(hn::AndNot(sound, live)), bits_of(hn::And(good, event)),
           bits_of(hn::And(go, ended))};
 }
-
-size_t lanes_of_target() { return hn::Lanes(Tag()); }
-const char* name_of_target() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace
 }  // namespace walktrack::HWY_NAMESPACE
@@ -197,13 +164,7 @@ HWY_EXPORT(step_to);
 HWY_EXPORT(step_sizes_of);
 HWY_EXPORT(next_steps);
 HWY_EXPORT(sub_step);
-HWY_EXPORT(lanes_of_target);
-HWY_EXPORT(name_of_target);
 }  // namespace
-
-size_t lane_count() { return HWY_DYNAMIC_DISPATCH(lanes_of_target)(); }
-
-const char* lane_target() { return HWY_DYNAMIC_DISPATCH(name_of_target)(); }
 
 void evaluate_lanes(const LaneModel& model, Lanes& lanes) {
   HWY_DYNAMIC_DISPATCH(evaluate)(model, lanes);

@@ -1,21 +1,10 @@
-// A vector of walkers in structures of arrays, and what is done to it in vector instructions;
-// internal to lib/walker. kneed_batch.cpp fills the lanes and decides what happens to whom.
+// A vector of kneed walkers, and what is done to it in vector instructions; internal to lib/walker.
+// kneed_batch.cpp fills the lanes and decides what happens to whom.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
+#include "walker/lanes.h"
 
 namespace walktrack {
-
-// Walkers in a vector at most: doubles in the widest vectors there are.
-inline constexpr size_t kMaxLanes = 8;
-
-template <size_t kCount>
-struct alignas(64) LaneRows {
-  double rows[kCount][kMaxLanes];
-  double* operator[](size_t i) { return rows[i]; }
-  const double* operator[](size_t i) const { return rows[i]; }
-};
 
 // A model's sums, as the pairs of parts need them (kneed_lanes-inl.h).
 struct LaneModel {
@@ -39,29 +28,17 @@ struct LanePoint {
   LaneRows<1> height, lead, height_rate, hip;  // SwingFoot; the hip's height, m
 };
 
-struct Lanes {
-  size_t count = 0;           // walkers; lanes beyond repeat the first
-  size_t index[kMaxLanes]{};  // into the batch
+struct Lanes : LaneGroup {
   LanePoint at;
   LaneForces forces;
   LaneRows<2> held;  // 1 for a knee at its stop
-  LaneRows<1> live;  // 1 for a lane that goes on
-  LaneRows<1> step, elapsed, duration, since, clearance;
+  LaneRows<1> clearance;
 };
 
 // Bounds beyond which a walker has fallen.
 struct LaneBounds {
   double least_hip, max_lean;  // m, rad
 };
-
-// What a sub-step has led to, one bit a lane.
-struct LaneVerdict {
-  uint64_t diverged, event, ended;
-};
-
-// Lanes of the instruction set in use, <= kMaxLanes, and its name.
-size_t lane_count();
-const char* lane_target();
 
 // Accelerations and surroundings at lanes.at.
 void evaluate_lanes(const LaneModel& model, Lanes& lanes);

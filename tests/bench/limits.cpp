@@ -72,6 +72,25 @@ void accelerations_of_eight(const Linkage& p, const Lines& q, const Lines& qd, L
   for (int k = 0; k < 5; ++k) qdd.v[k] = b[k];
 }
 
+void accelerations_of_eight(const Legs& p, const Lanes (&q)[2], const Lanes (&qd)[2],
+                            Lanes (&qdd)[2]) {
+  Lanes s0, c0, s1, c1;
+  sine_and_cosine(q[0], s0, c0);
+  sine_and_cosine(q[1], s1, c1);
+  const Lanes square0 = qd[0] * qd[0], square1 = qd[1] * qd[1];
+  const Lanes m00 = p.stance_couple + p.radius * (p.radius * p.mass + 2 * p.stance_moment * c0);
+  const Lanes m01 = p.cross_couple * (c0 * c1 + s0 * s1) + p.radius * p.swing_moment * c1;
+  const Lanes pull = p.cross_couple * (c0 * s1 - s0 * c1);
+  const Lanes sway =
+      p.gravity_x * p.mass + p.stance_moment * s0 * square0 + p.swing_moment * s1 * square1;
+  const Lanes f0 =
+      p.stance_moment * (p.gravity_x * c0 - p.gravity_z * s0) + pull * square1 + p.radius * sway;
+  const Lanes f1 = p.swing_moment * (p.gravity_x * c1 - p.gravity_z * s1) - pull * square0;
+  const Lanes inverse = 1 / (m00 * p.swing_couple - m01 * m01);
+  qdd[0] = inverse * (p.swing_couple * f0 - m01 * f1);
+  qdd[1] = inverse * (m00 * f1 - m01 * f0);
+}
+
 struct Interval {
   int begin, end;
 };
@@ -127,6 +146,20 @@ void accelerations(const Linkage& linkage, size_t count, const double* q, const 
     accelerations_of_eight(linkage, a, b, out);
     for (size_t k = 0; k < 5; ++k)
       for (size_t lane = 0; lane < kLanes; ++lane) qdd[k * count + first + lane] = out.v[k][lane];
+  }
+}
+
+void accelerations(const Legs& legs, size_t count, const double* q, const double* qd, double* qdd) {
+  Lanes a[2], b[2], out[2];
+  for (size_t first = 0; first < count; first += kLanes) {
+    for (size_t k = 0; k < 2; ++k)
+      for (size_t lane = 0; lane < kLanes; ++lane) {
+        a[k][lane] = q[k * count + first + lane];
+        b[k][lane] = qd[k * count + first + lane];
+      }
+    accelerations_of_eight(legs, a, b, out);
+    for (size_t k = 0; k < 2; ++k)
+      for (size_t lane = 0; lane < kLanes; ++lane) qdd[k * count + first + lane] = out[k][lane];
   }
 }
 

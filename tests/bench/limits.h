@@ -18,6 +18,13 @@ struct Linkage {
 void accelerations(const Linkage& linkage, size_t count, const double* q, const double* qd,
                    double* qdd);
 
+// The same for two straight legs; StraightModel's sums.
+struct Legs {
+  double stance_couple, cross_couple, swing_couple, stance_moment, swing_moment;
+  double radius, mass, gravity_x, gravity_z;
+};
+void accelerations(const Legs& legs, size_t count, const double* q, const double* qd, double* qdd);
+
 // A silhouette: edges row by row in single precision, overlaps of parts counted once, one plane of
 // prefix sums for all. Pixels.
 struct TaperedPart {

@@ -9,6 +9,7 @@
 
 #include "body/kinematics.h"
 #include "observation/silhouette.h"
+#include "tests/bench/legs.h"
 #include "tests/bench/limits.h"
 #include "tests/bench/peers.h"
 #include "tests/bench/scenes.h"
@@ -19,11 +20,6 @@ namespace {
 
 constexpr size_t kWalkers = 1024, kPoses = 64;
 constexpr double kFrame = 1.0 / 30;  // s
-
-void set_items(benchmark::State& state, double items) {
-  using benchmark::Counter;
-  state.counters["s_each"] = Counter(items, Counter::kIsIterationInvariantRate | Counter::kInvert);
-}
 
 const WalkerCrowd& crowd() {
   static const WalkerCrowd crowd = walker_crowd(kWalkers);
@@ -306,6 +302,7 @@ void check_silhouettes() {
 
 int main(int argc, char** argv) try {
   walktrack::check_dynamics();
+  walktrack::check_legs();
   walktrack::check_silhouettes();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

@@ -27,6 +27,8 @@ TARGETS = [
     ("dynamics_mujoco", "dynamics_batch", "at least", 50),
     ("dynamics_tmt_eigen", "dynamics_batch", "at least", 15),
     ("frame_batch", "dynamics_soa_limit", "at most", 150),  # 1.5 us where the limit is 10 ns
+    ("legs_batch", "legs_soa_limit", "at most", 2),
+    ("legs_scalar", "legs_batch", "", None),
     ("frame_scalar", "frame_batch", "", None),
     ("dynamics_mujoco", "dynamics_scalar", "", None),
     ("dynamics_tmt_eigen", "dynamics_scalar", "", None),

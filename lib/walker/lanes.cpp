@@ -1,0 +1,34 @@
+// The instruction set in use.
+#include "walker/lanes.h"
+
+#include "walker/lane_targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "walker/lanes.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, as Highway wants it.
+#include "walker/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace walktrack::HWY_NAMESPACE {
+namespace {
+
+size_t lanes_of_target() { return hn::Lanes(Tag()); }
+const char* name_of_target() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace
+}  // namespace walktrack::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace walktrack {
+namespace {
+HWY_EXPORT(lanes_of_target);
+HWY_EXPORT(name_of_target);
+}  // namespace
+
+size_t lane_count() { return HWY_DYNAMIC_DISPATCH(lanes_of_target)(); }
+
+const char* lane_target() { return HWY_DYNAMIC_DISPATCH(name_of_target)(); }
+
+}  // namespace walktrack
+#endif
