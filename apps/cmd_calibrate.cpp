@@ -28,7 +28,7 @@ struct BoardOptions {
 
   void declare(CommandLine& line) {
     auto add = line.options().add_options();
-    add("board", po::value(&kind)->default_value("chessboard"),
+    add("board", po::value(&kind)->default_value("chessboard")->value_name("KIND"),
         "chessboard, circles or asymmetric-circles");
     add("size", po::value(&size)->value_name("CxR"), "inner corners or circles, e.g. 9x6");
     add("spacing", po::value(&spacing)->value_name("M"),
@@ -81,11 +81,13 @@ int run_calibrate(const Arguments& arguments) {
                                "data/demo/side_points.csv --floor data/demo/side.mp4 -o "
                                "out/calibration"});
   auto add = line.options().add_options();
-  add("name", po::value(&name)->default_value("cam0"), "the camera's, and of its files");
+  add("name", po::value(&name)->default_value("cam0")->value_name("NAME"),
+      "the camera's, and of its files");
   add("views", po::value(&views)->value_name("PATH"), "video or images of the board");
   add("camera", po::value(&camera)->value_name("FILE"),
       "take the lens of this calibration instead");
-  add("model", po::value(&model)->default_value("brown"), "pinhole, brown, rational or fisheye");
+  add("model", po::value(&model)->default_value("brown")->value_name("LENS"),
+      "pinhole, brown, rational or fisheye");
   add("floor", po::value(&floor)->value_name("PATH"),
       "picture or video of the camera in its place");
   add("points", po::value(&points)->value_name("FILE"), "measured points, CSV");

@@ -39,12 +39,13 @@ int run_cycle(const Arguments& arguments) {
                     .example = "walktrack cycle --model anthropomorphic --set "
                                "controls.toe_off_impulse=0.07"});
   options.declare(line);
-  line.options().add_options()("follow", po::value(&follow),
+  line.options().add_options()("follow", po::value(&follow)->value_name("KEY=VALUE"),
                                "KEY=VALUE: follow the cycle while this parameter goes there")(
-      "settle", po::value(&job.settling_steps)->default_value(0),
+      "settle", po::value(&job.settling_steps)->default_value(0)->value_name("N"),
       "steps to walk before Newton's method starts")(
-      "max-time", po::value(&job.options.max_time)->default_value(job.options.max_time),
-      "s, longest step")("save-model", po::value(&model_file),
+      "max-time",
+      po::value(&job.options.max_time)->default_value(job.options.max_time)->value_name("S"),
+      "s, longest step")("save-model", po::value(&model_file)->value_name("FILE"),
                          "write the model with the cycle as its start");
   if (!line.parse(arguments)) return kDone;
   options.require_positive({{"--max-time", job.options.max_time}});

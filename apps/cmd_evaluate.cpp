@@ -22,7 +22,7 @@ int run_evaluate(const Arguments& arguments) {
            "Compares estimates (joints.csv, or result folders of 'walktrack track') with a "
            "truth: joints,\nfoot plants (stance,side,on_frame,off_frame,x_m), ground points "
            "(t,x,y) or Pose2Sim key\npoints, told apart by the header. Prints a Markdown table.",
-       .example = "walktrack evaluate data/demo/truth.csv out"});
+       .example = "walktrack evaluate data/demo/truth.csv out/demo"});
   auto add = line.options().add_options();
   add("uncertainty", po::value(&uncertainty)->value_name("FILE"),
       "uncertainty.csv of the estimate; default: the one beside it");

@@ -50,12 +50,12 @@ class PriorOptions {
     namespace po = boost::program_options;
     line.options().add_options()("prior", po::bool_switch(&wanted_),
                                  "kneed: start and controls of every step from the table of gaits")(
-        "speed", po::value(&speed_), "m/s, with --prior; 1.3 unless given")(
-        "speed-at", po::value(&changes_),
+        "speed", po::value(&speed_)->value_name("M/S"), "m/s, with --prior; 1.3 unless given")(
+        "speed-at", po::value(&changes_)->value_name("T:V"),
         "T:V, with --prior: from T s on towards V m/s; may be repeated")(
-        "step-length", po::value(&walk_.step_length)->default_value(0),
+        "step-length", po::value(&walk_.step_length)->default_value(0)->value_name("M"),
         "m, with --prior; 0: what people prefer at the speed")(
-        "feedback", po::value(&walk_.feedback)->default_value(1),
+        "feedback", po::value(&walk_.feedback)->default_value(1)->value_name("SHARE"),
         "strength of the feedback at support transfer, with --prior; 0: none");
   }
 
@@ -111,16 +111,20 @@ int run_simulate(const Arguments& arguments) {
        .about = "Simulates a walker. --config names a model file, --set changes one "
                 "value of the model.\nWrites states.csv, events.csv, model.yaml, "
                 "strip.svg, strip.png, animation.mp4 and run.json.",
-       .example = "walktrack simulate --model kneed --prior --speed 1.3 --speed-at 5:1.6 -o gait"});
+       .example =
+           "walktrack simulate --model kneed --prior --speed 1.3 --speed-at 5:1.6 -o out/gait"});
   options.declare(line);
-  line.options().add_options()("duration", po::value(&job.duration)->default_value(job.duration),
-                               "s of simulated time")("seconds", po::value(&job.duration),
-                                                      "the same as --duration")(
-      "steps", po::value(&job.steps)->default_value(0), "stop after so many steps; 0: no limit")(
-      "sample", po::value(&job.sample_interval)->default_value(job.sample_interval),
-      "s between rows of states.csv")("slow",
-                                      po::value(&job.slow_motion)->default_value(job.slow_motion),
-                                      "the animation is so many times slower than life")(
+  line.options().add_options()(
+      "duration", po::value(&job.duration)->default_value(job.duration)->value_name("S"),
+      "s of simulated time")("seconds", po::value(&job.duration)->value_name("S"),
+                             "the same as --duration")(
+      "steps", po::value(&job.steps)->default_value(0)->value_name("N"),
+      "stop after so many steps; 0: no limit")(
+      "sample",
+      po::value(&job.sample_interval)->default_value(job.sample_interval)->value_name("S"),
+      "s between rows of states.csv")(
+      "slow", po::value(&job.slow_motion)->default_value(job.slow_motion)->value_name("N"),
+      "the animation is so many times slower than life")(
       "no-pictures", po::bool_switch(&no_pictures), "tables only")(
       "extremes", po::bool_switch(&extremes),
       "instead: a table of how each integrator fares at the extremes (minutes)");

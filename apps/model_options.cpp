@@ -11,10 +11,12 @@ namespace walktrack {
 void ModelOptions::declare(CommandLine& line) {
   namespace po = boost::program_options;
   line.options().add_options()(
-      "model", po::value(&model_),
+      "model", po::value(&model_)->value_name("NAME"),
       "monopode, rimless_wheel, anthropomorphic, kneed; simulate also articulated")(
-      "step", po::value(&step_)->default_value(step_, "0.001"), "s, largest time step")(
-      "integrator", po::value(&integrator_)->default_value(integrator_), "euler, rk4 or midpoint");
+      "step", po::value(&step_)->default_value(step_, "0.001")->value_name("S"),
+      "s, largest time step")(
+      "integrator", po::value(&integrator_)->default_value(integrator_)->value_name("NAME"),
+      "euler, rk4 or midpoint");
 }
 
 std::string ModelOptions::name(const CommandLine& line) const {

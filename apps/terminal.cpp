@@ -78,6 +78,7 @@ void Terminal::draw(const Progress& progress) {
     finish_line();
     what_ = progress.what;
     start_ = now;
+    done_before_ = progress.done;
   } else if (now - drawn_ < kRedrawInterval && !complete) {
     return;
   }
@@ -89,15 +90,18 @@ void Terminal::draw(const Progress& progress) {
 
 std::string Terminal::line(const Progress& progress) const {
   const double seconds = std::chrono::duration<double>(drawn_ - start_).count();
-  const double rate = seconds > 0 ? static_cast<double>(progress.done) / seconds : 0;
-  if (progress.total == 0) return fmt::format("{} {}  {:.1f}/s", what_, progress.done, rate);
+  // What a run that is gone on with had done before took none of this time.
+  const auto since = static_cast<double>(progress.done - std::min(progress.done, done_before_));
+  const double rate = seconds > 0 ? since / seconds : 0;
+  const std::string pace = rate > 0 ? fmt::format("  {:.1f}/s", rate) : "";
+  if (progress.total == 0) return fmt::format("{} {}{}", what_, progress.done, pace);
   const size_t done = std::min(progress.done, progress.total);
   const size_t full = kBarWidth * done / progress.total;
-  const double left = rate > 0 ? static_cast<double>(progress.total - done) / rate : 0;
-  return fmt::format("{} [{}{}{}{}] {}/{}  {:.1f}/s  {} left", what_, colour_ ? "\033[32m" : "",
+  const double left = static_cast<double>(progress.total - done) / rate;
+  return fmt::format("{} [{}{}{}{}] {}/{}{}{}", what_, colour_ ? "\033[32m" : "",
                      std::string(full, '='), colour_ ? "\033[0m" : "",
-                     std::string(kBarWidth - full, ' '), done, progress.total, rate,
-                     duration(left));
+                     std::string(kBarWidth - full, ' '), done, progress.total, pace,
+                     rate > 0 ? fmt::format("  {} left", duration(left)) : "");
 }
 
 void Terminal::finish_line() {

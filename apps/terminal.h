@@ -40,6 +40,7 @@ class Terminal {
   bool line_open_ = false;
   std::string what_;
   Clock::time_point start_, drawn_;
+  size_t done_before_ = 0;  // at start_
 };
 
 }  // namespace walktrack

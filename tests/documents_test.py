@@ -5,7 +5,7 @@
 
 Commands stand in fenced blocks of the kind `sh`; those marked `slow` are left out with --quick. Blocks marked `motion`
 run a second time with measured motion capture in the place of the demo's truth; where that is absent, it is said.
-Each command has to end with 0, or with 4 (tracked, below a gate). A backslash joins lines. Links between documents
+So does the example at the end of every command's --help, `track` first, whose result another one reads. Each command has to end with 0, or with 4 (tracked, below a gate). A backslash joins lines. Links between documents
 must lead somewhere.
 """
 import os
@@ -19,6 +19,7 @@ import tempfile
 DOCUMENTS = ["README.md", "apps/guide/README.md", "apps/guide/formats.md", "scripts/cluster/README.md"]
 # These build the program and run the tests, this one included.
 RUN_BY_OTHERS = ("scripts/demo.sh", "scripts/test.sh")
+SLOW_EXAMPLES = {"batch", "evaluate", "prior", "render", "selftest", "sweep", "track"}
 STAND_IN, CAPTURE = "data/demo/truth.csv", "data/mocap/cmu_02_01.csv"
 
 
@@ -49,6 +50,15 @@ def commands(document, quick, capture):
                     yield number, command
 
 
+def examples(walktrack, quick):
+    """The example of every command's help."""
+    text = lambda *words: subprocess.run([walktrack, *words], capture_output=True, text=True, check=True).stdout
+    names = [name for name in text("--help-words").split() if not name.startswith("--")]
+    for name in sorted(names, key=lambda name: name != "track"):
+        if not (quick and name in SLOW_EXAMPLES):
+            yield f"{name} --help", text(name, "--help").split("\nExample:\n  ")[1].strip()
+
+
 def broken_links(document):
     for link in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", document.read_text()):
         if "://" not in link and not (document.parent / link).exists():
@@ -69,16 +79,17 @@ def main():
             (tree / place).mkdir(parents=True, exist_ok=True)
             (tree / place / "walktrack").symlink_to(walktrack)
         environment = os.environ | {"PATH": f"{tree / 'bin'}:{os.environ['PATH']}"}
-        for name in DOCUMENTS:
+        documents = {name: list(commands(source / name, quick, capture)) for name in DOCUMENTS}
+        for name, found in {**documents, "the program": list(examples(walktrack, quick))}.items():
             # Readers of one document have not read the others: nothing is there to be overwritten.
             shutil.rmtree(tree / "out", ignore_errors=True)
             (tree / "out").mkdir()
-            for line, command in commands(source / name, quick, capture):
+            for place, command in found:
                 result = subprocess.run(["bash", "-c", command], cwd=tree, env=environment, capture_output=True, text=True, check=False)
                 if result.returncode in (0, 4):
                     passed += 1
                 else:
-                    failures.append(f"{name}:{line}: {command}\n  exit {result.returncode}: {result.stderr[-400:]}")
+                    failures.append(f"{name}:{place}: {command}\n  exit {result.returncode}: {result.stderr[-400:]}")
                     print(failures[-1], flush=True)
     print(f"{passed} passed, {len(failures)} failed")
     sys.exit(1 if failures or passed == 0 else 0)

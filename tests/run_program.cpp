@@ -42,6 +42,15 @@ pid_t start(const std::string& path, const std::vector<std::string>& arguments,
   return child;
 }
 
+// What is written to a terminal until the last program that has it open is gone.
+std::string read_terminal(int terminal) {
+  std::string text;
+  char part[4096];
+  for (ssize_t size = 0; (size = read(terminal, part, sizeof part)) > 0;)
+    text.append(part, static_cast<size_t>(size));
+  return text;
+}
+
 int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
 
 }  // namespace
@@ -52,6 +61,20 @@ ProgramResult run_program(const std::string& path, const std::vector<std::string
   int status = 0;
   waitpid(start(path, arguments, out, err), &status, 0);
   return {code_of(status), read_file(out), read_file(err)};
+}
+
+ProgramResult run_on_terminal(const std::string& path, const std::vector<std::string>& arguments) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "stdout";
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0)
+    throw std::runtime_error("no terminal to run " + path + " on");
+  const pid_t child = start(path, arguments, out, ptsname(terminal));
+  const std::string err = read_terminal(terminal);
+  close(terminal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return {code_of(status), read_file(out), err};
 }
 
 StartedProgram::StartedProgram(const std::string& path, const std::vector<std::string>& arguments)

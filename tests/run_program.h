@@ -14,6 +14,9 @@ struct ProgramResult {
 
 ProgramResult run_program(const std::string& path, const std::vector<std::string>& arguments);
 
+// The same with its stderr on a terminal, whose lines end in "\r\n".
+ProgramResult run_on_terminal(const std::string& path, const std::vector<std::string>& arguments);
+
 // A program that runs while the test goes on; killed at the end of the scope. It says nothing.
 class StartedProgram {
  public:

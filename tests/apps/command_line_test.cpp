@@ -63,6 +63,16 @@ TEST(CommandLine, SaysItsVersionAndBuild) {
   EXPECT_THAT(result.out, MatchesRegex("walktrack [0-9.]+\ncommit [0-9a-z]+\nbuilt .+ by .+\n"));
 }
 
+// One place says it; the package takes it from there too (apps/install.cmake).
+TEST(CommandLine, ItsVersionIsThatOfTheProject) {
+  const std::string project = read_file(WALKTRACK_SOURCE_DIR "/CMakeLists.txt");
+  const std::string before = "project(walktrack VERSION ";
+  const size_t begin = project.find(before) + before.size();
+  const std::string version = project.substr(begin, project.find(' ', begin) - begin);
+  EXPECT_THAT(run_walktrack({"--version"}).out, StartsWith("walktrack " + version + "\n"));
+  EXPECT_THAT(run_walktrack({"--help-man"}).out, HasSubstr("\"walktrack " + version + "\""));
+}
+
 TEST(CommandLine, WithoutACommandShowsTheOverviewAsAnError) {
   const ProgramResult result = run_walktrack({});
   EXPECT_EQ(result.exit_code, 2);
