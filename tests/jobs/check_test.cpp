@@ -213,6 +213,20 @@ TEST_F(CheckTest, FindsAVaryingFrameRateAndDroppedFrames) {
   EXPECT_THAT(notes(report, "c1"), testing::ElementsAre("2 frames were dropped"));
 }
 
+TEST_F(CheckTest, SaysHowManyImagesOfAFolderAreMissing) {
+  std::vector<int> numbers;
+  for (int i = 0; i < 30; ++i)
+    if (i != 7 && i != 8 && i != 20) numbers.push_back(i);
+  std::filesystem::remove(folder_ / "c1.mp4");
+  write_sample_images(folder_ / "c1.mp4", numbers);  // a folder, whatever its name
+  const CheckReport report = check();
+  EXPECT_FALSE(report.failed()) << check_text(report);
+  EXPECT_EQ(report.cameras[1].video.frame_count, 30);
+  EXPECT_THAT(check_text(report),
+              HasSubstr("note: c1: 3 images are missing, by the numbers in their names\n"
+                        "      cure: tracking goes on without them; the others keep their time\n"));
+}
+
 TEST_F(CheckTest, SaysThatAPhonesFramesAreTurned) {
   turn_video_by_90_degrees(folder_ / "c1.mp4");
   const CheckReport raw = check();  // the calibration is of frames as they are stored

@@ -1,56 +1,16 @@
 // The likelihood on walks rendered by an independent program, whose bodies are not ours.
 #include "tests/observation/rendered.h"
 
-#include <functional>
-
 #include <gtest/gtest.h>
 
 #include "observation/likelihood.h"
+#include "tests/observation/perturbed.h"
 
 namespace walktrack {
 namespace {
 
-using Change = std::function<void(JointPositions&)>;
-
-void turn(JointPositions& j, std::initializer_list<Joint> which, Joint about, double angle) {
-  const Eigen::Vector3d axis = (j[Joint::kLeftHip] - j[Joint::kRightHip]).normalized();
-  const Eigen::AngleAxisd rotation(angle, axis);
-  const Eigen::Vector3d centre = j[about];
-  for (const Joint joint : which) j[joint] = centre + rotation * (j[joint] - centre);
-}
-
-Change shifted(const Eigen::Vector3d& by) {
-  return [by](JointPositions& j) {
-    for (Eigen::Vector3d& p : j.at) p += by;
-  };
-}
-
-// The pose moved by 4 cm, or one limb turned by 10 degrees (7 cm at the end of a thigh).
-std::vector<Change> changes() {
-  std::vector<Change> out;
-  for (const double s : {-1.0, 1.0}) {
-    const double a = s * 0.17;
-    out.push_back(shifted({0.04 * s, 0, 0}));
-    out.push_back(shifted({0, 0, 0.04 * s}));
-    out.push_back([a](JointPositions& j) {
-      turn(j, {Joint::kNeck, Joint::kHead}, Joint::kPelvis, a);
-    });
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-      out.push_back([a, side](JointPositions& j) {
-        turn(j, {knee(side), ankle(side), toe(side)}, hip(side), a);
-      });
-      out.push_back([a, side](JointPositions& j) {
-        turn(j, {ankle(side), toe(side)}, knee(side), a);
-      });
-    }
-  }
-  return out;
-}
-
-struct Share {
-  int won = 0, asked = 0;
-  double value() const { return won / static_cast<double>(asked); }
-};
+// 4 cm, and 10 degrees (7 cm at the end of a thigh).
+std::vector<Change> small_changes() { return changes(0.04, 0.17); }
 
 // How often the true pose beats a changed one, over the frames 6, 14, 22 ... of a side view.
 Share true_pose_wins(const std::filesystem::path& folder, const ObservationConfig& config) {
@@ -73,7 +33,7 @@ Share true_pose_wins(const std::filesystem::path& folder, const ObservationConfi
     if (f % 8 == 6) {
       const CapsuleList before = capsules(truth[f - 1]);
       const double best = log_likelihood(config, evidence, now, &before);
-      for (const Change& change : changes()) {
+      for (const Change& change : small_changes()) {
         JointPositions other = truth[f];
         change(other);
         share.won += log_likelihood(config, evidence, capsules(other), &before) < best;
