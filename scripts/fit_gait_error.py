@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Fits the sizes of lib/metrics/gait_error.cpp to walks with truth, and says what bands hold with them.
 
-    scripts/measure_gait.py WALKTRACK OUT -- --set track.model_error=0
-    scripts/fit_gait_error.py OUT
+    scripts/measure_gait.py WALKTRACK OUT [--scenes FOLDER ...] -- --set track.model_error=0
+    scripts/fit_gait_error.py OUT [--scenes FOLDER ...]
 
 Reads what measure_gait.py left: gait.json of rendered walks and of their tracks, whose bands are the particles' alone.
 For each number of a step and each mean of a walk prints the standard deviation that, added to the particles' band and
 to what the cameras leave open, makes 90 % bands hold the truth 90 % of the time: the mean over walks, all cameras and
-the side camera counting alike. Fitted are the walks made of footprints (even numbers) that did not fail; the share
-held by the others, gaits of the kneed walker, stands beside it. Standard library only.
+the side camera counting alike. Fitted are the walks made of footprints (even numbers) that did not fail. What is held
+is said of halves of them fitted to the other half, and, fitted to all of them, of the walker's own gaits and of
+FOLDERs, failures counted, with three cameras and with one. Standard library only.
 """
 import argparse
 import json
@@ -87,6 +88,7 @@ def held(rows, sd):
 
 
 def mean_held(walks, sd):
+    """Walks: {kind of cameras: [rows of one walk]}."""
     return statistics.mean(statistics.mean(held(rows, sd) for rows in of) for of in walks.values()) if walks else math.nan
 
 
@@ -98,22 +100,58 @@ def fitted(walks):
     return high
 
 
+def joined(*halves):
+    return {kind: [rows for half in halves for rows in half.get(kind, [])] for kind in KINDS}
+
+
+def crosswise(halves):
+    """Mean share held of either half, fitted to the other."""
+    return statistics.mean(mean_held(halves[1 - k], fitted(halves[k])) for k in (0, 1))
+
+
+def groups_of(out, scenes):
+    """{name of a group: {(kind, column): {cameras: [rows of one walk]}}}: halves 0 and 1, gaits, films."""
+    groups = {0: {}, 1: {}, "gaits": {}, "films": {}}
+    for folder in [*sorted((out / "scenes").iterdir()), *scenes]:
+        number = -1 if folder in scenes else int(folder.name.removeprefix("walk"))
+        group = "films" if number < 0 else "gaits" if number % 2 else number // 2 % 2
+        for kind in KINDS:
+            scene, result = folder / f"{kind}.yaml", out / "results" / folder.name / kind
+            if not (result / "gait.json").exists():
+                continue
+            if group in (0, 1) and errors_of(folder, scene, result, FIGURE) is None:
+                print(f"left out: {folder.name}, {kind}")
+                continue
+            for key, rows in errors_of_walk(scene, result).items():
+                groups[group].setdefault(key, {}).setdefault(kind, []).append(rows)
+    return groups
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=pathlib.Path)
-    out = parser.parse_args().out
-    fit, unseen = {}, {}
-    for number, folder in enumerate(sorted((out / "scenes").iterdir())):
-        for kind in KINDS:
-            scene, result = folder / f"{kind}.yaml", out / "results" / folder.name / kind
-            if number % 2 == 0 and errors_of(folder, scene, result, FIGURE) is None:
-                continue
-            for key, rows in errors_of_walk(scene, result).items():
-                (unseen if number % 2 else fit).setdefault(key, {}).setdefault(kind, []).append(rows)
-    for key, walks in fit.items():
-        sd, others = fitted(walks), unseen.get(key, {})
-        print(f"{' '.join(key)}: {sd:.4f}; held {100 * mean_held(walks, sd):.0f} % (without {100 * mean_held(walks, 0):.0f} %), "
-              f"unseen {100 * mean_held(others, sd):.0f} % ({100 * mean_held(others, 0):.0f} %)")
+    parser.add_argument("--scenes", type=pathlib.Path, nargs="*", default=[])
+    arguments = parser.parse_args()
+    groups = groups_of(arguments.out, arguments.scenes)
+    percent = lambda share: "-" if math.isnan(share) else f"{100 * share:.0f} %"
+    shares = {}  # (kind of number, what): shares held of each column
+    for key in groups[0]:
+        halves = [groups[half].get(key, {}) for half in (0, 1)]
+        if set(halves[0]) != set(halves[1]):
+            continue
+        both = joined(*halves)
+        sd = fitted(both)
+        said = {"footprints": (mean_held(both, 0), mean_held(both, sd)), "halves": (math.nan, crosswise(halves))}
+        for group, kind in ((g, k) for g in ("films", "gaits") for k in KINDS):
+            rows = {kind: groups[group].get(key, {}).get(kind)}
+            said[f"{group}, {kind}"] = (mean_held(rows, 0), mean_held(rows, sd)) if rows[kind] else (math.nan, math.nan)
+        print(f"{' '.join(key)}: {sd:.4f}; " + "; ".join(f"{what} {percent(b)} ({percent(a)})" for what, (a, b) in said.items()))
+        for what, pair in said.items():
+            shares.setdefault((key[0], what), []).append(pair)
+    for (kind, what), pairs in shares.items():
+        mean = lambda values: statistics.mean(values) if values else math.nan
+        a, b = (mean([pair[k] for pair in pairs if not math.isnan(pair[k])]) for k in (0, 1))
+        print(f"numbers of a {kind}, {what}: {percent(b)} ({percent(a)})")
 
 
 if __name__ == "__main__":
