@@ -131,12 +131,18 @@ std::string find_cure(const Scene& scene, size_t self) {
   return best;
 }
 
+// What the focal length alone says; with a wrong one the distortion means nothing.
+double undistorted_view(const Camera& camera) {
+  return 2 * std::atan(0.5 * camera.width_px / camera.focal_px.x());
+}
+
 void check_lens(const SceneCamera& camera, CheckReport& report) {
-  const double view = inspect_camera(camera.camera, 1).horizontal_view;
+  const double view = undistorted_view(camera.camera);
   if (camera.camera.lens != Lens::kFisheye && view > kWidestView) {
     report.findings.push_back({camera.name, true,
                                fmt::format("sees {:.0f} degrees at once", deg_from_rad(view)),
                                "the focal length must be in pixels, not in millimetres"});
+    return;
   }
   if (!lens_covers_image(camera.camera)) {
     report.findings.push_back({camera.name, true,

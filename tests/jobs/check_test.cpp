@@ -162,10 +162,13 @@ TEST_F(CheckTest, FindsAWrongSize) {
 
 TEST_F(CheckTest, FindsFocalLengthsInMillimetres) {
   cameras_[0].focal_px = {4.5, 4.5};
-  write_camera(0, cameras_[0]);
-  const CheckReport report = check();
-  ASSERT_TRUE(report.failed());
-  EXPECT_THAT(report.findings[0].cure, HasSubstr("must be in pixels"));
+  for (const double k1 : {0.0, -0.12}) {  // whose distortion folds over at such a length
+    set_distortion(cameras_[0], std::vector<double>{k1, 0, 0, 0, 0});
+    write_camera(0, cameras_[0]);
+    const CheckReport report = check();
+    ASSERT_TRUE(report.failed());
+    EXPECT_THAT(report.findings[0].cure, HasSubstr("must be in pixels"));
+  }
 }
 
 TEST_F(CheckTest, FindsADistortionThatFolds) {
