@@ -31,8 +31,8 @@ struct InputPlace {
 // "file:line: key: found X, allowed Y" - the one shape of every message about an input.
 std::string describe(const InputPlace& place, std::string_view found, std::string_view allowed);
 
-// The candidate nearest to `word` by edit distance, or "" when none is within a third of its
-// length.
+// The candidate nearest to `word` by edit distance (neighbours exchanged are one edit), or "" when
+// none is within a third of its length.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace walktrack

@@ -24,6 +24,7 @@ TEST(NearestWord, FindsATypoAndRefusesAStranger) {
   const std::vector<std::string> keys{"particles", "seed", "flow"};
   EXPECT_EQ(nearest_word("particels", keys), "particles");
   EXPECT_EQ(nearest_word("sed", keys), "seed");
+  EXPECT_EQ(nearest_word("vidoe", {"name", "video"}), "video");  // one edit, no more are allowed
   EXPECT_EQ(nearest_word("background", keys), "");
   EXPECT_EQ(nearest_word("", {}), "");
   // At the bound: two letters more than six, of which two may differ.
