@@ -70,13 +70,14 @@ int report(const BatchJob& job) {
 int run_batch(const Arguments& arguments) {
   BatchJob job;
   std::string folder, scene_template, shard = "1/1";
-  bool list_only = false, dry_run = false, report_only = false;
+  bool list_only = false, dry_run = false, report_only = false, resume = false;
   CommandLine line({.name = "batch",
                     .operands = "FOLDER",
                     .about =
                         "Tracks every scene below FOLDER, each in a process of its own; goes "
                         "on after failures.\nRun again, it does what is not complete, from where "
-                        "it was killed. Several\nmachines may share one output folder.",
+                        "it was killed (--resume,\nthe default). Several machines may share one "
+                        "output folder.",
                     .example = "walktrack batch data -o out/batch --jobs 2"});
   line.options().add_options()("scene", po::value(&scene_template)->value_name("FILE"),
                                "take every video below FOLDER in the place of this scene\'s video")(
@@ -84,13 +85,20 @@ int run_batch(const Arguments& arguments) {
       "shard", po::value(&shard)->value_name("i/n"), "do every n-th sequence, from the i-th")(
       "time-limit", po::value(&job.limits.seconds)->value_name("S"), "seconds for one sequence")(
       "memory-limit", po::value(&job.limits.memory_mb)->value_name("MB"), "for one sequence")(
-      "list", po::bool_switch(&list_only), "print the sequences and their state, do nothing")(
+      "resume", po::bool_switch(&resume),
+      "pass over what is complete and go on from checkpoints; the default, so that it only forbids "
+      "--yes")("list", po::bool_switch(&list_only),
+               "print the sequences and their state, do nothing")(
       "retry-failed", po::bool_switch(&job.retry_failed), "do none but those that failed before")(
       "dry-run", po::bool_switch(&dry_run), "print the sequences that would be done, do nothing")(
       "report", po::bool_switch(&report_only), "do nothing but the summary of what there is");
   line.operand("FOLDER", &folder);
   if (!line.parse(arguments)) return kDone;
   if (job.jobs < 1) throw UsageError("--jobs: found less than 1, allowed: from 1");
+  if (resume && line.common().overwrite) {
+    throw UsageError(
+        "--resume and --yes exclude each other: what is complete is passed over or done again");
+  }
   parse_shard(shard, job);
   job.folder = folder;
   job.scene_template = scene_template;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <list>
+#include <numeric>
 #include <thread>
 
 #include <fmt/format.h>
@@ -26,6 +27,17 @@ constexpr size_t kMaxLogBytes = 16u << 20;
 // hang.
 constexpr ChildLimits kLimits{.seconds = 300, .memory_mb = 4096};
 constexpr ChildLimits kStressLimits{.seconds = 3600, .memory_mb = 12'288};
+
+// Indices of the names, trials of minutes first: none of them is then left alone at the end.
+std::vector<size_t> order_of(const std::vector<std::string>& names) {
+  const std::vector<std::string> quick = trial_names(false);
+  std::vector<size_t> order(names.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_partition(order.begin(), order.end(), [&](size_t i) {
+    return std::ranges::find(quick, names[i]) == quick.end();
+  });
+  return order;
+}
 
 struct Running {
   size_t index;
@@ -78,6 +90,7 @@ TrialResult trial_from_line(const std::string& name, const std::string& line) {
 
 std::vector<TrialResult> run_selftest(const SelftestJob& job, const JobControl& control) {
   const std::vector<std::string> names = trial_names(job.stress);
+  const std::vector<size_t> order = order_of(names);
   std::vector<TrialResult> results(names.size());
   std::vector<bool> done(names.size(), false);
   std::list<Running> running;
@@ -87,11 +100,11 @@ std::vector<TrialResult> run_selftest(const SelftestJob& job, const JobControl& 
   size_t next = 0;
   while ((next < names.size() || !running.empty()) && !control.stopping()) {
     if (next < names.size() && static_cast<int>(running.size()) < job.jobs) {
+      const size_t index = order[next++];
       std::vector<std::string> words = job.command;
-      words.insert(words.end(), {names[next], "-o", place(next).string()});
+      words.insert(words.end(), {names[index], "-o", place(index).string()});
       running.push_back(
-          {next, ChildProcess(words, log(next), job.stress ? kStressLimits : kLimits)});
-      ++next;
+          {index, ChildProcess(words, log(index), job.stress ? kStressLimits : kLimits)});
       continue;
     }
     std::this_thread::sleep_for(kPollInterval);

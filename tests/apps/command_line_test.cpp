@@ -106,6 +106,7 @@ TEST(CommandLine, NamesMistakes) {
        "--shard: found '3/2', allowed: i/n"},
       {{"batch", "/tmp", "-o", "/tmp/x", "--jobs", "0"}, 2, "--jobs: found less than 1"},
       {{"batch", "/tmp"}, 2, "--output is missing"},
+      {{"batch", "/tmp", "-o", "/tmp/x", "--resume", "-y"}, 2, "--resume and --yes exclude"},
       {{"calibrate"}, 2, "--output is missing"},
       {{"calibrate", "-o", "/tmp/x"}, 2, "--views"},
       {{"calibrate", "--model", "flat", "-o", "/tmp/x"}, 2, "found flat, allowed: pinhole, brown"},

@@ -135,7 +135,9 @@ TEST_F(Durability, KilledAtAnyMomentItResumesToTheSameBytes) {
       unfinished += program.wait() == 128 + SIGKILL;
     }
     expect_complete_ones_sound(out, sound);
-    const ProgramResult resumed = run_walktrack(batch(out));
+    std::vector<std::string> again = batch(out);
+    again.emplace_back("--resume");
+    const ProgramResult resumed = run_walktrack(again);
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
     const auto found = results(out);
     for (const auto& [name, content] : sound) {

@@ -13,6 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::StartsWith;
 
 TEST(Trial, EndsAsItsExtremeDeserves) {
   const TemporaryFolder folder;
@@ -58,6 +59,24 @@ TEST(Selftest, ToldToStopItLeavesNothing) {
   };
   EXPECT_THAT(run_selftest(job, control), IsEmpty());
   EXPECT_TRUE(fs::is_empty(job.folder));
+}
+
+TEST(Selftest, BeginsWithTheTrialsOfMinutesAndPrintsThemInTheirPlace) {
+  const TemporaryFolder folder;
+  SelftestJob job;
+  const std::string script = folder.write(
+      "trial.sh", "#!/bin/sh\necho \"$1\" >> \"${3%/*}/../begun\"\nprintf 'tracked\\t5\\tfine\\n'\n");
+  fs::permissions(script, fs::perms::owner_all);
+  job.command = {script};
+  job.folder = folder.path() / "work";
+  job.stress = true;
+  const auto results = run_selftest(job, {});
+  std::vector<std::string> names;
+  for (const TrialResult& result : results) names.push_back(result.name);
+  EXPECT_EQ(names, trial_names(true));
+  EXPECT_THAT(read_file(folder.path() / "begun"),
+              StartsWith("1,000,000 particles\n8K images, person 4,000 px high\n10,000 frames\n"
+                         "ordinary walk\n"));
 }
 
 TEST(Selftest, TellsOfCrashesAndOfProcessesThatSayNothing) {
