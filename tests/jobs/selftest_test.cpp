@@ -65,7 +65,8 @@ TEST(Selftest, BeginsWithTheTrialsOfMinutesAndPrintsThemInTheirPlace) {
   const TemporaryFolder folder;
   SelftestJob job;
   const std::string script = folder.write(
-      "trial.sh", "#!/bin/sh\necho \"$1\" >> \"${3%/*}/../begun\"\nprintf 'tracked\\t5\\tfine\\n'\n");
+      "trial.sh",
+      "#!/bin/sh\necho \"$1\" >> \"${3%/*}/../begun\"\nprintf 'tracked\\t5\\tfine\\n'\n");
   fs::permissions(script, fs::perms::owner_all);
   job.command = {script};
   job.folder = folder.path() / "work";
