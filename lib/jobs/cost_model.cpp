@@ -8,18 +8,18 @@ namespace walktrack {
 namespace {
 
 // Nanoseconds, as scripts/measure_costs.py prints them.
-constexpr double kDecoding = 5.38;
-constexpr double kBackground = 77.5;
-constexpr double kAppearance = 3.45;
-constexpr double kFlowMeasured = 535;
-constexpr double kFlowWeighed = 298;
-constexpr double kPartProjected = 661;
-constexpr double kRowSummed = 6.95;
-constexpr double kWalker = 1.32e5;
-constexpr double kPartPosed = 868;
+constexpr double kDecoding = 5.55;
+constexpr double kBackground = 60.3;
+constexpr double kAppearance = 3.49;
+constexpr double kFlowMeasured = 499;
+constexpr double kFlowWeighed = 187;
+constexpr double kPartProjected = 157;
+constexpr double kRowSummed = 5.5;
+constexpr double kWalker = 1.17e5;
+constexpr double kPartPosed = 807;
 
 // Mean layers of a frame with one, two, three cameras.
-constexpr std::array<double, 3> kLayers{4.0, 4.4, 4.7};
+constexpr std::array<double, 3> kLayers{4.0, 4.2, 4.8};
 
 constexpr double kMsPerNs = 1e-6;
 
