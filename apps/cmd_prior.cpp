@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "core/errors.h"
+#include "gait/build_straight_prior.h"
 #include "jobs/prior.h"
 #include "terminal.h"
 
@@ -12,22 +13,39 @@ namespace po = boost::program_options;
 
 namespace {
 
-int report(const CommandLine& line, PriorReportJob job) {
+enum class Model { kKneed, kAnthropomorphic };
+
+Model model_named(const std::string& name) {
+  if (name == "kneed") return Model::kKneed;
+  if (name == "anthropomorphic") return Model::kAnthropomorphic;
+  throw UsageError(
+      describe({"", 0, "--model"}, fmt::format("'{}'", name), "kneed, anthropomorphic"));
+}
+
+int report(const CommandLine& line, Model model, PriorReportJob job) {
   const Config config = line.config().values;
   job.output = line.required_output();
   job.overwrite = line.common().overwrite;
   job.threads = config.threads;
   job.seed = config.seed;
   Terminal terminal(line.common());
-  report_prior(job, terminal.control());
+  if (model == Model::kKneed) {
+    report_prior(job, terminal.control());
+  } else {
+    report_straight_prior(job, terminal.control());
+  }
   return kDone;
 }
 
-int build(const CommandLine& line, PriorJob job) {
+int build(const CommandLine& line, Model model, PriorJob job) {
   job.output = line.required_output();
   job.overwrite = line.common().overwrite;
   job.threads = line.config().values.threads;
   Terminal terminal(line.common());
+  if (model == Model::kAnthropomorphic) {
+    build_straight_prior(job, terminal.control());
+    return kDone;
+  }
   return build_prior(job, terminal.control()) ? kDone : kInterrupted;
 }
 
@@ -35,18 +53,21 @@ int build(const CommandLine& line, PriorJob job) {
 
 int run_prior(const Arguments& arguments) {
   bool show = false, level = false;
-  std::string table, earlier;
+  std::string table, earlier, model = "kneed";
   PriorJob job;
   PriorReportJob shown;
   CommandLine line({.name = "prior",
                     .operands = "",
-                    .about = "Builds the table of optimal cyclic gaits over speed, step length and "
-                             "slope (hours of one core;\nrun it again to go on), or with --show "
-                             "writes tables and pictures of one into a folder.",
+                    .about =
+                        "Builds the table of optimal cyclic gaits over speed, step length and "
+                        "slope (half an hour of one core;\nrun it again to go on), or with --show "
+                        "writes tables and pictures of one into a folder.\n--model "
+                        "anthropomorphic takes a second.",
                     .example = "walktrack prior --show -o out/gaits"});
   line.options().add_options()("show", po::bool_switch(&show), "show a table, build nothing")(
-      "table", po::value(&table)->value_name("FILE"),
-      "the table to show; without it the one of this program")(
+      "model", po::value(&model)->default_value(model)->value_name("NAME"),
+      "kneed or anthropomorphic")("table", po::value(&table)->value_name("FILE"),
+                                  "the table to show; without it the one of this program")(
       "height", po::value(&shown.height)->value_name("M"), "stature of the person shown")(
       "mass", po::value(&shown.mass)->value_name("KG"), "mass of the person shown")(
       "walkers", po::value(&shown.walkers)->value_name("N"),
@@ -65,8 +86,10 @@ int run_prior(const Arguments& arguments) {
     throw UsageError(fmt::format("--walkers: found {}, allowed 1 to 1000000", shown.walkers));
   shown.prior = table;
   job.earlier = earlier;
+  const Model walker = model_named(model);
+  if (walker == Model::kAnthropomorphic) job.grid.slopes = StraightPriorGrid().slopes;
   if (level) job.grid.slopes = {0};
-  return show ? report(line, shown) : build(line, job);
+  return show ? report(line, walker, shown) : build(line, walker, job);
 }
 
 }  // namespace walktrack

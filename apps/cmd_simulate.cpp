@@ -48,8 +48,10 @@ class PriorOptions {
  public:
   void declare(CommandLine& line) {
     namespace po = boost::program_options;
-    line.options().add_options()("prior", po::bool_switch(&wanted_),
-                                 "kneed: start and controls of every step from the table of gaits")(
+    line.options().add_options()(
+        "prior", po::bool_switch(&wanted_),
+        "kneed, anthropomorphic (an adult unless --config or --set says otherwise): start and "
+        "controls of every step from the table of gaits")(
         "speed", po::value(&speed_)->value_name("M/S"), "m/s, with --prior; 1.3 unless given")(
         "speed-at", po::value(&changes_)->value_name("T:V"),
         "T:V, with --prior: from T s on towards V m/s; may be repeated")(
@@ -59,7 +61,10 @@ class PriorOptions {
         "strength of the feedback at support transfer, with --prior; 0: none");
   }
 
-  void apply(SimulateJob& job) {
+  // Kuo's anthropomorphic walker has units of its own; whoever names no other walks as an adult.
+  void apply(SimulateJob& job, const CommonOptions& common) {
+    if (wanted_ && common.config_file.empty() && common.settings.empty())
+      job.model.anthropomorphic = adult_straight_walker(1.75, 70);
     if (!wanted_) {
       if (changes_.empty() && std::isnan(speed_)) return;
       throw UsageError(
@@ -147,7 +152,7 @@ int run_simulate(const Arguments& arguments) {
     return kDone;
   }
   job.model = options.model(line);
-  prior.apply(job);
+  prior.apply(job, line.common());
   control.say(
       simulate_into(line.required_output(), line.common().overwrite, job, command_line, control));
   return kDone;

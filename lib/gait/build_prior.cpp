@@ -23,13 +23,6 @@ struct Index {
   size_t speed, ratio, slope;
 };
 
-size_t nearest(const std::vector<double>& axis, double value) {
-  size_t best = 0;
-  for (size_t i = 1; i < axis.size(); ++i)
-    if (std::abs(axis[i] - value) < std::abs(axis[best] - value)) best = i;
-  return best;
-}
-
 size_t distance(size_t a, size_t b) { return a > b ? a - b : b - a; }
 
 class Builder {
@@ -38,11 +31,10 @@ class Builder {
     prior_.speeds = grid.speeds;
     prior_.ratios = grid.ratios;
     prior_.slopes = grid.slopes;
-    const size_t size = grid.speeds.size() * grid.ratios.size() * grid.slopes.size();
-    prior_.nodes.resize(size);
-    solved_.assign(size, 0);
-    centre_ = {nearest(grid.speeds, kSeedTarget.speed), nearest(grid.ratios, 1),
-               nearest(grid.slopes, 0)};
+    prior_.nodes.resize(prior_.size());
+    solved_.assign(prior_.size(), 0);
+    centre_ = {nearest_index(grid.speeds, kSeedTarget.speed), nearest_index(grid.ratios, 1),
+               nearest_index(grid.slopes, 0)};
     for_each_node([&](const Index& n) { adopt(n, earlier); });
   }
 
@@ -110,19 +102,14 @@ class Builder {
     solved_[at(n)] = 1;
   }
 
-  size_t at(const Index& n) const {
-    return (n.speed * grid_.ratios.size() + n.ratio) * grid_.slopes.size() + n.slope;
-  }
+  size_t at(const Index& n) const { return prior_.at(n.speed, n.ratio, n.slope); }
 
   size_t from_centre(const Index& n) const {
     return distance(n.speed, centre_.speed) + distance(n.ratio, centre_.ratio) +
            distance(n.slope, centre_.slope);
   }
 
-  GaitTarget target(const Index& n) const {
-    const double speed = grid_.speeds[n.speed];
-    return {speed, grid_.ratios[n.ratio] * preferred_step_length(speed), grid_.slopes[n.slope]};
-  }
+  GaitTarget target(const Index& n) const { return prior_.target(n.speed, n.ratio, n.slope); }
 
   // Neighbours one step nearer to the centre.
   std::vector<Index> parents(const Index& n) const {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "gait/prior_table.h"
 #include "gait/step_map.h"
 
 namespace walktrack {
@@ -17,12 +18,6 @@ using GaitVector = Eigen::Matrix<double, kGaitSize, 1>;
 using CycleResidual = Eigen::Matrix<double, kResidualSize, 1>;
 using CycleJacobian = Eigen::Matrix<double, kResidualSize, kGaitSize>;
 using SectionMatrix = Eigen::Matrix<double, kSectionSize, kSectionSize>;
-
-struct GaitTarget {
-  double speed = 0;        // body's advance per time
-  double step_length = 0;  // body's advance per step
-  double slope = 0;        // rad, positive downhill
-};
 
 // One step of a gait vector; nullopt where it cannot start, does not end in a transfer, or ends off
 // the section (the swing knee not yet straight at the strike).

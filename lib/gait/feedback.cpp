@@ -4,30 +4,32 @@
 
 namespace walktrack {
 
-FeedbackGain feedback_gain(const CycleJacobian& jacobian, double effort) {
+using Eigen::MatrixXd;
+
+MatrixXd regulator_gain(const LinearStep& step, double effort) {
   constexpr int kMaxIterations = 500;
   constexpr double kSettled = 1e-10;
-  using Outputs = Eigen::Matrix<double, 2, kSectionSize>;
-  using Effects = Eigen::Matrix<double, 2, kControlSize>;
-  using ControlMatrix = Eigen::Matrix<double, kControlSize, kControlSize>;
-  const SectionMatrix a = step_matrix(jacobian);
-  const auto b = jacobian.block<kSectionSize, kControlSize>(0, 0).eval();
-  const Outputs c = jacobian.block<2, kSectionSize>(kSectionSize, kControlSize);
-  const Effects d = jacobian.block<2, kControlSize>(kSectionSize, 0);
-
-  SectionMatrix value = SectionMatrix::Identity();
-  FeedbackGain gain = FeedbackGain::Zero();
+  const auto& [a, b, c, d] = step;
+  const MatrixXd unit = MatrixXd::Identity(a.rows(), a.rows());
+  const MatrixXd price = effort * MatrixXd::Identity(b.cols(), b.cols()) + d.transpose() * d;
+  MatrixXd value = unit, gain = MatrixXd::Zero(b.cols(), a.rows());
   for (int i = 0; i < kMaxIterations; ++i) {
-    const ControlMatrix weight =
-        effort * ControlMatrix::Identity() + d.transpose() * d + b.transpose() * value * b;
+    const MatrixXd weight = price + b.transpose() * value * b;
     gain = weight.ldlt().solve(b.transpose() * value * a + d.transpose() * c);
-    const SectionMatrix next = SectionMatrix::Identity() + c.transpose() * c +
-                               a.transpose() * value * a - gain.transpose() * weight * gain;
+    const MatrixXd next =
+        unit + c.transpose() * c + a.transpose() * value * a - gain.transpose() * weight * gain;
     const double change = (next - value).norm() / next.norm();
     value = 0.5 * (next + next.transpose());
     if (change < kSettled) break;
   }
   return gain;
+}
+
+FeedbackGain feedback_gain(const CycleJacobian& jacobian, double effort) {
+  return regulator_gain({step_matrix(jacobian), jacobian.block<kSectionSize, kControlSize>(0, 0),
+                         jacobian.block<2, kSectionSize>(kSectionSize, kControlSize),
+                         jacobian.block<2, kControlSize>(kSectionSize, 0)},
+                        effort);
 }
 
 SectionMatrix closed_loop(const CycleJacobian& jacobian, const FeedbackGain& gain) {

@@ -11,8 +11,14 @@ namespace walktrack {
 
 using FeedbackGain = Eigen::Matrix<double, kControlSize, kSectionSize>;
 
+struct LinearStep {
+  Eigen::MatrixXd a, b;  // of the section's end
+  Eigen::MatrixXd c, d;  // of advance and period
+};
+
 // controls' = -gain * section'. Iterates the Riccati difference equation to its fixed point; the
 // step map of a cycle is stabilisable wherever a step can be changed at all.
+Eigen::MatrixXd regulator_gain(const LinearStep& step, double effort);
 FeedbackGain feedback_gain(const CycleJacobian& jacobian, double effort);
 
 // A - B gain: how deviations go on with the feedback.

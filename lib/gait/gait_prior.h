@@ -4,11 +4,9 @@
 // Speed and step length are those of the body: how far the hips (and the foot plants) advance.
 #pragma once
 
-#include <vector>
-
-#include "core/rng.h"
 #include "gait/feedback.h"
-#include "gait/walker_units.h"
+#include "gait/gait_noise.h"
+#include "gait/prior_table.h"
 
 namespace walktrack {
 
@@ -24,21 +22,7 @@ struct GaitNode {
   double multiplier = 0;         // largest absolute Floquet multiplier without feedback
 };
 
-// Nodes on speeds x ratios x slopes, the slope running fastest. Axes ascend.
-struct GaitPrior {
-  std::vector<double> speeds;  // of sqrt(g L)
-  std::vector<double> ratios;  // of preferred_step_length(speed)
-  std::vector<double> slopes;  // rad, positive downhill
-  std::vector<GaitNode> nodes;
-
-  const GaitNode& node(size_t speed, size_t ratio, size_t slope) const {
-    return nodes[(speed * ratios.size() + ratio) * slopes.size() + slope];
-  }
-};
-
-// Step length that people choose, 0.694 m (v / 1.25 m/s)^0.42 for a leg of 0.9275 m, in leg
-// lengths: the middle of the table's second axis, nothing else.
-double preferred_step_length(double speed);
+using GaitPrior = PriorTable<GaitNode>;
 
 // The table of this program. Milliseconds; keep it.
 GaitPrior load_gait_prior();
@@ -75,21 +59,11 @@ double phase_of(const PriorGait& gait, const KneedState& state);
 // `strength` (0 none, 1 full) of the feedback. Corrections are bounded (see kMaxCorrection).
 KneedControls next_controls(const PriorGait& gait, const KneedState& state, double strength = 1);
 
-// Noise of the controls, drawn once a step, and of the torques, drawn once a time step.
-struct GaitNoise {
-  double relative = 0.05;  // sd of stiffness, damping and impulse. 0.02 makes step lengths and
-                           // durations vary by the 2-3 % of people; a filter needs twice that as
-                           // room for what the model lacks (0.05: 5-6 % at 1.3 to 1.6 m/s)
-  double rest = 0.025;     // rad, sd of rest angles: the same in units of a typical rest angle
-  double torque = 0.002;   // sd of a joint's torque held over 1/30 s, of M g L
-};
-
 // Draws that never make a spring, damper or impulse negative (truncated at 3 sd, and before zero).
 KneedControls draw_controls(Rng& rng, const KneedControls& controls, const GaitNoise& noise);
 
 // Logarithm of the density with which draw_controls draws `drawn`, per unit of stiffness relative
-// to `controls`, damping and impulse likewise, and per rad of rest angle; -infinity for what it
-// never draws. For relative sd up to 1/3, and noise above zero.
+// to `controls`, damping and impulse likewise, and per rad of rest angle; see gait_noise.h.
 double log_density(const KneedControls& drawn, const KneedControls& controls,
                    const GaitNoise& noise);
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gait/gait_prior.h"
+#include "gait/straight_prior.h"
 
 namespace walktrack {
 
@@ -19,6 +20,9 @@ struct SurvivalTrial {
 
 // Share of walkers alive after each of the times (s, ascending), from uniformly distributed phases.
 std::vector<double> survival(const GaitPrior& prior, const KneedParameters& parameters,
+                             const SurvivalTrial& trial, const std::vector<double>& times,
+                             int threads);
+std::vector<double> survival(const StraightPrior& prior, const StraightLeggedParameters& parameters,
                              const SurvivalTrial& trial, const std::vector<double>& times,
                              int threads);
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gait/gait_prior.h"
+#include "gait/straight_prior.h"
 
 namespace walktrack {
 
@@ -23,17 +24,17 @@ struct WalkPlan {
 // The speed that a plan asks for at a time.
 double planned_speed(const WalkPlan& plan, double time);
 
-// Slowest and fastest speed of the table for a body, m/s.
+// Slowest and fastest speed of a table for a body, m/s.
 struct SpeedRange {
   double least, most;
 };
-SpeedRange speed_range(const GaitPrior& prior, const KneedParameters& parameters);
+SpeedRange speed_range(const PriorAxes& axes, const WalkerUnits& units);
 
 // How far a walk has followed its plan; starts with the plan's first speed.
 struct PlanProgress {
-  double time = 0;   // s, of the last transfer
-  double speed = 0;  // m/s, aimed at; 0: the walk has not begun
-  SectionVector section = SectionVector::Zero();
+  double time = 0;          // s, of the last transfer
+  double speed = 0;         // m/s, aimed at; 0: the walk has not begun
+  Eigen::VectorXd section;  // after the last transfer, units L = M = g = 1
 };
 
 // The gait with which a walk begins, at a time (s).
@@ -46,5 +47,12 @@ PriorGait first_gait(const GaitPrior& prior, const KneedParameters& parameters,
 // down falls (from 1.3 to 0.7 m/s at 0.1 m/s^2 within 6 s), one that is waited for does not.
 PriorGait next_gait(const GaitPrior& prior, const KneedParameters& parameters, const WalkPlan& plan,
                     double time, const KneedState& state, PlanProgress& progress);
+
+// The same for the anthropomorphic walker.
+StraightGait first_gait(const StraightPrior& prior, const StraightLeggedParameters& parameters,
+                        const WalkPlan& plan, double time, PlanProgress& progress);
+StraightGait next_gait(const StraightPrior& prior, const StraightLeggedParameters& parameters,
+                       const WalkPlan& plan, double time, const StraightState& state,
+                       PlanProgress& progress);
 
 }  // namespace walktrack

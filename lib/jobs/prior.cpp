@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "core/parallel_for.h"
 #include "core/version.h"
+#include "gait/build_straight_prior.h"
 #include "gait/prior_file.h"
 #include "gait/survival.h"
 #include "io/files.h"
@@ -28,30 +29,46 @@ GaitPrior read_prior(const fs::path& path) {
 
 int thread_count(int threads) { return threads > 0 ? threads : hardware_threads(); }
 
-std::string gaits_table(const GaitPrior& prior, const WalkerUnits& units) {
-  std::string out =
-      "speed,step_length,slope,period,cyclic,valid,cost_of_transport,clearance_mm,"
-      "swing_knee_deg,stance_knee_deg,largest_multiplier\n";
+// One line a node: where it stands, then what line(node) says.
+template <typename Node, typename Line>
+std::string gaits_table(const PriorTable<Node>& prior, const WalkerUnits& units,
+                        const std::string& columns, const Line& line) {
+  std::string out = "speed,step_length,slope,period,cyclic,valid,cost_of_transport," + columns;
   for (size_t i = 0; i < prior.speeds.size(); ++i)
     for (size_t j = 0; j < prior.ratios.size(); ++j)
       for (size_t k = 0; k < prior.slopes.size(); ++k) {
-        const GaitNode& n = prior.node(i, j, k);
-        const double speed = prior.speeds[i] * units.speed();
-        const double step = prior.ratios[j] * preferred_step_length(prior.speeds[i]) * units.length;
-        constexpr double kDegrees = 57.29577951308232;
-        out += fmt::format(
-            "{:.4f},{:.4f},{:.4f},{:.4f},{:d},{:d},{:.4f},{:.1f},{:.1f},{:.1f},"
-            "{:.3f}\n",
-            speed, step, prior.slopes[k], step / speed, n.cyclic, n.valid, n.cost_of_transport,
-            1000 * n.clearance * units.length, n.swing_flexion * kDegrees,
-            n.stance_flexion * kDegrees, n.multiplier);
+        const Node& n = prior.node(i, j, k);
+        const GaitTarget at = prior.target(i, j, k);
+        out += fmt::format("\n{:.4f},{:.4f},{:.4f},{:.4f},{:d},{:d},{:.4f},{}",
+                           at.speed * units.speed(), at.step_length * units.length, at.slope,
+                           at.step_length / at.speed * units.time(), n.cyclic, n.valid,
+                           n.cost_of_transport, line(n));
       }
-  return out;
+  return out + "\n";
 }
 
-std::string survival_table(const GaitPrior& prior, const PriorReportJob& job,
+std::string gaits_table(const GaitPrior& prior, const WalkerUnits& units) {
+  constexpr double kDegrees = 57.29577951308232;
+  return gaits_table(prior, units, "clearance_mm,swing_knee_deg,stance_knee_deg,largest_multiplier",
+                     [&](const GaitNode& n) {
+                       return fmt::format(
+                           "{:.1f},{:.1f},{:.1f},{:.3f}", 1000 * n.clearance * units.length,
+                           n.swing_flexion * kDegrees, n.stance_flexion * kDegrees, n.multiplier);
+                     });
+}
+
+std::string gaits_table(const StraightPrior& prior, const WalkerUnits& units) {
+  return gaits_table(prior, units, "hip_stiffness,toe_off_impulse,least_normal,largest_multiplier",
+                     [&](const StraightNode& n) {
+                       return fmt::format("{:.4f},{:.4f},{:.3f},{:.3f}", n.gait[0] * units.torque(),
+                                          n.gait[1] * units.impulse(), n.least_normal,
+                                          n.multiplier);
+                     });
+}
+
+template <typename Prior, typename Parameters>
+std::string survival_table(const Prior& prior, const Parameters& walker, const PriorReportJob& job,
                            const JobControl& control) {
-  const KneedParameters walker = adult_walker(job.height, job.mass);
   constexpr std::array kSpeeds{0.8, 1.3, 1.8};
   constexpr std::array kNoises{0.02, 0.05, 0.10};
   constexpr std::array kFeedbacks{0.0, 1.0};
@@ -114,13 +131,40 @@ void report_prior(const PriorReportJob& job, const JobControl& control) {
   const GaitPrior prior = job.prior.empty() ? load_gait_prior() : read_prior(job.prior);
   const KneedParameters walker = adult_walker(job.height, job.mass);
   const WalkerUnits units = walker_units(walker);
-  const auto steps = cheapest_steps(prior, units);
+  const CostTable costs = cost_table(prior);
+  const auto steps = cheapest_steps(costs, units);
   fs::create_directories(job.output);
-  write_file_atomically(job.output / "cost.svg", cost_picture(prior, units));
+  write_file_atomically(job.output / "cost.svg", cost_picture(costs, units));
   write_file_atomically(job.output / "cheapest.csv", cheapest_table(steps, units.gravity));
   write_file_atomically(job.output / "cheapest_step.svg", cheapest_picture(steps, units));
   write_file_atomically(job.output / "strips.svg", strips_picture(prior, walker));
-  write_file_atomically(job.output / "survival.csv", survival_table(prior, job, control));
+  write_file_atomically(job.output / "survival.csv", survival_table(prior, walker, job, control));
+  if (control.stopping()) return;
+  write_file_atomically(job.output / "gaits.csv", gaits_table(prior, units));
+}
+
+void build_straight_prior(const PriorJob& job, const JobControl& control) {
+  refuse_existing(job.output, job.overwrite);
+  StraightPriorGrid grid;
+  grid.slopes = job.grid.slopes;
+  const StraightPrior prior = build_straight_prior(grid, [&](size_t solved) {
+    control.progress("gaits", solved, grid.size());
+    return true;
+  });
+  write_file_atomically(job.output, straight_prior_text(prior, build_facts().version));
+}
+
+void report_straight_prior(const PriorReportJob& job, const JobControl& control) {
+  refuse_existing(job.output / "gaits.csv", job.overwrite);
+  const StraightPrior prior =
+      job.prior.empty()
+          ? load_straight_prior()
+          : parse_straight_prior(read_text_file(job.prior, kMaxPriorBytes), job.prior.string());
+  const StraightLeggedParameters walker = adult_straight_walker(job.height, job.mass);
+  const WalkerUnits units = walker_units(walker);
+  fs::create_directories(job.output);
+  write_file_atomically(job.output / "cost.svg", cost_picture(cost_table(prior), units));
+  write_file_atomically(job.output / "survival.csv", survival_table(prior, walker, job, control));
   if (control.stopping()) return;
   write_file_atomically(job.output / "gaits.csv", gaits_table(prior, units));
 }

@@ -20,6 +20,9 @@ struct PriorJob {
 // may not be overwritten. False when it was told to stop; the part then remains.
 bool build_prior(const PriorJob& job, const JobControl& control);
 
+// The anthropomorphic walker's table, on the grid's slopes. Less than a second: nothing is resumed.
+void build_straight_prior(const PriorJob& job, const JobControl& control);
+
 struct PriorReportJob {
   std::filesystem::path prior;   // a table; empty means the one of this program
   std::filesystem::path output;  // a folder
@@ -35,5 +38,8 @@ struct PriorReportJob {
 // cheapest step length and speed), cost.svg, cheapest_step.svg and strips.svg. gaits.csv comes
 // last: a folder that holds it is complete.
 void report_prior(const PriorReportJob& job, const JobControl& control);
+
+// gaits.csv, survival.csv and cost.svg of the anthropomorphic walker's table.
+void report_straight_prior(const PriorReportJob& job, const JobControl& control);
 
 }  // namespace walktrack

@@ -65,13 +65,6 @@ std::string shade(double share) {
   return fmt::format("rgb({},{},{})", mix(68, 33, 253), mix(1, 145, 231), mix(84, 140, 37));
 }
 
-size_t level_slope(const GaitPrior& prior) {
-  size_t best = 0;
-  for (size_t k = 1; k < prior.slopes.size(); ++k)
-    if (std::abs(prior.slopes[k]) < std::abs(prior.slopes[best])) best = k;
-  return best;
-}
-
 // Borders of a node's cell on an axis: half way to its neighbours.
 std::pair<double, double> cell(const std::vector<double>& axis, size_t i) {
   const double below = i > 0 ? axis[i] - axis[i - 1] : axis[1] - axis[0];
@@ -120,14 +113,14 @@ std::string strip(const GaitPrior& prior, const KneedParameters& walker, double 
 
 }  // namespace
 
-std::string cost_picture(const GaitPrior& prior, const WalkerUnits& units) {
+std::string cost_picture(const CostTable& prior, const WalkerUnits& units) {
   const Plot plot = speed_step_plot();
-  const size_t level = level_slope(prior);
+  const size_t level = nearest_index(prior.slopes, 0);
   constexpr double kDearest = 0.2;
   std::string body;
   for (size_t i = 0; i < prior.speeds.size(); ++i)
     for (size_t j = 0; j < prior.ratios.size(); ++j) {
-      const GaitNode& node = prior.node(i, j, level);
+      const CostNode& node = prior.node(i, j, level);
       if (!node.valid) continue;
       const double preferred = units.length * preferred_step_length(prior.speeds[i]);
       const auto [slow, fast] = cell(prior.speeds, i);
@@ -137,8 +130,7 @@ std::string cost_picture(const GaitPrior& prior, const WalkerUnits& units) {
       body += fmt::format(
           "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\">"
           "<title>{:.3f}</title></rect>\n",
-          a.x(), a.y(), b.x() - a.x(), b.y() - a.y(), shade(node.cost_of_transport / kDearest),
-          node.cost_of_transport);
+          a.x(), a.y(), b.x() - a.x(), b.y() - a.y(), shade(node.cost / kDearest), node.cost);
     }
   for (int i = 0; i <= 4; ++i)
     body += fmt::format("<rect x=\"570\" y=\"{}\" width=\"20\" height=\"40\" fill=\"{}\"/>\n",
@@ -148,12 +140,12 @@ std::string cost_picture(const GaitPrior& prior, const WalkerUnits& units) {
   return svg(660, 400, body + plot.axes("speed, m/s", "step length, m"));
 }
 
-std::vector<CheapestStep> cheapest_steps(const GaitPrior& prior, const WalkerUnits& units) {
+std::vector<CheapestStep> cheapest_steps(const CostTable& prior, const WalkerUnits& units) {
   std::vector<CheapestStep> steps;
-  const size_t level = level_slope(prior);
+  const size_t level = nearest_index(prior.slopes, 0);
   for (size_t i = 0; i < prior.speeds.size(); ++i) {
     std::optional<size_t> best;
-    const auto cost = [&](size_t j) { return prior.node(i, j, level).cost_of_transport; };
+    const auto cost = [&](size_t j) { return prior.node(i, j, level).cost; };
     const auto valid = [&](size_t j) { return prior.node(i, j, level).valid; };
     for (size_t j = 0; j < prior.ratios.size(); ++j)
       if (valid(j) && (!best || cost(j) < cost(*best))) best = j;

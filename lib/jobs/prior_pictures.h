@@ -8,8 +8,22 @@
 
 namespace walktrack {
 
+// What a table of gaits of any walker costs.
+struct CostNode {
+  bool valid = false;
+  double cost = 0;  // of transport
+};
+using CostTable = PriorTable<CostNode>;
+
+template <typename Node>
+CostTable cost_table(const PriorTable<Node>& prior) {
+  CostTable table{prior, {}};
+  for (const Node& node : prior.nodes) table.nodes.push_back({node.valid, node.cost_of_transport});
+  return table;
+}
+
 // Cost of transport over speed and step length on the level, one rectangle a valid node.
-std::string cost_picture(const GaitPrior& prior, const WalkerUnits& units);
+std::string cost_picture(const CostTable& prior, const WalkerUnits& units);
 
 struct CheapestStep {
   double speed = 0;        // m/s
@@ -19,7 +33,7 @@ struct CheapestStep {
 
 // The cheapest step length at every speed of the table where the least cost lies inside, by a
 // parabola through the three cheapest valid nodes on the level.
-std::vector<CheapestStep> cheapest_steps(const GaitPrior& prior, const WalkerUnits& units);
+std::vector<CheapestStep> cheapest_steps(const CostTable& prior, const WalkerUnits& units);
 
 // The cheapest step length against speed beside the one that people prefer.
 std::string cheapest_picture(const std::vector<CheapestStep>& steps, const WalkerUnits& units);

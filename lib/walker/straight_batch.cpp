@@ -206,7 +206,8 @@ void StraightStepper::arrive(StraightLanes& lanes, size_t lane, bool strikes) {
                    .event = KneedEvent::kTransfer,
                    .impulse = transfer.impulse,
                    .step_length = transfer.step_length,
-                   .toe_off_work = transfer.toe_off_work};
+                   .toe_off_work = transfer.toe_off_work,
+                   .old_foot_lifts = transfer.old_foot_lifts};
 }
 
 }  // namespace

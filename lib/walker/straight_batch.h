@@ -18,6 +18,7 @@ struct StraightAdvance {
   Vector2 impulse = Vector2::Zero();  // N s
   double step_length = 0;             // m
   double toe_off_work = 0;            // J
+  bool old_foot_lifts = true;
 };
 
 // Moves states[i] on by durations[i] (s) or to its next transfer, under controls[i] and the

@@ -63,6 +63,20 @@ TEST(SimulateCommand, WalksOutOfTheTableOfGaits) {
             2);
 }
 
+TEST(SimulateCommand, WalksOutOfTheAnthropomorphicWalkersTable) {
+  const TemporaryFolder temporary;
+  const std::string folder = temporary / "walk";
+  const ProgramResult result =
+      run_walktrack({"simulate", "--model", "anthropomorphic", "--prior", "--speed", "1.1",
+                     "--seconds", "4", "--no-pictures", "-o", folder});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("4.000 s, sound"));
+  EXPECT_EQ(run_walktrack({"prior", "--model", "wheel", "--show", "-o", folder}).exit_code, 2);
+  const std::string table = temporary / "legs.txt";
+  EXPECT_EQ(run_walktrack({"prior", "--model", "anthropomorphic", "-o", table}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(table));
+}
+
 // The picture's scale follows the figure; a foot of a thousand kilometres once took forever to
 // draw.
 TEST(SimulateCommand, DrawsGiants) {

@@ -57,5 +57,23 @@ TEST(PriorFile, DamagedTextIsRefusedWithItsPlace) {
   EXPECT_NE(message_of(""), "");
 }
 
+TEST(PriorFile, AnthropomorphicRoundTrip) {
+  StraightPrior prior{{{0.3}, {1}, {0, 0.04}}, std::vector<StraightNode>(2)};
+  prior.nodes[1].cyclic = prior.nodes[1].valid = true;
+  prior.nodes[1].least_normal = 0.75;
+  prior.nodes[1].gait << 0.1, 0.2, 0.3, 0.4, 0.5;
+  prior.nodes[1].gain(1, 2) = -0.25;
+  const std::string text = straight_prior_text(prior, "1.2");
+  const StraightPrior read = parse_straight_prior(text, "table");
+  EXPECT_EQ(read.slopes, prior.slopes);
+  EXPECT_TRUE(read.nodes[1].valid && read.nodes[1].cyclic && !read.nodes[0].valid);
+  EXPECT_EQ(read.nodes[1].gait, prior.nodes[1].gait);
+  EXPECT_EQ(read.nodes[1].gain, prior.nodes[1].gain);
+  EXPECT_EQ(read.nodes[1].least_normal, 0.75);
+  // One walker's table is not the other's.
+  EXPECT_THROW(parse_gait_prior(text, "table"), InputError);
+  EXPECT_THROW(parse_straight_prior(shipped_gait_prior_text(), "table"), InputError);
+}
+
 }  // namespace
 }  // namespace walktrack

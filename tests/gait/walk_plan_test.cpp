@@ -58,7 +58,7 @@ TEST_F(WalkPlans, AskForThePreferredStepUnlessOneIsNamed) {
 }
 
 TEST_F(WalkPlans, TheTableHoldsWalkingSpeeds) {
-  const SpeedRange range = speed_range(prior, adult);
+  const SpeedRange range = speed_range(prior, walker_units(adult));
   EXPECT_NEAR(range.least, 0.5, 0.01);
   EXPECT_NEAR(range.most, 2.2, 0.01);
 }

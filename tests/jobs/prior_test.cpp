@@ -68,11 +68,29 @@ TEST_F(PriorJobs, BuildKeepsEarlierGaitsAndGoesOnFromItsPart) {
   EXPECT_THROW(build_prior(job, {}), UsageError);
 }
 
+// The anthropomorphic walker's table takes a second, and its slice on the level less.
+TEST_F(PriorJobs, AnthropomorphicTableIsBuiltAndShown) {
+  PriorJob job;
+  job.grid.slopes = {0};
+  job.output = folder / "legs.txt";
+  build_straight_prior(job, {});
+  EXPECT_THROW(build_straight_prior(job, {}), UsageError);
+  PriorReportJob shown;
+  shown.prior = job.output;
+  shown.output = folder / "legs";
+  shown.walkers = 4;
+  report_straight_prior(shown, {});
+  const std::string gaits = read_text_file(shown.output / "gaits.csv", 1 << 20);
+  EXPECT_EQ(std::count(gaits.begin(), gaits.end(), '\n'), 11 * 7 + 1);
+  EXPECT_THAT(gaits, HasSubstr("hip_stiffness,toe_off_impulse,least_normal"));
+  EXPECT_THAT(read_text_file(shown.output / "cost.svg", 1 << 20), HasSubstr("</svg>"));
+}
+
 // People choose longer steps the faster they walk, as v^0.42; so does the table, which does not
 // know.
 TEST(CheapestStep, GrowsWithSpeedAsPeoplesDo) {
   const WalkerUnits units = walker_units(adult_walker(1.75, 70));
-  const auto steps = cheapest_steps(load_gait_prior(), units);
+  const auto steps = cheapest_steps(cost_table(load_gait_prior()), units);
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const CheapestStep& s : steps) {
     if (s.speed < 0.8 || s.speed > 1.8) continue;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "io/model_file.h"
 #include "tests/message_of.h"
 
 namespace walktrack {
@@ -78,9 +79,43 @@ TEST(PriorWalk, SpeedsThatTheTableDoesNotHoldAreErrors) {
   EXPECT_THAT(message({.speed = 1.3, .changes = {{2, 3.5}}}), testing::HasSubstr("3.5 m/s"));
 }
 
-TEST(PriorWalk, IsForTheKneedWalkerAlone) {
+SimulateJob adult_legs(double slope = 0) {
   SimulateJob job;
-  job.model = default_model("anthropomorphic");
+  const std::string name =
+      std::string(WALKTRACK_SOURCE_DIR) + "/configs/models/anthropomorphic_adult.yaml";
+  job.model = read_model("", name, {});
+  job.model.anthropomorphic.slope = slope;
+  job.simulation.max_step = 4e-3;
+  return job;
+}
+
+TEST(PriorWalk, AnthropomorphicWalkerWalksAndSlowsDown) {
+  SimulateJob job = adult_legs();
+  job.duration = 20;
+  job = with_prior(job, {.speed = 1.8, .changes = {{3, 1.2}}});
+  const Recording recording = record(*make_walker(job.model), job, {});
+  EXPECT_EQ(recording.end.health, Health::kSound);
+  EXPECT_NEAR(speeds(recording)[2], 1.8, 0.1);
+  EXPECT_NEAR(speeds(recording).back(), 1.2, 0.06);
+}
+
+TEST(PriorWalk, AnthropomorphicWalkerWalksDownButNotUpNorSlowlyDown) {
+  SimulateJob down = adult_legs(0.05);
+  down.duration = 8;
+  down = with_prior(down, {.speed = 1.5, .changes = {}});
+  EXPECT_EQ(record(*make_walker(down.model), down, {}).end.health, Health::kSound);
+  const auto message = [](double slope, double speed) {
+    return message_of<UsageError>(
+        [&] { with_prior(adult_legs(slope), {.speed = speed, .changes = {}}); });
+  };
+  EXPECT_THAT(message(-0.05, 1.3), testing::HasSubstr("downhill"));
+  EXPECT_THAT(message(0.05, 0.7), testing::HasSubstr("brake"));
+  EXPECT_THAT(message(0, 3), testing::HasSubstr("legs of 0.927 m"));
+}
+
+TEST(PriorWalk, IsForWalkersWithATable) {
+  SimulateJob job;
+  job.model = default_model("rimless_wheel");
   EXPECT_THROW(with_prior(job, {}), UsageError);
 }
 

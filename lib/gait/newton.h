@@ -1,0 +1,62 @@
+// Newton's method and continuation for cycles of whatever walker; internal to lib/gait.
+#pragma once
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <optional>
+
+#include "gait/prior_table.h"
+
+namespace walktrack {
+
+// Minimum-norm Gauss-Newton from `guess` to a residual below 1e-9; nullopt where it does not get
+// there. residual(gait) and jacobian(gait) give optional matrices: nothing where no step is walked.
+template <typename Gait, typename Residual, typename Jacobian>
+std::optional<Gait> newton(const Gait& guess, const Residual& residual, const Jacobian& jacobian) {
+  constexpr double kConverged = 1e-9;
+  constexpr int kMaxIterations = 15;
+  constexpr int kMaxHalvings = 7;
+  Gait at = guess;
+  auto now = residual(at);
+  for (int i = 0; now && i < kMaxIterations; ++i) {
+    if (now->norm() < kConverged) return at;
+    const auto slope = jacobian(at);
+    if (!slope) return std::nullopt;
+    const Gait step = slope->completeOrthogonalDecomposition().solve(-*now);
+    // The first of the halved steps that lowers the residual.
+    double share = 1;
+    auto next = now;
+    for (int k = 0; k < kMaxHalvings; ++k, share /= 2) {
+      next = residual(at + share * step);
+      if (next && next->norm() < now->norm()) break;
+      next.reset();
+    }
+    if (next) at += share * step;
+    now = next;
+  }
+  return std::nullopt;
+}
+
+// Along the straight line between two targets in as few steps as find(guess, target) bears.
+template <typename Gait, typename Find>
+std::optional<Gait> continued(Gait at, const GaitTarget& from, const GaitTarget& to,
+                              const Find& find) {
+  constexpr double kSmallestShare = 1.0 / 64;
+  double done = 0, share = 1;
+  while (done < 1) {
+    const double next = std::min(1.0, done + share);
+    const auto between = [&](double a, double b) { return a + next * (b - a); };
+    const GaitTarget target{between(from.speed, to.speed),
+                            between(from.step_length, to.step_length),
+                            between(from.slope, to.slope)};
+    if (const std::optional<Gait> found = find(at, target)) {
+      at = *found;
+      done = next;
+    } else if ((share /= 2) < kSmallestShare) {
+      return std::nullopt;
+    }
+  }
+  return at;
+}
+
+}  // namespace walktrack

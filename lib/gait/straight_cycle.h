@@ -1,0 +1,65 @@
+// Cyclic gaits of the anthropomorphic walker with Kuo's proportions (StraightLeggedParameters), in
+// units L = M = g = 1.
+//
+// Just after a transfer both feet are on the ground, so the legs' angles are opposite and three
+// numbers fix the state: the section (angle of the swing leg, the rates of stance and swing leg).
+// Two controls are free, stiffness and toe-off impulse: with the section five numbers, for the five
+// conditions that the section returns at a wanted step length and period. Nothing is left to
+// optimise; what can be chosen is which of several answers (straight_prior.h).
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "gait/prior_table.h"
+#include "walker/straight_batch.h"
+
+namespace walktrack {
+
+inline constexpr int kStraightControlSize = 2;
+inline constexpr int kStraightSectionSize = 3;
+inline constexpr int kStraightGaitSize = kStraightControlSize + kStraightSectionSize;
+// Stiffness, toe-off impulse, then the section.
+using StraightGaitVector = Eigen::Matrix<double, kStraightGaitSize, 1>;
+using StraightSection = Eigen::Matrix<double, kStraightSectionSize, 1>;
+// Of (section after a step - section before, advance, period) by the gait.
+using StraightJacobian = Eigen::Matrix<double, kStraightGaitSize, kStraightGaitSize>;
+using StraightStepMatrix = Eigen::Matrix<double, kStraightSectionSize, kStraightSectionSize>;
+
+// Kuo's walker on a slope.
+StraightModel straight_unit_model(double slope);
+
+StraightControls straight_controls_from(const StraightGaitVector& gait);
+StraightState straight_state_from(const StraightSection& section);
+StraightSection section_of(const StraightState& state);
+
+struct StraightStep {
+  StraightSection end;
+  double advance = 0, period = 0;
+  double toe_off_work = 0;
+  double least_normal = 0;     // smallest normal ground reaction
+  bool old_foot_lifts = true;  // at the transfer
+};
+
+// nullopt when the walker falls, diverges or takes longer than any step.
+std::optional<StraightStep> straight_step(const StraightModel& model,
+                                          const StraightGaitVector& gait);
+
+// Section, step length and period after a step minus what the target wants.
+StraightGaitVector cycle_residual(const StraightGaitVector& gait, const StraightStep& step,
+                                  const GaitTarget& target);
+
+// Central differences, all steps in one batch.
+std::optional<StraightJacobian> cycle_jacobian(const StraightModel& model,
+                                               const StraightGaitVector& gait);
+
+StraightStepMatrix step_matrix(const StraightJacobian& jacobian);
+// Largest absolute eigenvalue of it.
+double largest_multiplier(const StraightJacobian& jacobian);
+
+// The cycle at a target near `guess`, of the family whose Jacobian has a negative determinant;
+// nullopt where Newton's method finds none.
+std::optional<StraightGaitVector> find_straight_cycle(const StraightGaitVector& guess,
+                                                      const GaitTarget& target);
+
+}  // namespace walktrack
