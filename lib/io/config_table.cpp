@@ -93,8 +93,8 @@ void add_motion(ParameterTable& table) {
   m.number("control_noise", &M::control_noise, 0, 1, "relative, per step");
   m.number("feedback", &M::feedback, 0, 1, "correction of controls at a support transfer");
   m.number("aim_drift", &M::aim_drift, 0, 1, "relative, per step, of speed and step length");
-  m.number("new_steps", &M::new_steps, 0, 100,
-           "1/s: particles that begin a step anew, as any foot may");
+  m.number("rephasing", &M::rephasing, 0, 100,
+           "1/s: how often a particle reads its pose as another moment of a step");
 }
 
 void add_filter(ParameterTable& table) {

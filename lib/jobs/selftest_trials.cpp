@@ -182,7 +182,7 @@ constexpr std::array kTrials{
                 {"motion.torque_noise_scale=0", "motion.clock=0", "motion.turning=0",
                  "motion.misfit=0", "motion.ball_drift=0", "motion.ball_slip=0", "motion.landing=0",
                  "motion.arrival=0", "motion.control_noise=0", "motion.aim_drift=0",
-                 "motion.new_steps=0"},
+                 "motion.rephasing=0"},
                 f);
           }},
     Trial{"noise a thousand times", false,
@@ -199,7 +199,7 @@ constexpr std::array kTrials{
                              "motion.arrival=10",
                              "motion.control_noise=1",
                              "motion.aim_drift=1",
-                             "motion.new_steps=100"};
+                             "motion.rephasing=100"};
             return try_film(film, f);
           }},
     Trial{"all log-weights -infinity", false,

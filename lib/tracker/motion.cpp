@@ -8,7 +8,7 @@
 
 #include "body/kinematics.h"
 #include "core/conventions.h"
-#include "tracker/new_step.h"
+#include "tracker/rephase.h"
 
 namespace walktrack {
 
@@ -258,13 +258,8 @@ Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng)
 
 Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   particle.arriving = false;
-  particle.log_prior = 0;
+  if (rng.uniform() < context.config.rephasing * context.dt) rephase(context, particle, rng);
   predict_extras(context, particle);
-  if (rng.uniform() < context.config.new_steps * context.dt) {
-    begin_step_anew(context, particle, rng);
-    particle.log_prior = -kNewStepCost;
-    return predict(context, particle, rng) ? Outcome::kAlive : Outcome::kDead;
-  }
   particle.pose_before = particle.pose;
   const Outcome outcome = simulate(context, particle, rng);
   return predict(context, particle, rng) ? outcome : Outcome::kDead;

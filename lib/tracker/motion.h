@@ -10,6 +10,7 @@
 
 #include "gait/gait_prior.h"
 #include "tracker/particle.h"
+#include "tracker/step_book.h"
 #include "walker/kneed_advance.h"
 
 namespace walktrack {
@@ -33,7 +34,7 @@ struct MotionConfig {
   double control_noise = 0.05;  // relative, per step (gait/gait_prior.h)
   double feedback = 1;          // strength of the correction of controls at a support transfer
   double aim_drift = 0.06;      // relative, per step, of the speed and the step length aimed at
-  double new_steps = 1;         // 1/s: particles that begin a step anew (tracker/new_step.h)
+  double rephasing = 30;        // 1/s: how often a particle reads its pose anew (tracker/rephase.h)
   double torque_noise_scale = 0.15;  // multiplies all five torques
 };
 
@@ -49,6 +50,7 @@ NoiseScale noise_scale(const MotionConfig& config, const BodyModel& model, doubl
 struct MotionContext {
   const BodyModel& model;
   const GaitPrior& prior;
+  const StepBook& steps;
   MotionConfig config;
   NoiseScale scale;
   double dt;  // s

@@ -95,7 +95,6 @@ struct WalkerParticle {
 
   KneedControls controls;
   StepAim aim;
-  double log_prior = 0;  // of this frame's prediction, where proposals differ from it, nats
 };
 
 // What all particles of a scene share.

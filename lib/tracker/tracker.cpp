@@ -34,6 +34,7 @@ Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig
       threads_(threads),
       frame_scale_(noise_scale(config.motion, scene_.model, scene_.dt)),
       figures_(scene_.model, prior),
+      steps_(scene_.model.walker, prior),
       filter_(config.filter, seed, threads) {}
 
 std::vector<FrameRecord> Tracker::push(const SceneEvidence& evidence) {
@@ -158,7 +159,7 @@ bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
 WalkerFilterContext Tracker::context(bool first) const {
   const NoiseScale scale = first ? start_scale(config_.start, frame_scale_) : frame_scale_;
   return {scene_,
-          {scene_.model, prior_, config_.motion, scale, scene_.dt},
+          {scene_.model, prior_, steps_, config_.motion, scale, scene_.dt},
           config_.samples,
           threads_,
           config_.model_error};

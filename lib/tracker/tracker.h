@@ -101,6 +101,7 @@ class Tracker {
   Mode mode_ = Mode::kSearching;
   uint32_t frame_ = 0;  // of the next evidence to be worked on
   FigureBook figures_;
+  StepBook steps_;
   std::vector<Eigen::Vector2d> places_;
   std::deque<SceneEvidence> window_;
   std::deque<std::vector<Place>> candidates_;

@@ -52,7 +52,7 @@ FrameRecord advance(const WalkerFilterContext& context, const SceneEvidence& evi
       course_spread(filter.particles().states, filter.particles().log_weights);
   const auto weigh = [&](const WalkerParticle& particle) {
     return log_likelihood(context.scene, evidence, particle, !first) +
-           log_uprightness(context.scene.model, particle.pose) + particle.log_prior;
+           log_uprightness(context.scene.model, particle.pose);
   };
   const auto move = [&](WalkerParticle& particle, double boldness, Rng& rng) {
     if (rng.uniform() < kCourseMoves) return change_course(motion, course, boldness, particle, rng);

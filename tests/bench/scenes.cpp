@@ -78,10 +78,15 @@ FigureScene figure_scene(size_t poses) {
 }
 
 ParticleScene particle_scene(size_t count) {
-  ParticleScene scene;
-  scene.model.body = make_body(Subject{}, {.head = true, .arms = false});
-  scene.model.walker = kneed_model(kneed_parameters(Subject{}, kStandardGravity));
-  scene.prior = load_gait_prior();
+  BodyModel model;
+  model.body = make_body(Subject{}, {.head = true, .arms = false});
+  model.walker = kneed_model(kneed_parameters(Subject{}, kStandardGravity));
+  const GaitPrior prior = load_gait_prior();
+  ParticleScene scene{.model = model,
+                      .prior = prior,
+                      .steps = StepBook(model.walker, prior),
+                      .config = {},
+                      .particles = {}};
   StartConfig start;
   start.particles = static_cast<int>(count);
   const Sighting sighting{.position = {0, 0}, .velocity = {kSpeed, 0}};

@@ -40,12 +40,13 @@ FigureScene figure_scene(size_t poses);
 struct ParticleScene {
   BodyModel model;
   GaitPrior prior;
+  StepBook steps;
   MotionConfig config;
   double dt = 1.0 / 30;  // s
   std::vector<WalkerParticle> particles;
 
   MotionContext context() const {
-    return {model, prior, config, noise_scale(config, model, dt), dt};
+    return {model, prior, steps, config, noise_scale(config, model, dt), dt};
   }
 };
 ParticleScene particle_scene(size_t count);

@@ -20,8 +20,9 @@ inline BodyModel test_model() {
 struct Walking {
   BodyModel model = test_model();
   GaitPrior prior = load_gait_prior();
+  StepBook steps{model.walker, prior};
   MotionContext context(double dt, const MotionConfig& config = {}) const {
-    return {model, prior, config, noise_scale(config, model, dt), dt};
+    return {model, prior, steps, config, noise_scale(config, model, dt), dt};
   }
 };
 

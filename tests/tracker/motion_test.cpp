@@ -13,7 +13,7 @@ namespace {
 // All noise off: the walk of the prior, nothing else.
 MotionConfig quiet() {
   MotionConfig config;
-  config.new_steps = 0;
+  config.rephasing = 0;
   config.torque_noise_scale = config.clock = config.ball_drift = config.ball_slip = config.landing =
       0;
   config.misfit = config.turning = config.arrival = 0;

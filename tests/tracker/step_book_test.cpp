@@ -1,0 +1,81 @@
+#include "tracker/step_book.h"
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "fixture.h"
+
+namespace walktrack {
+namespace {
+
+constexpr StepAim kUsual{1.3, 0.7};
+
+Rng stream(uint32_t i) { return {5, Purpose::kTest, 0, i}; }
+
+// The book holds what a simulation from the support transfer gives.
+TEST(StepBook, MomentsAreThoseOfTheGait) {
+  const Walking walking;
+  const KneedModel& model = walking.model.walker;
+  Rng rng = stream(0);
+  const BookedStep* step = walking.steps.near(kUsual, rng);
+  ASSERT_NE(step, nullptr);
+  const PriorGait gait =
+      gait_at(walking.prior, model.parameters, step->aim.speed, step->aim.step_length);
+  EXPECT_NEAR(step->aim.speed, gait.speed, 1e-9);
+  for (size_t k = 0; k < BookedStep::kMoments; ++k) {
+    const KneedState state = state_at_phase(model, gait, double(k) / BookedStep::kMoments);
+    // Simulated in as many pieces, each with its own last time step: the integrator's error.
+    EXPECT_LT((step->moments[k].q - state.q).norm(), 1e-4) << k;
+    EXPECT_NEAR(step->moments[k].since_transfer, state.since_transfer, 1e-9);
+  }
+}
+
+TEST(StepBook, NearStepsAreNearAndSeveral) {
+  const Walking walking;
+  std::set<const BookedStep*> found;
+  for (uint32_t i = 0; i < 200; ++i) {
+    Rng rng = stream(i);
+    const BookedStep* step = walking.steps.near(kUsual, rng);
+    ASSERT_NE(step, nullptr);
+    EXPECT_NEAR(step->aim.speed, kUsual.speed, 0.25);
+    EXPECT_NEAR(step->aim.step_length, kUsual.step_length, 0.25);
+    found.insert(step);
+  }
+  EXPECT_EQ(found.size(), 9u);  // three speeds by three lengths
+}
+
+// Metropolis-Hastings asks for it: as likely there as back.
+TEST(StepBook, DrawsAsLikelyThereAndBack) {
+  const Walking walking;
+  Rng first = stream(0);
+  const BookedStep* here = walking.steps.near(kUsual, first);
+  constexpr int kDraws = 4000;
+  std::map<const BookedStep*, int> there;
+  for (uint32_t i = 0; i < kDraws; ++i) {
+    Rng rng = stream(i);
+    ++there[walking.steps.near(here->aim, rng)];
+  }
+  for (const auto& [step, count] : there) {
+    int back = 0;
+    for (uint32_t i = 0; i < kDraws; ++i) {
+      Rng rng = stream(kDraws + i);
+      back += walking.steps.near(step->aim, rng) == here;
+    }
+    // Both are a ninth: four standard deviations of the difference.
+    EXPECT_NEAR(count, back, 4 * std::sqrt(2.0 * kDraws / 9));
+  }
+}
+
+TEST(StepBook, NothingBeyondTheTable) {
+  const Walking walking;
+  for (const StepAim aim : {StepAim{0.1, 0.7}, StepAim{9, 0.7}, StepAim{1.3, 5}}) {
+    Rng rng = stream(0);
+    EXPECT_EQ(walking.steps.near(aim, rng), nullptr) << aim.speed << ' ' << aim.step_length;
+  }
+}
+
+}  // namespace
+}  // namespace walktrack
