@@ -23,7 +23,7 @@ int run_selftest(const Arguments& arguments) {
                              "program and prints how each\nends: tracked, degraded (with what is "
                              "lacking) or reported (refused with a reason).\nAnything else is a "
                              "failure, exit code 1. Takes less than a minute, "
-                             "with --stress some minutes\nand 6 GB of memory.",
+                             "with --stress some minutes\nand 8 GB of memory.",
                     .example = "walktrack selftest"});
   line.options().add_options()("stress", po::bool_switch(&stress),
                                "add the trials that take minutes")(

@@ -20,7 +20,7 @@ namespace walktrack {
 enum class TrialEnd { kTracked, kDegraded, kReported, kFailed };
 std::string_view trial_end_name(TrialEnd end);
 
-inline constexpr double kTrackedWithin = 0.3;  // m, median of the pelvis
+inline constexpr double kTrackedWithin = 0.17;  // of the height, median of the pelvis
 
 struct TrialResult {
   std::string name{};

@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kSeconds = 2;      // of a film
+constexpr double kHeight = 1.75;    // m, of who walks in it
 constexpr double kLeastMass = 0.5;  // kg, that a scene may state
 constexpr double kFarthest = 1000;  // m; nobody walks out of that in a self-test
 constexpr size_t kMaxTableBytes = 64u << 20;
@@ -168,7 +169,9 @@ std::string fault_in(const fs::path& output) {
   return {};
 }
 
-TrialResult judged(const TrackOutcome& outcome, const Motion& truth, const fs::path& output) {
+// `height` of the walker, m.
+TrialResult judged(const TrackOutcome& outcome, const Motion& truth, double height,
+                   const fs::path& output) {
   TrialResult result;
   result.what = fault_in(output);
   if (!result.what.empty()) return result;
@@ -180,18 +183,16 @@ TrialResult judged(const TrackOutcome& outcome, const Motion& truth, const fs::p
   const double error = errors.by_joint[static_cast<size_t>(Joint::kPelvis)].absolute.median;
   if (!std::isfinite(error)) return result;
   result.what += fmt::format("; pelvis {:.2f} m off", error);
-  if (error > kTrackedWithin) result.end = TrialEnd::kDegraded;
+  if (error > kTrackedWithin * height) result.end = TrialEnd::kDegraded;
   return result;
 }
 
 }  // namespace
 
-Film film_of_walk(double speed, double height) {
+Film film_of_walk(double speed) {
   Film film;
-  film.walker.height = height;
-  film.walker.mass = std::max(kLeastMass, 70 * std::pow(height / 1.75, 3));
-  const Body body =
-      make_body({.height = height, .mass = film.walker.mass, .lengths = {}}, {.arms = true});
+  film.walker.height = kHeight;
+  const Body body = make_body({.height = kHeight, .lengths = {}}, {.arms = true});
   MadeWalk walk;
   walk.speed = speed;
   walk.to = kSeconds;
@@ -200,6 +201,23 @@ Film film_of_walk(double speed, double height) {
   camera.width_px = 160;
   camera.height_px = 120;
   film.options.cameras = {camera};
+  return film;
+}
+
+Film film_of_body(double height) {
+  Film film = film_of_walk();
+  const double length = height / kHeight, time = std::sqrt(length);
+  film.walker.height = height;
+  film.walker.mass = std::max(kLeastMass, film.walker.mass * std::pow(length, 3));
+  Motion& motion = film.walker.motion;
+  const Eigen::Vector3d middle = 0.5 * length * motion.joints.back()[Joint::kPelvis];
+  for (double& each : motion.time) each *= time;
+  for (JointPositions& joints : motion.joints) {
+    for (Eigen::Vector3d& joint : joints.at) joint *= length;
+  }
+  RenderCamera& camera = film.options.cameras[0];
+  camera.look_at = {middle.x(), middle.y(), 0.5 * height};
+  camera.position = *camera.look_at + height * Eigen::Vector3d(0, -2.6, 0.2);
   return film;
 }
 
@@ -233,8 +251,8 @@ TrialResult try_film(const Film& film, const fs::path& folder) {
     JobControl control;
     if (film.watch_memory)
       control.report = [&](const Progress& progress) { memory.look(progress); };
-    TrialResult result =
-        judged(track(scene, std::move(config), output, control), shot.truth, output);
+    TrialResult result = judged(track(scene, std::move(config), output, control), shot.truth,
+                                height_of(film.walker), output);
     if (film.watch_memory) {
       result.what += fmt::format("; second half {:+.1f} MB", memory.growth());
       if (memory.growth() > kMostGrowth) result.end = TrialEnd::kFailed;

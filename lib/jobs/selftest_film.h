@@ -30,7 +30,12 @@ struct Film {
 };
 
 // A walk of two seconds across the picture of a camera of 160 x 120 pixels at the side.
-Film film_of_walk(double speed = 1.25, double height = 1.75);
+Film film_of_walk(double speed = 1.25);
+
+// The same walk of somebody larger or smaller, dynamically similar: lengths, the camera's place
+// among them, times k and times times the square root of k, as gravity is what it is. The picture
+// stays.
+Film film_of_body(double height);
 
 // The standing pose, feet together and knees straight, moved along x and turned about z.
 Film film_of_standing(double speed, double turn_rate);

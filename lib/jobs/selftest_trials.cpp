@@ -28,8 +28,8 @@ struct Trial {
   TrialResult (*run)(const fs::path& folder);
 };
 
-TrialResult try_walk(double speed, double height, const fs::path& folder) {
-  return try_film(film_of_walk(speed, height), folder);
+TrialResult try_walk(double speed, const fs::path& folder) {
+  return try_film(film_of_walk(speed), folder);
 }
 
 TrialResult try_settings(const std::vector<std::string>& settings, const fs::path& folder) {
@@ -160,8 +160,8 @@ constexpr std::array kTrials{
             film.state_initial = false;
             return try_film(film, f);
           }},
-    Trial{"walk of 0.3 m/s", false, [](const fs::path& f) { return try_walk(0.3, 1.75, f); }},
-    Trial{"walk of 2.2 m/s", false, [](const fs::path& f) { return try_walk(2.2, 1.75, f); }},
+    Trial{"walk of 0.3 m/s", false, [](const fs::path& f) { return try_walk(0.3, f); }},
+    Trial{"walk of 2.2 m/s", false, [](const fs::path& f) { return try_walk(2.2, f); }},
     Trial{"standing still, feet together", false,
           [](const fs::path& f) { return try_film(film_of_standing(0, 0), f); }},
     Trial{"turning on the spot, 90 deg/s", false,
@@ -267,8 +267,8 @@ constexpr std::array kTrials{
           [](const fs::path& f) {
             return try_camera({.position = {{1.2, 0, 1}}, .look_at = {{5, 0, 1}}}, f);
           }},
-    Trial{"body of 0.3 m", false, [](const fs::path& f) { return try_walk(0.4, 0.3, f); }},
-    Trial{"body of 3 m", false, [](const fs::path& f) { return try_walk(1.6, 3, f); }},
+    Trial{"body of 0.3 m", false, [](const fs::path& f) { return try_film(film_of_body(0.3), f); }},
+    Trial{"body of 3 m", false, [](const fs::path& f) { return try_film(film_of_body(3), f); }},
     Trial{"45 deg downhill", false, [](const fs::path& f) { return try_slope(45, f); }},
     Trial{"45 deg uphill", false, [](const fs::path& f) { return try_slope(-45, f); }},
     Trial{"gravity of the moon", false,

@@ -228,6 +228,21 @@ MarkovConstants markov_constants(Extra extra) {
   return {deg(22), 0.2, deg(15), 0, deg(130)};
 }
 
+MotionConfig to_scale(const MotionConfig& config, double height) {
+  const double length = height / kAdultHeight, time = std::sqrt(length);
+  MotionConfig scaled = config;
+  scaled.torque_noise_scale *= std::sqrt(time);  // of a share of M g L per root second
+  scaled.clock *= std::sqrt(time);
+  scaled.turning /= time;
+  scaled.ball_drift *= length / std::sqrt(time);
+  scaled.ball_slip *= length / std::sqrt(time);
+  scaled.landing *= length;
+  scaled.settling *= time;
+  scaled.arrival *= length;
+  scaled.rephasing /= time;
+  return scaled;
+}
+
 NoiseScale noise_scale(const MotionConfig& config, const BodyModel& model, double dt) {
   const KneedParameters& p = model.walker.parameters;
   const double leg = leg_length(model.body.lengths);

@@ -15,6 +15,7 @@
 
 namespace walktrack {
 
+// For an adult of kAdultHeight.
 struct MotionConfig {
   // Torque noise as shares of M g L per sqrt(s), L the leg's length: torso, hip, knees and, for the
   // ground under the stance foot, ankle.
@@ -37,6 +38,11 @@ struct MotionConfig {
   double rephasing = 30;        // 1/s: how often a particle reads its pose anew (tracker/rephase.h)
   double torque_noise_scale = 0.15;  // multiplies all five torques
 };
+
+// The same for somebody larger or smaller, who walks to scale: lengths grow in proportion to the
+// height, times with its square root, as gravity is what it is.
+inline constexpr double kAdultHeight = 1.75;  // m
+MotionConfig to_scale(const MotionConfig& config, double height);
 
 // Constants of the Markov process of one extra coordinate.
 struct MarkovConstants {

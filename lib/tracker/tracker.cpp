@@ -17,6 +17,11 @@ constexpr double kUsualSpeed = 1.25;  // m/s
 // where a person is a few dozen pixels high, a figure does nearly as well as the walker itself.
 constexpr double kFigureShare = 0.9;
 
+TrackerConfig to_scale(TrackerConfig config, double height) {
+  config.motion = to_scale(config.motion, height);
+  return config;
+}
+
 double total_support(const std::vector<FrameRecord>& records) {
   double sum = 0;
   for (const FrameRecord& record : records) sum += record.support;
@@ -29,10 +34,10 @@ Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig
                  uint64_t seed, int threads)
     : scene_(std::move(scene)),
       prior_(prior),
-      config_(config),
+      config_(to_scale(config, scene_.model.body.subject.height)),
       seed_(seed),
       threads_(threads),
-      frame_scale_(noise_scale(config.motion, scene_.model, scene_.dt)),
+      frame_scale_(noise_scale(config_.motion, scene_.model, scene_.dt)),
       figures_(scene_.model, prior),
       steps_(scene_.model.walker, prior),
       filter_(config.filter, seed, threads) {}

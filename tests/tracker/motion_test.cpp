@@ -45,6 +45,34 @@ TEST(Propagate, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
   EXPECT_NEAR(p.extra[kHeading], 0, 1e-9);
 }
 
+// Law of similarity: with lengths k and times root k, somebody k times as tall walks the same way,
+// noise and all but that of the angles.
+TEST(ToScale, TheSmallAndTheLargeWalkAlike) {
+  constexpr double kFrame = 1.0 / 30;
+  const auto where = [&](double height) -> Eigen::Vector2d {
+    const double length = height / kAdultHeight, dt = kFrame * std::sqrt(length);
+    Walking walking;
+    const Subject subject{.height = height, .mass = 70 * std::pow(length, 3), .lengths = {}};
+    walking.model.body = make_body(subject, {.head = true, .arms = false});
+    walking.model.walker = kneed_model(kneed_parameters(subject, kStandardGravity));
+    walking.steps = StepBook(walking.model.walker, walking.prior);
+    MotionConfig adult;
+    adult.rephasing = 0;  // asks how far the angles stray, whose processes keep their times
+    const MotionContext context = walking.context(dt, to_scale(adult, height));
+    WalkerParticle p = walkers(context, 1.3 * std::sqrt(length), 1)[0];
+    for (uint32_t frame = 0; frame < 40; ++frame) {
+      Rng rng(1, Purpose::kTest, frame);
+      EXPECT_EQ(propagate(context, p, rng), Outcome::kAlive);
+      std::fill(p.noise.begin() + kExtraNoise, p.noise.end(), 0.0);
+      realise(context.model, context.scale, p);
+    }
+    return p.ball / length;
+  };
+  // Rounding grows through three supports.
+  EXPECT_NEAR((where(0.9) - where(kAdultHeight)).norm(), 0, 1e-6);
+  EXPECT_NEAR((where(3) - where(kAdultHeight)).norm(), 0, 1e-6);
+}
+
 // People's pelvis goes on at nearly constant speed, the walker's slows over its standing leg and
 // hurries from foot to foot; but neither a strike nor the roll of the foot makes it jump.
 TEST(Propagate, ThePelvisNeverJumps) {
