@@ -16,6 +16,7 @@
 #include "body/body.h"
 #include "kinetics/kinetics.h"
 #include "observation/config.h"
+#include "tracker/smoothing.h"
 #include "tracker/tracker.h"
 
 namespace walktrack {
@@ -55,6 +56,7 @@ struct Config {
   BodyGroups body;
   ObservationConfig observation;
   TrackerConfig tracker;
+  SmoothingConfig smoothing;
   KineticsConfig kinetics;
   GateConfig gates;
   BudgetConfig budget;

@@ -145,6 +145,9 @@ void add_track(ParameterTable& table) {
   t.number("recall", &T::recall, 0.1, 100, "past that the median is taken over, s");
   t.integer("samples", &T::samples, 0, 1000,
             "particles of a frame kept: the overlay's, and for bands");
+  using L = SmoothingConfig;
+  ParameterGroup<L> l(table, "smoothing", "frames in the light of others", &Config::smoothing);
+  l.number("lag", &L::lag, 0, 2, "of frames before and after one that count, s; 0 = off");
   using K = KineticsConfig;
   ParameterGroup<K> k(table, "kinetics", "the forces behind the motion", &Config::kinetics);
   k.number("cutoff_hz", &K::cutoff_hz, 0, 100, "joint centres are smoothed below it, Hz; 0: not");

@@ -24,7 +24,7 @@ bool is_result_file(const std::string& name) {
   for (const char* known :
        {"joints.csv", "joints.trc", "angles.mot", "uncertainty.csv", "angles.csv", "gait.json",
         "gait.csv", "kinetics.csv", "ground_reaction.mot", "joint_moments.sto", "report.html",
-        "checkpoint.bin", "frames.bin"}) {
+        "checkpoint.bin", "frames.bin", "smoothed_frames.bin"}) {
     if (name == known) return true;
   }
   return name.starts_with("overlay_") && name.ends_with(".mp4");

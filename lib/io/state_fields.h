@@ -125,10 +125,16 @@ void fields(Archive& archive, T& value) {
   archive(log_evidence, ess, layers, dead, accepted, all_dead);
 }
 
+template <typename Archive, ArchivedAs<StrideModes> T>
+void fields(Archive& archive, T& value) {
+  auto& [phase, exchanged] = value;
+  archive(phase, exchanged);
+}
+
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
-  auto& [tracked, estimate, filter, support, samples, fallen, diverged] = value;
-  archive(tracked, estimate, filter, support, samples, fallen, diverged);
+  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes] = value;
+  archive(tracked, estimate, filter, support, samples, fallen, diverged, modes);
 }
 
 }  // namespace walktrack

@@ -74,9 +74,9 @@ std::string pace_note(const BudgetConfig& budget) {
       budget.least_particles, budget.most_particles, budget.frame_ms);
 }
 
-RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackOutcome& outcome,
-                    const Quality& quality, const WrittenTables& tables, double seconds) {
-  const TrackedFrames& frames = run.frames();
+RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrames& frames,
+                    const TrackOutcome& outcome, const Quality& quality,
+                    const WrittenTables& tables, double seconds) {
   const Counts counts = count(frames);
   RunRecord out;
   out.command = "track";
@@ -108,6 +108,8 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackOutcome
       {"layers", by_frame(frames, [](const FrameRecord& r) { return double(r.filter.layers); })},
       {"left_stance",
        by_frame(frames, [](const FrameRecord& r) { return r.estimate.left_stance; })},
+      {"stride_phase", by_frame(frames, [](const FrameRecord& r) { return r.modes.phase; })},
+      {"legs_exchanged", by_frame(frames, [](const FrameRecord& r) { return r.modes.exchanged; })},
       {"speed", by_frame(frames, [](const FrameRecord& r) { return r.estimate.speed; })}};
   if (paced) out.by_frame.emplace_back("particles", run.particles_used());
   out.digest = tables.digest;
@@ -182,11 +184,15 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   TrackRun run(job, video.frame_rate(), folder, origin, std::move(checkpoint), control);
   TrackOutcome outcome;
   const bool interrupted = follow_film(run, video, control, outcome);
-  const TrackedFrames& frames = run.frames();
+  const Moment writing;
+  const SmoothingConfig& smoothing = job.config.values.smoothing;
+  std::optional<TrackedFrames> light;
+  if (smoothing.lag > 0)
+    light.emplace(smoothed(run.frames(), smoothing, folder.file(std::string(kSmoothedFile))));
+  const TrackedFrames& frames = light ? *light : run.frames();
   const Quality quality = quality_of(frames, job.config.values.gates);
   outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
   outcome.tracked = count(frames).tracked;
-  const Moment writing;
   const AnalysedMotion analysed =
       analysed_motion(frames, job.scene, job.config.values.tracker.model_error);
   const JointUncertainty uncertainty = uncertainty_of(frames);
@@ -197,7 +203,8 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   if (job.overlay && outcome.frames > 0) clips = write_overlays(job, frames, folder, control);
   run.watch().add("output", writing);
   const double seconds = seconds_since(start);
-  const std::string record = run_json(record_of(job, run, outcome, quality, tables, seconds));
+  const std::string record =
+      run_json(record_of(job, run, frames, outcome, quality, tables, seconds));
   outcome.look_at = write_report(
       folder, {job.scene.file, analysed, uncertainty, job.scene.cameras, record, clips});
   const bool partial =

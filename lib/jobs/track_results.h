@@ -11,6 +11,7 @@
 #include "jobs/motion_tables.h"
 #include "jobs/track.h"
 #include "metrics/coverage.h"
+#include "tracker/smoothing.h"
 #include "tracker/tracker.h"
 
 namespace walktrack {
@@ -20,6 +21,11 @@ struct TrackedFrames {
   double frame_rate = 30;  // Hz
   FrameFile records;
 };
+
+// The same in the light of each other (tracker/smoothing.h). Their records lie in a file of that
+// name, which the folder does not show any more.
+TrackedFrames smoothed(const TrackedFrames& frames, const SmoothingConfig& config,
+                       const std::filesystem::path& file);
 
 Motion motion_of(const TrackedFrames& frames);
 JointUncertainty uncertainty_of(const TrackedFrames& frames);

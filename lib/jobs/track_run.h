@@ -22,6 +22,7 @@ namespace walktrack {
 
 // The files of unfinished work in a result folder.
 inline constexpr std::string_view kCheckpointFile = "checkpoint.bin", kFramesFile = "frames.bin";
+inline constexpr std::string_view kSmoothedFile = "smoothed_frames.bin";
 inline constexpr std::array kFilesOfWork{kCheckpointFile, kFramesFile};
 
 using Clock = std::chrono::steady_clock;

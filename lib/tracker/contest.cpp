@@ -47,7 +47,23 @@ bool Contest::step(const WalkerFilterContext& context, const SceneEvidence& evid
   if (best == -std::numeric_limits<double>::infinity()) return false;
   std::erase_if(hypotheses_,
                 [&](const Hypothesis& each) { return each.log_evidence < best - kHopeless; });
+  weigh_modes();
   return true;
+}
+
+// Of the newest frame: how much of the evidence is for hypotheses with legs exchanged against one's
+// own.
+void Contest::weigh_modes() {
+  std::vector<double> evidence, phases;
+  for (const Hypothesis& each : hypotheses_) {
+    evidence.push_back(each.log_evidence);
+    phases.push_back(each.records.back().modes.phase);
+  }
+  const std::vector<double> share = normalised_weights(evidence);
+  for (Hypothesis& each : hypotheses_) {
+    StrideModes& modes = each.records.back().modes;
+    modes.exchanged = mass_apart(modes.phase, phases, share);
+  }
 }
 
 std::vector<WalkerParticle> Contest::survivors() const {

@@ -39,6 +39,7 @@ class Contest {
   };
 
   const Hypothesis& leader() const;
+  void weigh_modes();
 
   FilterConfig filter_;
   uint64_t seed_;

@@ -30,6 +30,7 @@ void summarise(const WalkerFilterContext& context, const ParticleSet<WalkerParti
   record.estimate =
       estimate_frame(context.scene.model, set.states, weights, context.scene.dt, context.threads);
   add_model_error(context.scene.cameras, context.model_error, record.estimate);
+  record.modes = stride_modes(set.states, weights);
   std::vector<uint32_t> chosen(static_cast<size_t>(context.samples));
   systematic_resample(set.log_weights, 0.5, chosen);
   const Body& body = context.scene.model.body;

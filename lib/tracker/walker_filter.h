@@ -6,6 +6,7 @@
 
 #include "filter/particle_filter.h"
 #include "tracker/estimate.h"
+#include "tracker/modes.h"
 #include "tracker/motion.h"
 #include "tracker/scene.h"
 
@@ -20,6 +21,7 @@ struct FrameRecord {
   double support = 0;                   // mean log-likelihood of the particles, nats
   std::vector<JointPositions> samples;  // a few particles, to show their spread
   int fallen = 0, diverged = 0;
+  StrideModes modes;
 };
 
 struct WalkerFilterContext {

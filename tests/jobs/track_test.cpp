@@ -88,6 +88,26 @@ TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {
   EXPECT_LT(joint_errors(truth, found).by_joint[size_t(Joint::kPelvis)].absolute.median, 0.15);
 }
 
+TEST_F(Track, FramesInTheLightOfOthersTrembleLessAndLeaveNoFileOfTheirOwn) {
+  const auto jitter = [&](double lag) {
+    const std::string name = lag > 0 ? "smooth" : "plain";
+    TrackJob each = job(45, name);
+    each.config.values.smoothing.lag = lag;
+    track_scene(each, {});
+    EXPECT_FALSE(fs::exists(folder_ / name / "smoothed_frames.bin"));
+    const nlohmann::json run = run_json(name);
+    for (const nlohmann::json& mass : run.at("by_frame").at("legs_exchanged")) {
+      if (mass.is_null()) continue;  // not tracked
+      EXPECT_GE(mass, 0);
+      EXPECT_LE(mass, 1);
+    }
+    for (const nlohmann::json& measure : run.at("quality"))
+      if (measure.at("name") == "jitter_m_s3") return measure.at("value").get<double>();
+    throw std::out_of_range("jitter_m_s3");
+  };
+  EXPECT_LT(jitter(0.2), 0.5 * jitter(0));
+}
+
 // No machine tracks a frame in a microsecond: the particles fall to the fewest allowed.
 TEST_F(Track, UnderABudgetTheParticlesFollowTheClockWithinBoundsAndTheRecordSaysSo) {
   TrackJob paced = job(60, "paced");

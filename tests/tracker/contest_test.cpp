@@ -52,6 +52,18 @@ TEST(Contest, KeepsWhatNothingTellsApart) {
   EXPECT_LE(on_left, 45);
 }
 
+// Half of what nothing tells apart stands on the other foot, and the record says so.
+TEST(Contest, SaysHowMuchSpeaksForExchangedLegs) {
+  const Blind blind;
+  for (const bool phase_known : {false, true}) {
+    Contest contest = blind.contest(phase_known ? std::optional(0.25) : std::nullopt);
+    for (uint32_t frame = 0; !contest.decided(); ++frame)
+      ASSERT_TRUE(contest.step(blind.context, {}, frame));
+    for (const FrameRecord& record : contest.records())
+      EXPECT_NEAR(record.modes.exchanged, phase_known ? 0 : 0.5, 1e-9);
+  }
+}
+
 TEST(Contest, AStatedPhaseIsKept) {
   const Blind blind;
   Contest contest = blind.contest(0.1);

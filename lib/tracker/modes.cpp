@@ -1,0 +1,59 @@
+#include "tracker/modes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "core/conventions.h"
+
+namespace walktrack {
+
+namespace {
+
+double whole_turns_off(double phase) { return phase - std::floor(phase); }
+
+// Strides from `a` to `b` by the shorter way.
+double strides_between(double a, double b) { return std::remainder(b - a, 1.0); }
+
+}  // namespace
+
+double stride_phase(const WalkerParticle& particle) {
+  constexpr double kBeforeStrike = 1 - 1e-9;  // who is late to strike is still about to
+  const double step =
+      std::clamp(particle.walker.since_transfer / particle.aim.duration(), 0.0, kBeforeStrike);
+  return 0.5 * (step + (particle.stance == Side::kLeft ? 0 : 1));
+}
+
+double leading_phase(std::span<const double> phases, std::span<const double> weights) {
+  // Twice the angle is the same for both modes: it gives the line that they lie on.
+  std::complex<double> doubled = 0;
+  for (size_t i = 0; i < phases.size(); ++i)
+    doubled += weights[i] * std::polar(1.0, 4 * kPi * phases[i]);
+  const double one = std::arg(doubled) / (4 * kPi);
+  const double leading = mass_apart(one, phases, weights) > 0.5 ? one + 0.5 : one;
+  double beyond = 0, mass = 0;
+  for (size_t i = 0; i < phases.size(); ++i) {
+    const double away = strides_between(leading, phases[i]);
+    if (std::abs(away) > 0.25) continue;
+    beyond += weights[i] * away;
+    mass += weights[i];
+  }
+  return whole_turns_off(leading + beyond / mass);
+}
+
+double mass_apart(double phase, std::span<const double> phases, std::span<const double> weights) {
+  double mass = 0;
+  for (size_t i = 0; i < phases.size(); ++i)
+    if (std::abs(strides_between(phase, phases[i])) > 0.25) mass += weights[i];
+  return mass;
+}
+
+StrideModes stride_modes(std::span<const WalkerParticle> particles,
+                         std::span<const double> weights) {
+  std::vector<double> phases;
+  for (const WalkerParticle& particle : particles) phases.push_back(stride_phase(particle));
+  const double phase = leading_phase(phases, weights);
+  return {phase, mass_apart(phase, phases, weights)};
+}
+
+}  // namespace walktrack

@@ -1,0 +1,34 @@
+// Which leg is which: the hypotheses that a set of particles still holds.
+//
+// A silhouette from the side looks the same with the legs exchanged, and a walker with exchanged
+// legs is one half a stride away: the left foot does what the right one is thought to do. A
+// particle's place in the stride (0 = its left foot strikes, 1/2 = its right one) thus tells the
+// hypotheses apart in every frame, also while the legs pass each other and look the same either
+// way. Particles are of one mode with those less than a quarter of a stride away.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tracker/particle.h"
+
+namespace walktrack {
+
+struct StrideModes {
+  double phase = 0;      // of the mode reported, shares of the stride in [0, 1)
+  double exchanged = 0;  // mass of the other one: probability that the legs are exchanged
+};
+
+// In [0, 1).
+double stride_phase(const WalkerParticle& particle);
+
+// Middle of the heavier of two modes half a stride apart. Weights sum to one.
+double leading_phase(std::span<const double> phases, std::span<const double> weights);
+
+// Weight of what is more than a quarter of a stride from `phase`.
+double mass_apart(double phase, std::span<const double> phases, std::span<const double> weights);
+
+StrideModes stride_modes(std::span<const WalkerParticle> particles,
+                         std::span<const double> weights);
+
+}  // namespace walktrack

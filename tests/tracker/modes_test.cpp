@@ -1,0 +1,59 @@
+#include "tracker/modes.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "fixture.h"
+
+namespace walktrack {
+namespace {
+
+double around(double phase) { return phase - std::floor(phase); }
+
+TEST(StridePhase, IsHalfAStrideOnWithTheLegsExchanged) {
+  const Walking walking;
+  const MotionContext context = walking.context(1.0 / 30);
+  for (WalkerParticle& particle : walkers(context, 1.2, 40)) {
+    const double phase = stride_phase(particle);
+    EXPECT_GE(phase, 0);
+    EXPECT_LT(phase, 0.5);  // all of them stand on the left foot
+    particle.stance = Side::kRight;
+    EXPECT_DOUBLE_EQ(stride_phase(particle), phase + 0.5);
+  }
+}
+
+TEST(StridePhase, WhoIsLateToStrikeIsStillAboutTo) {
+  const Walking walking;
+  WalkerParticle particle = walkers(walking.context(1.0 / 30), 1.2, 1)[0];
+  particle.walker.since_transfer = 3 * particle.aim.duration();
+  EXPECT_NEAR(stride_phase(particle), 0.5, 1e-6);
+  EXPECT_LT(stride_phase(particle), 0.5);
+}
+
+// Two modes of known masses, anywhere in the stride, each spread over a tenth of it.
+TEST(Modes, AreWeighedWhereverTheyLie) {
+  for (const double minor : {0.0, 0.1, 0.3, 0.49}) {
+    for (double phase = 0; phase < 1; phase += 0.07) {
+      std::vector<double> phases, weights;
+      for (int i = 0; i < 50; ++i) {
+        const double off = 0.1 * (i - 24.5) / 50;
+        phases.push_back(around(phase + off));
+        weights.push_back((1 - minor) / 50);
+        phases.push_back(around(phase + 0.5 + off));
+        weights.push_back(minor / 50);
+      }
+      const double leading = leading_phase(phases, weights);
+      EXPECT_NEAR(std::remainder(leading - phase, 1.0), 0, 1e-9);
+      EXPECT_NEAR(mass_apart(leading, phases, weights), minor, 1e-9);
+    }
+  }
+}
+
+TEST(Modes, OfEqualMassAreHalfEach) {
+  const std::vector<double> phases{0.2, 0.7}, weights{0.5, 0.5};
+  EXPECT_NEAR(mass_apart(leading_phase(phases, weights), phases, weights), 0.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace walktrack
