@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/conventions.h"
 #include "core/errors.h"
 #include "core/parallel_for.h"
 #include "core/version.h"
@@ -48,12 +49,12 @@ std::string gaits_table(const PriorTable<Node>& prior, const WalkerUnits& units,
 }
 
 std::string gaits_table(const GaitPrior& prior, const WalkerUnits& units) {
-  constexpr double kDegrees = 57.29577951308232;
   return gaits_table(prior, units, "clearance_mm,swing_knee_deg,stance_knee_deg,largest_multiplier",
                      [&](const GaitNode& n) {
-                       return fmt::format(
-                           "{:.1f},{:.1f},{:.1f},{:.3f}", 1000 * n.clearance * units.length,
-                           n.swing_flexion * kDegrees, n.stance_flexion * kDegrees, n.multiplier);
+                       return fmt::format("{:.1f},{:.1f},{:.1f},{:.3f}",
+                                          1000 * n.clearance * units.length,
+                                          deg_from_rad(n.swing_flexion),
+                                          deg_from_rad(n.stance_flexion), n.multiplier);
                      });
 }
 
