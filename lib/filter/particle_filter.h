@@ -26,6 +26,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -100,9 +101,21 @@ class ParticleFilter {
   // The first half of a frame: the set becomes the prediction.
   template <typename Propagate>
   void predict(const Propagate& propagate) {
+    predict_groups(1, [&](size_t i, std::span<State> state, std::span<uint8_t> alive) {
+      alive[0] = propagate(state[0], static_cast<uint32_t>(i)) ? 1 : 0;
+    });
+  }
+
+  // The same for states that are moved faster together: propagate(first, states, alive) takes
+  // `group` of them (the last ones: or fewer), of which states[0] is number `first`, and says who
+  // is still alive. Where groups begin must not change what becomes of a state.
+  template <typename Propagate>
+  void predict_groups(size_t group, const Propagate& propagate) {
     alive_.resize(size());
-    parallel_for(size(), threads_, [&](size_t i) {
-      alive_[i] = propagate(set_.states[i], static_cast<uint32_t>(i)) ? 1 : 0;
+    parallel_for((size() + group - 1) / group, threads_, [&](size_t g) {
+      const size_t first = g * group, count = std::min(group, size() - first);
+      propagate(first, std::span(set_.states).subspan(first, count),
+                std::span(alive_).subspan(first, count));
     });
     before_ = log_sum_exp(set_.log_weights);
     for (size_t i = 0; i < size(); ++i)

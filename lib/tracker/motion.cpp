@@ -9,12 +9,11 @@
 #include "body/kinematics.h"
 #include "core/conventions.h"
 #include "tracker/rephase.h"
+#include "tracker/walk_on.h"
 
 namespace walktrack {
 
 namespace {
-
-size_t index(Side side) { return static_cast<size_t>(side); }
 
 // Rows: q's coordinates; columns: torques between torso and stance thigh, hip, stance knee, swing
 // knee, and of the ground on the stance shank.
@@ -56,80 +55,6 @@ void predict_extras(const MotionContext& context, WalkerParticle& particle) {
 void draw_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   const int count = kExtraNoise + extra_count(context.model.body);
   for (int k = 0; k < count; ++k) particle.noise[static_cast<size_t>(k)] = rng.truncated_normal(4);
-}
-
-// The new step aims a little differently from the last; its controls start from the gait of that
-// aim, corrected for the state that the strike has left.
-void choose_controls(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  const MotionConfig& config = context.config;
-  StepAim& aim = particle.aim;
-  aim.speed *= std::exp(config.aim_drift * rng.truncated_normal(3));
-  aim.step_length *= std::exp(config.aim_drift * rng.truncated_normal(3));
-  const PriorGait gait =
-      gait_at(context.prior, context.model.walker.parameters, aim.speed, aim.step_length);
-  aim = {gait.speed, gait.step_length};  // within the table
-  particle.controls = draw_controls(
-      rng, next_controls(gait, particle.walker, config.feedback),
-      {.relative = config.control_noise, .rest = 0.5 * config.control_noise, .torque = 0});
-}
-
-// The swing foot has come down: it carries the body from here, and a new step begins.
-void change_support(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  const Side landed = other(particle.stance);
-  // The transfer has exchanged the names of the legs already: pose them by their new roles on the
-  // old place, which is where the leg that now swings still stands.
-  particle.stance = landed;
-  Pose pose = particle.pose;
-  const KneedState shown = shown_state(particle.walker, landed, particle.aim, particle.extra);
-  pose.tilt = shown.q[kTorso];
-  const auto set = [&](Side side, int thigh, int shank) {
-    LegPose& leg = pose.legs[index(side)];
-    leg.hip_flexion = pose.tilt - shown.q[thigh];
-    leg.knee_flexion = shown.q[shank] - shown.q[thigh];
-  };
-  set(landed, kStanceThigh, kStanceShank);
-  set(other(landed), kSwingThigh, kSwingShank);
-  stand_on(context.model.body, other(landed),
-           Eigen::Vector3d(particle.ball.x(), particle.ball.y(), 0),
-           rolled_ankle(context.model, particle.walker.q[kSwingShank]), pose);
-  particle.ball = landing_ball(context.model, pose, landed, particle.walker.q[kStanceShank]);
-  choose_controls(context, particle, rng);
-}
-
-// Who stumbles catches the step: the walker goes on as the gait that it aims at would at this
-// moment of the step.
-void catch_step(const MotionContext& context, WalkerParticle& particle) {
-  const KneedModel& model = context.model.walker;
-  const PriorGait gait =
-      gait_at(context.prior, model.parameters, particle.aim.speed, particle.aim.step_length);
-  const double phase = std::clamp(particle.walker.since_transfer / gait.period, 0.0, 0.95);
-  particle.controls = gait.controls;
-  particle.walker = state_at_phase(model, gait, phase);
-}
-
-Outcome simulate(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  // The longest steps of the prior lower the hip by a sixth. A walker that goes down further has
-  // been pushed to where its legs can hide from the images, and will not come up again.
-  constexpr KneedLimits kWalks{.min_hip_height = 0.8};
-  const bool sloped = !context.model.downhill.isZero();
-  const KneedModel tilted =
-      sloped ? in_plane(context.model, particle.extra[kHeading]) : KneedModel{};
-  const KneedModel& model = sloped ? tilted : context.model.walker;
-  settle_knee_stops(model, particle.controls, Vector5::Zero(), particle.walker);
-  const double stray = context.config.clock * std::sqrt(context.dt) * rng.truncated_normal(3);
-  double left = std::max(0.0, context.dt * std::exp(particle.extra_before[kPace]) + stray);
-  while (left > 0) {
-    const KneedAdvance done =
-        kneed_advance(model, particle.controls, Vector5::Zero(), particle.walker, left, kWalks);
-    left -= done.elapsed;
-    if (done.event == KneedEvent::kFallen || done.event == KneedEvent::kDiverged) {
-      catch_step(context, particle);
-      return done.event == KneedEvent::kFallen ? Outcome::kFallen : Outcome::kDiverged;
-    }
-    if (done.event == KneedEvent::kNone) break;
-    change_support(context, particle, rng);
-  }
-  return Outcome::kAlive;
 }
 
 Eigen::Vector2d ball_sigma(const MotionContext& context, const WalkerParticle& particle) {
@@ -271,13 +196,24 @@ Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng)
   return predict(context, particle, rng) ? Outcome::kAlive : Outcome::kDead;
 }
 
+void propagate(const MotionContext& context, std::span<WalkerParticle> particles,
+               std::span<Rng> rngs, std::span<Outcome> outcomes) {
+  for (size_t i = 0; i < particles.size(); ++i) {
+    WalkerParticle& p = particles[i];
+    p.arriving = false;
+    if (rngs[i].uniform() < context.config.rephasing * context.dt) rephase(context, p, rngs[i]);
+    predict_extras(context, p);
+    p.pose_before = p.pose;
+  }
+  walk_on(context, particles, rngs, outcomes);
+  for (size_t i = 0; i < particles.size(); ++i)
+    if (!predict(context, particles[i], rngs[i])) outcomes[i] = Outcome::kDead;
+}
+
 Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  particle.arriving = false;
-  if (rng.uniform() < context.config.rephasing * context.dt) rephase(context, particle, rng);
-  predict_extras(context, particle);
-  particle.pose_before = particle.pose;
-  const Outcome outcome = simulate(context, particle, rng);
-  return predict(context, particle, rng) ? outcome : Outcome::kDead;
+  Outcome outcome;
+  propagate(context, {&particle, 1}, {&rng, 1}, {&outcome, 1});
+  return outcome;
 }
 
 void perturb(const MotionContext& context, double boldness, WalkerParticle& particle, Rng& rng) {

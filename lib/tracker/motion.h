@@ -8,6 +8,8 @@
 // heading has no rest: b = 0, and its rate has the standard deviation s.
 #pragma once
 
+#include <span>
+
 #include "gait/gait_prior.h"
 #include "tracker/particle.h"
 #include "tracker/step_book.h"
@@ -68,7 +70,10 @@ enum class Outcome { kAlive, kFallen, kDiverged, kDead };
 
 // The first frame of a particle: nothing moves, but its noise is drawn.
 Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng);
-// One frame forward and its noise drawn.
+// One frame forward and its noise drawn, everybody's from their own stream (spans of one size). A
+// particle's result does not depend on those that go with it, the time that it takes does.
+void propagate(const MotionContext& context, std::span<WalkerParticle> particles,
+               std::span<Rng> rngs, std::span<Outcome> outcomes);
 Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& rng);
 
 // Changes some of the frame's noise, reversibly with respect to its prior, and realises it.

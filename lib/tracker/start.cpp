@@ -2,23 +2,50 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/conventions.h"
+#include "walker/kneed_batch.h"
 
 namespace walktrack {
 
 namespace {
 
-// The state and controls at a phase of the aimed gait.
-void enter_gait(const MotionContext& context, double phase, WalkerParticle& particle) {
-  const KneedModel& model = context.model.walker;
-  const PriorGait gait =
-      gait_at(context.prior, model.parameters, particle.aim.speed, particle.aim.step_length);
+// The aimed gait's first moment and its controls. Returns when in the step its `phase` is, s.
+double enter_gait(const MotionContext& context, double phase, WalkerParticle& particle) {
+  const PriorGait gait = gait_at(context.prior, context.model.walker.parameters, particle.aim.speed,
+                                 particle.aim.step_length);
   particle.aim = {gait.speed, gait.step_length};
   particle.controls = gait.controls;
-  particle.walker = state_at_phase(model, gait, phase);
-  particle.predicted = particle.walker;
-  particle.velocity_per_impulse.setZero();
+  particle.walker = gait.start;
+  return phase * gait.period;
+}
+
+// Every walker on to its own moment, all in one batch: a step is as long as many frames.
+void walk_to(const KneedModel& model, std::span<const double> times,
+             std::span<WalkerParticle> particles) {
+  std::vector<KneedState> states;
+  std::vector<KneedControls> controls;
+  for (const WalkerParticle& p : particles) {
+    states.push_back(p.walker);
+    controls.push_back(p.controls);
+  }
+  const std::vector<Vector5> noise(states.size(), Vector5::Zero());
+  std::vector<KneedAdvance> done(states.size());
+  kneed_advance_batch(model, controls, noise, times, states, done);
+  for (size_t i = 0; i < states.size(); ++i) {
+    particles[i].walker = particles[i].predicted = states[i];
+    particles[i].velocity_per_impulse.setZero();
+  }
+}
+
+// Steps about as long as people's at that speed, m/s.
+StepAim draw_aim(const MotionContext& context, const StartConfig& config, double speed, Rng& rng) {
+  const double leg = leg_length(context.model.body.lengths);
+  const double unit_speed = std::sqrt(context.model.walker.parameters.gravity * leg);
+  speed *= std::exp(config.speed * rng.truncated_normal(2.5));
+  return {speed, leg * preferred_step_length(speed / unit_speed) *
+                     std::exp(config.step_length * rng.truncated_normal(2.5))};
 }
 
 void place(const MotionContext& context, const Eigen::Vector2d& position, WalkerParticle& p) {
@@ -52,27 +79,26 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
                                   const Sighting& sighting, const PhaseRange& range,
                                   uint64_t seed) {
   std::vector<WalkerParticle> out(static_cast<size_t>(config.particles));
-  const double leg = leg_length(context.model.body.lengths);
-  const double unit_speed = std::sqrt(context.model.walker.parameters.gravity * leg);
+  std::vector<Eigen::Vector2d> positions(out.size());
+  std::vector<double> times(out.size());
   for (size_t i = 0; i < out.size(); ++i) {
     Rng rng(seed, Purpose::kInitialisation, 0, static_cast<uint32_t>(i));
     WalkerParticle& p = out[i];
-    const Eigen::Vector2d position =
+    positions[i] =
         sighting.position + sighting.position_sd * rng.truncated_normal(2.5) * sighting.ray;
     const Eigen::Vector2d velocity =
         sighting.velocity + sighting.velocity_sd * rng.truncated_normal(2.5) * sighting.ray;
-    const double speed = velocity.norm() * std::exp(config.speed * rng.truncated_normal(2.5));
-    const double step = leg * preferred_step_length(speed / unit_speed) *
-                        std::exp(config.step_length * rng.truncated_normal(2.5));
-    p.aim = {speed, step};
+    p.aim = draw_aim(context, config, velocity.norm(), rng);
     p.stance = range.stance;
     for (int k = 0; k < extra_count(context.model.body); ++k)
       p.extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).rest;
     p.extra[kHeading] = std::atan2(velocity.y(), velocity.x());
     p.extra_before = p.extra;
-    enter_gait(context, range.from + (range.to - range.from) * rng.uniform(), p);
-    place(context, position, p);
+    const double phase = range.from + (range.to - range.from) * rng.uniform();
+    times[i] = enter_gait(context, phase, p);
   }
+  walk_to(context.model.walker, times, out);
+  for (size_t i = 0; i < out.size(); ++i) place(context, positions[i], out[i]);
   return out;
 }
 

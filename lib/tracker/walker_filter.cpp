@@ -21,6 +21,25 @@ double log_uprightness(const BodyModel& model, const Pose& pose) {
   return below > 0 ? -0.5 * (below / 0.01) * (below / 0.01) : 0;
 }
 
+// Walkers that go together: some full vectors, and still enough groups for every thread.
+constexpr size_t kGroup = 32;
+
+struct Streams {
+  uint64_t seed;
+  uint32_t frame;
+  size_t start;  // number of the first particle
+};
+
+void predict(const MotionContext& motion, const Streams& streams, bool first,
+             std::span<WalkerParticle> particles, std::span<Outcome> outcomes) {
+  std::vector<Rng> rngs;
+  for (size_t i = 0; i < particles.size(); ++i)
+    rngs.emplace_back(streams.seed, Purpose::kTorque, streams.frame,
+                      static_cast<uint32_t>(streams.start + i));
+  if (!first) return propagate(motion, particles, rngs, outcomes);
+  for (size_t i = 0; i < particles.size(); ++i) outcomes[i] = arrive(motion, particles[i], rngs[i]);
+}
+
 void summarise(const WalkerFilterContext& context, const ParticleSet<WalkerParticle>& set,
                FrameRecord& record) {
   const std::vector<double> weights = normalised_weights(set.log_weights);
@@ -44,11 +63,12 @@ FrameRecord advance(const WalkerFilterContext& context, const SceneEvidence& evi
                     uint32_t frame, uint64_t seed, bool first, WalkerFilter& filter) {
   const MotionContext& motion = context.motion;
   std::vector<Outcome> outcomes(filter.particles().states.size());
-  filter.predict([&](WalkerParticle& particle, uint32_t i) {
-    Rng rng(seed, Purpose::kTorque, frame, i);
-    outcomes[i] = first ? arrive(motion, particle, rng) : propagate(motion, particle, rng);
-    return outcomes[i] != Outcome::kDead;
-  });
+  filter.predict_groups(
+      kGroup, [&](size_t start, std::span<WalkerParticle> particles, std::span<uint8_t> alive) {
+        const std::span group = std::span(outcomes).subspan(start, particles.size());
+        predict(motion, {seed, frame, start}, first, particles, group);
+        for (size_t i = 0; i < group.size(); ++i) alive[i] = group[i] != Outcome::kDead;
+      });
   const CourseSpread course =
       course_spread(filter.particles().states, filter.particles().log_weights);
   const auto weigh = [&](const WalkerParticle& particle) {

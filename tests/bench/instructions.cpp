@@ -63,10 +63,12 @@ void count_figures() {
 void count_particles() {
   ParticleScene scene = particle_scene(64);
   const MotionContext context = scene.context();
-  count("propagate", scene.particles.size(), [&](size_t i) {
-    Rng rng(1, Purpose::kPose, 0, static_cast<uint32_t>(i));
-    propagate(context, scene.particles[i], rng);
-    return scene.particles[i].pose.tilt;
+  std::vector<Rng> rngs;
+  for (uint32_t i = 0; i < scene.particles.size(); ++i) rngs.emplace_back(1, Purpose::kPose, 0, i);
+  std::vector<Outcome> outcomes(scene.particles.size());
+  count("propagate", 1, [&](size_t) {
+    propagate(context, scene.particles, rngs, outcomes);
+    return scene.particles.back().pose.tilt;
   });
   count("perturb", scene.particles.size(), [&](size_t i) {
     Rng rng(1, Purpose::kMoves, 0, static_cast<uint32_t>(i));

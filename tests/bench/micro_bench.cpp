@@ -239,11 +239,15 @@ BENCHMARK(pose_to_capsules);
 void tracker_propagate(benchmark::State& state) {
   static const ParticleScene scene = particle_scene(kPoses);
   const MotionContext context = scene.context();
-  each(state, kPoses, [&](size_t i) {
-    Rng rng(1, Purpose::kPose, 0, static_cast<uint32_t>(i));
-    WalkerParticle particle = scene.particles[i];
-    return propagate(context, particle, rng);
-  });
+  std::vector<Rng> rngs;
+  for (uint32_t i = 0; i < kPoses; ++i) rngs.emplace_back(1, Purpose::kPose, 0, i);
+  std::vector<Outcome> outcomes(kPoses);
+  for (auto _ : state) {
+    std::vector<WalkerParticle> particles = scene.particles;
+    propagate(context, particles, rngs, outcomes);
+    benchmark::DoNotOptimize(particles.data());
+  }
+  set_items(state, kPoses);
 }
 BENCHMARK(tracker_propagate);
 

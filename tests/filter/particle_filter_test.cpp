@@ -114,6 +114,31 @@ TEST(ParticleFilter, BitIdenticalForAnyThreadCount) {
   EXPECT_NE(run_linear(config, 0.05, 20, 1, 6).mean, one.mean);
 }
 
+TEST(ParticleFilter, GroupsOfAnySizeTakeEveryStateOnceWithItsNumber) {
+  constexpr size_t kStates = 100;
+  const auto move = [](LinearState&, double, Rng&) {};
+  for (const size_t group : {1, 7, 64, 1000}) {
+    ParticleFilter<LinearState> filter({.particles = int{kStates}, .moves = 0}, 1, 2);
+    filter.start(std::vector<LinearState>(kStates));
+    filter.predict_groups(
+        group, [&](size_t first, std::span<LinearState> states, std::span<uint8_t> alive) {
+          ASSERT_EQ(states.size(), alive.size());
+          ASSERT_LE(states.size(), group);
+          for (size_t i = 0; i < states.size(); ++i) {
+            states[i].predicted += double(first + i);
+            alive[i] = (first + i) % 3 != 0;
+          }
+        });
+    const auto& set = filter.particles();
+    for (size_t i = 0; i < kStates; ++i) EXPECT_EQ(set.states[i].predicted, double(i));
+    EXPECT_EQ(filter
+                  .update(
+                      0, [](const LinearState&) { return 0.0; }, move)
+                  .dead,
+              34);
+  }
+}
+
 TEST(ParticleFilter, OneParticleSurvives) {
   const LinearRun run = run_linear({.particles = 1, .moves = 2}, 0.1, 10, 1, 3);
   for (const double mean : run.mean) EXPECT_TRUE(std::isfinite(mean));

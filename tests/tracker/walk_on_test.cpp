@@ -1,0 +1,104 @@
+#include "tracker/walk_on.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/tracker/fixture.h"
+
+namespace walktrack {
+namespace {
+
+constexpr double kDt = 1.0 / 30;
+constexpr int kWalkers = 200;
+
+struct Crowd {
+  std::vector<WalkerParticle> particles;
+  std::vector<Rng> rngs;
+  std::vector<Outcome> outcomes;
+};
+
+// Walkers at all moments of their steps; every tenth bends down too far to walk on.
+Crowd crowd(const MotionContext& context) {
+  Crowd out{walkers_on_their_way(context, kWalkers), {}, {}};
+  for (uint32_t i = 0; i < kWalkers; ++i) {
+    out.rngs.emplace_back(2, Purpose::kTest, 0, i);
+    if (i % 10 != 0) continue;
+    out.particles[i].walker.q[kStanceThigh] -= 0.9;
+    out.particles[i].walker.q[kStanceShank] += 0.9;
+  }
+  out.outcomes.resize(kWalkers);
+  return out;
+}
+
+void expect_same(const Crowd& a, const Crowd& b, double tolerance) {
+  for (size_t i = 0; i < kWalkers; ++i) {
+    const KneedState &x = a.particles[i].walker, &y = b.particles[i].walker;
+    EXPECT_EQ(a.outcomes[i], b.outcomes[i]) << i;
+    EXPECT_EQ(a.particles[i].stance, b.particles[i].stance) << i;
+    EXPECT_LE((x.q - y.q).norm() + (x.qd - y.qd).norm(), tolerance) << i;
+  }
+}
+
+TEST(WalkOn, DependsOnNobodyElse) {
+  const Walking walking;
+  const MotionContext context = walking.context(kDt);
+  Crowd together = crowd(context), alone = together;
+  walk_on(context, together.particles, together.rngs, together.outcomes);
+  for (size_t i = 0; i < kWalkers; ++i)
+    walk_on(context, {&alone.particles[i], 1}, {&alone.rngs[i], 1}, {&alone.outcomes[i], 1});
+  expect_same(together, alone, 0);
+}
+
+TEST(WalkOn, SomeChangeFeetAndWhoFallsIsCaught) {
+  const Walking walking;
+  const MotionContext context = walking.context(kDt);
+  const Crowd before = crowd(context);
+  Crowd after = before;
+  walk_on(context, after.particles, after.rngs, after.outcomes);
+  int changed = 0;
+  for (size_t i = 0; i < kWalkers; ++i) {
+    EXPECT_EQ(after.outcomes[i], i % 10 == 0 ? Outcome::kFallen : Outcome::kAlive) << i;
+    changed += after.particles[i].stance != before.particles[i].stance;
+  }
+  // A step of this speed lasts some 17 frames.
+  EXPECT_GT(changed, kWalkers / 40);
+  EXPECT_LT(changed, kWalkers / 8);
+}
+
+// On a slope walkers go one by one, each in the gravity of its own plane; with next to no slope
+// that is what the batch does on the level.
+TEST(WalkOn, ASlopeOfNothingIsLevel) {
+  Walking walking;
+  const MotionContext level = walking.context(kDt);
+  Crowd batch = crowd(level), single = batch;
+  walk_on(level, batch.particles, batch.rngs, batch.outcomes);
+  walking.model.downhill = {1e-12, 0};
+  const MotionContext sloped = walking.context(kDt);
+  walk_on(sloped, single.particles, single.rngs, single.outcomes);
+  expect_same(batch, single, 1e-7);
+}
+
+// Downhill is forwards for those who head that way, backwards for those who head the other way.
+TEST(WalkOn, EverybodyFeelsTheSlopeOfTheirOwnHeading) {
+  Walking walking;
+  walking.model.downhill = {0.5, 0};
+  const MotionContext sloped = walking.context(kDt);
+  Crowd down = crowd(sloped), up = down;
+  for (WalkerParticle& p : up.particles) p.extra[kHeading] += kPi;
+  walk_on(sloped, down.particles, down.rngs, down.outcomes);
+  walk_on(sloped, up.particles, up.rngs, up.outcomes);
+  int compared = 0, faster = 0;
+  for (size_t i = 0; i < kWalkers; ++i) {
+    if (down.outcomes[i] != Outcome::kAlive || up.outcomes[i] != Outcome::kAlive) continue;
+    // Whoever has just changed feet shows the blow, which came at another moment.
+    const KneedState &a = down.particles[i].walker, &b = up.particles[i].walker;
+    if (std::min(a.since_transfer, b.since_transfer) < kDt) continue;
+    ++compared;
+    faster += a.qd[kStanceThigh] > b.qd[kStanceThigh];
+  }
+  // The standing leg falls forwards faster, but for a few whose knee gives way to it.
+  EXPECT_GT(compared, kWalkers / 2);
+  EXPECT_GT(faster, 0.95 * compared);
+}
+
+}  // namespace
+}  // namespace walktrack
