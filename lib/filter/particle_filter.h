@@ -12,7 +12,8 @@
 // The filter knows nothing of walkers or images. Its model is three callables, each a pure function
 // of its arguments (so that the result does not depend on threads):
 //   propagate(state, index)            one frame forward, noise drawn; false = the particle died
-//   log_likelihood(state) -> double    of this frame's evidence, any finite value
+//   log_likelihood(state)              of this frame's evidence, any finite value: a double, or by
+//                                      stages (StagedLikelihood)
 //   move(state, scale, rng)            proposes a change in place, reversible with respect to the
 //                                      prior of this frame; scale in (0, 1] is its boldness,
 //                                      adapted from layer to layer towards the acceptance of
@@ -22,7 +23,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -36,6 +39,18 @@
 #include "filter/resampling.h"
 
 namespace walktrack {
+
+// A likelihood that is a product of factors which can be had one after the other. A move is put to
+// them in turn and is rejected by the first that is against it, the others unasked: delayed
+// acceptance (Christen & Fox, "Markov chain Monte Carlo using an approximation", JCGS 14, 2005;
+// Banterle, Grazian, Lee & Robert, "Accelerating Metropolis-Hastings algorithms by delayed
+// acceptance", 2019). It leaves the same distribution invariant, with fewer moves accepted.
+template <typename L, typename State>
+concept StagedLikelihood = requires(const L& likelihood, const State& state) {
+  { L::kMaxStages } -> std::convertible_to<int>;
+  { likelihood.stages() } -> std::convertible_to<int>;      // from 1 to kMaxStages
+  { likelihood(state)(0) } -> std::convertible_to<double>;  // of stage 0
+};
 
 struct FilterConfig {
   int particles = 300;
@@ -160,11 +175,48 @@ class ParticleFilter {
 
   size_t size() const { return set_.states.size(); }
 
+  // A log-likelihood by its stages.
+  static constexpr int kMaxStages = 4;
+  using Stages = std::array<double, kMaxStages>;
+
+  template <typename LogLikelihood>
+  static int stages_of(const LogLikelihood& log_likelihood) {
+    if constexpr (StagedLikelihood<LogLikelihood, State>) {
+      static_assert(LogLikelihood::kMaxStages <= kMaxStages);
+      return log_likelihood.stages();
+    } else {
+      return 1;
+    }
+  }
+
+  // Asks one stage after the other, until `go_on(stage, value)` has heard enough.
+  template <typename LogLikelihood, typename GoOn>
+  static bool ask(const LogLikelihood& log_likelihood, const State& state, const GoOn& go_on) {
+    if constexpr (StagedLikelihood<LogLikelihood, State>) {
+      const auto account = log_likelihood(state);
+      for (int stage = 0; stage < stages_of(log_likelihood); ++stage)
+        if (!go_on(static_cast<size_t>(stage), account(stage))) return false;
+      return true;
+    } else {
+      return go_on(0, log_likelihood(state));
+    }
+  }
+
+  static double sum(const Stages& stages) {
+    return std::accumulate(stages.begin(), stages.end(), 0.0);
+  }
+
   template <typename LogLikelihood>
   void weigh(const LogLikelihood& log_likelihood, FilterReport& report) {
     proposed_ = accepted_ = 0;
+    stages_.assign(size(), Stages{});
     parallel_for(size(), threads_, [&](size_t i) {
-      set_.log_likelihoods[i] = alive_[i] ? log_likelihood(set_.states[i]) : kDead;
+      if (alive_[i])
+        ask(log_likelihood, set_.states[i], [&](size_t stage, double value) {
+          stages_[i][stage] = value;
+          return true;
+        });
+      set_.log_likelihoods[i] = alive_[i] ? sum(stages_[i]) : kDead;
     });
     for (size_t i = 0; i < size(); ++i) {
       if (set_.log_likelihoods[i] != kDead) continue;
@@ -212,12 +264,15 @@ class ParticleFilter {
     systematic_resample(set_.log_weights, u, parents_);
     next_states_.resize(size());
     next_log_likelihoods_.resize(size());
+    next_stages_.resize(size());
     parallel_for(size(), threads_, [&](size_t i) {
       next_states_[i] = set_.states[parents_[i]];
       next_log_likelihoods_[i] = set_.log_likelihoods[parents_[i]];
+      next_stages_[i] = stages_[parents_[i]];
     });
     set_.states.swap(next_states_);
     set_.log_likelihoods.swap(next_log_likelihoods_);
+    stages_.swap(next_stages_);
     set_.log_weights.assign(size(), -std::log(static_cast<double>(size())));
   }
 
@@ -232,11 +287,15 @@ class ParticleFilter {
       for (int k = 0; k < config_.moves; ++k) {
         State proposal = set_.states[i];
         move(proposal, scale_, rng);
-        const double candidate = log_likelihood(proposal);
-        const double gain = exponent * (candidate - set_.log_likelihoods[i]);
-        if (std::log(rng.uniform()) >= gain) continue;
+        Stages candidate{};
+        const auto passes = [&](size_t stage, double value) {
+          candidate[stage] = value;
+          return std::log(rng.uniform()) < exponent * (value - stages_[i][stage]);
+        };
+        if (!ask(log_likelihood, proposal, passes)) continue;
         set_.states[i] = std::move(proposal);
-        set_.log_likelihoods[i] = candidate;
+        stages_[i] = candidate;
+        set_.log_likelihoods[i] = sum(candidate);
         ++accepted_by_[i];
       }
     });
@@ -257,7 +316,9 @@ class ParticleFilter {
   ParticleSet<State> set_;
   std::vector<uint8_t> alive_;  // survived the prediction
   double before_ = 0;           // log of the weights' sum before it
+  std::vector<Stages> stages_;  // of the log-likelihoods
   std::vector<State> next_states_;
+  std::vector<Stages> next_stages_;
   std::vector<double> next_log_likelihoods_;
   std::vector<uint32_t> parents_;
   std::vector<int> accepted_by_;  // moves accepted, by particle

@@ -9,6 +9,11 @@
 
 namespace walktrack {
 
+// The two sums on their own. `before`: the same particle's capsules at the frame before.
+double silhouette_log_likelihood(const CameraEvidence& evidence, const CapsuleList& now);
+double flow_log_likelihood(const FlowConfig& config, const CameraEvidence& evidence,
+                           const CapsuleList& now, const CapsuleList& before);
+
 // `before`: the same particle's capsules at the frame before, or nullptr for no flow term.
 double log_likelihood(const ObservationConfig& config, const CameraEvidence& evidence,
                       const CapsuleList& now, const CapsuleList* before);

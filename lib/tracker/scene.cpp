@@ -25,25 +25,6 @@ int frames_in(double seconds, double dt) {
   return std::max(2, static_cast<int>(std::lround(seconds / dt)));
 }
 
-double log_likelihood(const TrackerScene& scene, const SceneEvidence& evidence,
-                      const WalkerParticle& particle, bool with_motion) {
-  const PosedParts now = parts_of(scene.model.body, particle.pose);
-  const bool motion = with_motion && scene.observation.flow.enabled;
-  const PosedParts before =
-      motion ? parts_of(scene.model.body, particle.pose_before) : PosedParts{};
-  double sum = 0;
-  for (size_t c = 0; c < evidence.size(); ++c) {
-    const CapsuleList capsules = project_parts(scene.cameras[c], now);
-    if (motion) {
-      const CapsuleList capsules_before = project_parts(scene.cameras[c], before);
-      sum += log_likelihood(scene.observation, evidence[c], capsules, &capsules_before);
-    } else {
-      sum += log_likelihood(scene.observation, evidence[c], capsules, nullptr);
-    }
-  }
-  return sum;
-}
-
 std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed) {
   constexpr int kFigures = 6;
   const double leg = leg_length(model.body.lengths);

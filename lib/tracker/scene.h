@@ -30,11 +30,6 @@ int frames_in(double seconds, double dt);
 // By camera, in the order of TrackerScene::cameras.
 using SceneEvidence = std::vector<CameraEvidence>;
 
-// Log-likelihood of a particle's pose and, `with_motion`, of its motion since the frame before,
-// nats.
-double log_likelihood(const TrackerScene& scene, const SceneEvidence& evidence,
-                      const WalkerParticle& particle, bool with_motion);
-
 // A walker's poses through a step of the usual gait of a speed (m/s), root above the origin,
 // heading 0: one of them resembles any such walker in any frame, whichever foot stands.
 std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed);

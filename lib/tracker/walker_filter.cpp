@@ -5,6 +5,7 @@
 #include "body/kinematics.h"
 #include "core/log_weights.h"
 #include "tracker/course.h"
+#include "tracker/frame_likelihood.h"
 #include "tracker/model_error.h"
 
 namespace walktrack {
@@ -13,13 +14,6 @@ namespace {
 
 // Share of the filter's moves that change the course, the others change the frame's noise.
 constexpr double kCourseMoves = 0.3;
-
-// Walking people keep their hips up: below .82 of the leg's length the pose becomes improbable,
-// 1 % of it counting as one standard deviation (the prior's longest steps lower the hip to .83).
-double log_uprightness(const BodyModel& model, const Pose& pose) {
-  const double below = 0.82 - pose.root.z() / leg_length(model.body.lengths);
-  return below > 0 ? -0.5 * (below / 0.01) * (below / 0.01) : 0;
-}
 
 // Walkers that go together: some full vectors, and still enough groups for every thread.
 constexpr size_t kGroup = 32;
@@ -71,16 +65,13 @@ FrameRecord advance(const WalkerFilterContext& context, const SceneEvidence& evi
       });
   const CourseSpread course =
       course_spread(filter.particles().states, filter.particles().log_weights);
-  const auto weigh = [&](const WalkerParticle& particle) {
-    return log_likelihood(context.scene, evidence, particle, !first) +
-           log_uprightness(context.scene.model, particle.pose);
-  };
+  const FrameLikelihood likelihood(context.scene, evidence, !first);
   const auto move = [&](WalkerParticle& particle, double boldness, Rng& rng) {
     if (rng.uniform() < kCourseMoves) return change_course(motion, course, boldness, particle, rng);
     perturb(motion, boldness, particle, rng);
   };
   FrameRecord record;
-  record.filter = filter.update(frame, weigh, move);
+  record.filter = filter.update(frame, likelihood, move);
   record.fallen = static_cast<int>(std::count(outcomes.begin(), outcomes.end(), Outcome::kFallen));
   record.diverged =
       static_cast<int>(std::count(outcomes.begin(), outcomes.end(), Outcome::kDiverged));

@@ -1,6 +1,9 @@
 #include "filter/particle_filter.h"
 
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -37,7 +40,24 @@ struct LinearRun {
   std::vector<LinearState> states;
 };
 
-LinearRun run_linear(FilterConfig config, double r, int frames, int threads, uint64_t seed) {
+// The log-likelihood of one number, as if parts of it came from different cameras.
+struct InStages {
+  static constexpr int kMaxStages = 3;
+  std::function<double(const LinearState&)> whole;
+  std::array<std::atomic<int>, kMaxStages>* asked;
+
+  int stages() const { return kMaxStages; }
+  auto operator()(const LinearState& state) const {
+    return [this, value = whole(state)](int stage) {
+      constexpr std::array<double, kMaxStages> kShares{0.5, 0.2, 0.3};
+      ++(*asked)[static_cast<size_t>(stage)];
+      return kShares[static_cast<size_t>(stage)] * value;
+    };
+  }
+};
+
+LinearRun run_linear(FilterConfig config, double r, int frames, int threads, uint64_t seed,
+                     std::array<std::atomic<int>, InStages::kMaxStages>* asked = nullptr) {
   ParticleFilter<LinearState> filter(config, seed, threads);
   filter.start(std::vector<LinearState>(static_cast<size_t>(config.particles)));
   Kalman kalman;
@@ -59,7 +79,9 @@ LinearRun run_linear(FilterConfig config, double r, int frames, int threads, uin
     const auto move = [](LinearState& s, double scale, Rng& rng) {
       s.noise = std::sqrt(1 - scale * scale) * s.noise + scale * rng.normal();
     };
-    const FilterReport report = filter.step(frame, propagate, log_likelihood, move);
+    const FilterReport report =
+        asked ? filter.step(frame, propagate, InStages{log_likelihood, asked}, move)
+              : filter.step(frame, propagate, log_likelihood, move);
     kalman.step(y, r);
     const auto& set = filter.particles();
     const std::vector<double> p = normalised_weights(set.log_weights);
@@ -80,8 +102,9 @@ LinearRun run_linear(FilterConfig config, double r, int frames, int threads, uin
 // Both the plain and the tempered filter must agree with the exact posterior. The variance of a
 // self-normalised estimate is below kSpread * posterior variance / N for these likelihoods
 // (effective sample sizes above N / kSpread).
-void expect_kalman(const FilterConfig& config, double r, double spread) {
-  const LinearRun run = run_linear(config, r, 60, 1, 11);
+void expect_kalman(const FilterConfig& config, double r, double spread,
+                   std::array<std::atomic<int>, InStages::kMaxStages>* asked = nullptr) {
+  const LinearRun run = run_linear(config, r, 60, 1, 11, asked);
   double z_mean = 0, z_evidence = 0;
   for (size_t t = 0; t < run.mean.size(); ++t) {
     const double sigma = std::sqrt(spread * run.exact_variance[t] / config.particles);
@@ -101,6 +124,13 @@ TEST(ParticleFilter, PlainFilterAgreesWithTheKalmanFilter) {
 
 TEST(ParticleFilter, TemperedFilterAgreesWithTheKalmanFilterOnASharpLikelihood) {
   expect_kalman({.particles = 20000, .max_layers = 12, .moves = 3}, 0.02, 30);
+}
+
+TEST(ParticleFilter, StagesLeaveThePosteriorAsItIsAndLaterOnesAreAskedLess) {
+  std::array<std::atomic<int>, InStages::kMaxStages> asked{};
+  expect_kalman({.particles = 20000, .max_layers = 12, .moves = 3}, 0.02, 30, &asked);
+  EXPECT_LT(asked[1], 0.9 * asked[0]);
+  EXPECT_LT(asked[2], asked[1]);
 }
 
 TEST(ParticleFilter, BitIdenticalForAnyThreadCount) {

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFrame = 1.0 / 30;
 
 struct Advance : testing::Test {
-  const Walking walking;
+  const Walking walking{};
   const TrackerScene scene = unseen(walking.model, kFrame);
   const WalkerFilterContext context{scene, walking.context(kFrame), 1, 1};
 };

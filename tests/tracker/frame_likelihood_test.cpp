@@ -1,0 +1,92 @@
+#include "tracker/frame_likelihood.h"
+
+#include <gtest/gtest.h>
+
+#include "fixture.h"
+#include "tests/observation/scenes.h"
+
+namespace walktrack {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 240;
+
+// Pixels that speak for a body, some more than others, and on request points that move to the
+// right.
+CameraEvidence evidence_of(double nats, bool flow) {
+  CameraEvidence out;
+  resize(out.planes, {0, 0, kWidth, kHeight}, 1);
+  std::vector<float> row(kWidth);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x)
+      row[static_cast<size_t>(x)] = static_cast<float>(nats * ((x + 3 * y) % 17 - 8) / 8.0);
+    set_row(out.planes, 0, y, row, 4);
+  }
+  if (!flow) return out;
+  out.flow = {{0, 0, kWidth, kHeight}, 4, kWidth / 4, kHeight / 4, {}};
+  out.flow.samples.assign(static_cast<size_t>(kWidth * kHeight / 16), {2, 0, 1, 0, 1});
+  return out;
+}
+
+struct Seen : testing::Test {
+  const Walking walking{};
+  const MotionContext context = walking.context(1.0 / 30);
+  TrackerScene scene = unseen(walking.model, 1.0 / 30);
+  SceneEvidence evidence;
+  std::vector<WalkerParticle> particles = walkers_on_their_way(context, 1);
+
+  void add(double x, double nats, bool flow) {
+    scene.cameras.push_back(camera_at({x, -4, 1}, {x, 0, 1}, 300, kWidth, kHeight));
+    evidence.push_back(evidence_of(nats, flow));
+  }
+
+  // By an independent route: camera by camera, all terms at once.
+  double whole(bool with_motion) const {
+    const auto capsules = [&](size_t c, const Pose& pose) {
+      const Body& body = walking.model.body;
+      return project_parts(scene.cameras[c], pose_parts(body, forward_kinematics(body, pose)));
+    };
+    double sum = 0;
+    for (size_t c = 0; c < evidence.size(); ++c) {
+      const CapsuleList before = capsules(c, particles[0].pose_before);
+      sum += log_likelihood(scene.observation, evidence[c], capsules(c, particles[0].pose),
+                            with_motion ? &before : nullptr);
+    }
+    return sum;
+  }
+
+  double by_stages(bool with_motion) const {
+    const FrameLikelihood likelihood(scene, evidence, with_motion);
+    const auto account = likelihood(particles[0]);
+    double sum = 0;
+    for (int stage = 0; stage < likelihood.stages(); ++stage) sum += account(stage);
+    return sum;
+  }
+};
+
+TEST_F(Seen, StagesAddUpToAllCamerasAndTerms) {
+  for (int cameras = 1; cameras <= 5; ++cameras) {
+    add(0.3 * cameras, 0.5 * cameras, cameras != 2);
+    for (const bool with_motion : {false, true}) {
+      ASSERT_NE(whole(with_motion), 0);
+      EXPECT_NEAR(by_stages(with_motion), whole(with_motion), 1e-9 * std::abs(whole(with_motion)));
+    }
+    EXPECT_NE(whole(true), whole(false));
+  }
+}
+
+TEST_F(Seen, OnlyWhatTheSceneHasIsAStage) {
+  const auto stages = [&](bool with_motion) {
+    return FrameLikelihood(scene, evidence, with_motion).stages();
+  };
+  EXPECT_EQ(stages(true), 1);  // no camera: how upright the walker is
+  add(0, 1, false);
+  EXPECT_EQ(stages(true), 1);
+  evidence[0] = evidence_of(1, true);
+  EXPECT_EQ(stages(true), 2);
+  EXPECT_EQ(stages(false), 1);
+  for (int k = 0; k < 5; ++k) add(k, 1, false);
+  EXPECT_EQ(stages(true), FrameLikelihood::kMaxStages);
+}
+
+}  // namespace
+}  // namespace walktrack
