@@ -106,13 +106,13 @@ bool moves(const WindowScore& score, const Sighting& line, size_t frames, double
 }
 
 // Lines through a candidate of an early and one of a late frame, at a walking speed.
-std::vector<Walk> proposed_walks(std::span<const std::vector<Place>> candidates, double dt,
+std::vector<Walk> proposed_walks(const WindowCandidates& window, double dt,
                                  const SightingConfig& config) {
-  const size_t early = candidates.size() / 6, late = candidates.size() - 1 - early;
+  const auto [early, late] = window_ends(window.frames);
   const double time = dt * double(late - early);
   std::vector<Walk> walks;
-  for (const Place& from : candidates[early]) {
-    for (const Place& to : candidates[late]) {
+  for (const Place& from : window.early) {
+    for (const Place& to : window.late) {
       const Vector2d velocity = (to.position - from.position) / time;
       if (velocity.norm() < config.slowest || velocity.norm() > config.fastest) continue;
       walks.push_back({{from.position - dt * double(early) * velocity, velocity}, 0});
@@ -265,12 +265,17 @@ std::vector<Place> find_figures(const PlaceScore& score, std::span<const Vector2
   return found;
 }
 
-std::optional<Sighting> find_walk(std::span<const std::vector<Place>> candidates,
-                                  const WindowScore& score, double dt, const Vector2d& eye,
-                                  const SightingConfig& config, int threads) {
+WindowEnds window_ends(size_t frames) {
+  const size_t early = frames / 6;
+  return {early, frames - 1 - early};
+}
+
+std::optional<Sighting> find_walk(const WindowCandidates& window, const WindowScore& score,
+                                  double dt, const Vector2d& eye, const SightingConfig& config,
+                                  int threads) {
   constexpr size_t kRefined = 4, kStride = 3;
-  const size_t frames = candidates.size();
-  std::vector<Walk> walks = proposed_walks(candidates, dt, config);
+  const size_t frames = window.frames;
+  std::vector<Walk> walks = proposed_walks(window, dt, config);
   if (walks.empty()) return std::nullopt;
   parallel_for(walks.size(), threads, [&](size_t i) {
     walks[i].score = line_score(score, walks[i].line, frames, kStride, dt);

@@ -60,11 +60,23 @@ std::vector<Eigen::Vector2d> standing_places(std::span<const Camera> cameras, do
 std::vector<Place> find_figures(const PlaceScore& score, std::span<const Eigen::Vector2d> places,
                                 const SightingConfig& config, int threads);
 
-// The walk through the window's frames, dt apart, given each frame's candidates; nullopt when
-// nobody walks there, is cut off by an edge or hidden in part of the frames. `eye`: where the
-// camera stands that sees the distance least (any, if several do).
-std::optional<Sighting> find_walk(std::span<const std::vector<Place>> candidates,
-                                  const WindowScore& score, double dt, const Eigen::Vector2d& eye,
+// The two frames of a window that have to say where somebody may stand: through a candidate of each
+// go the lines that are tried.
+struct WindowEnds {
+  size_t early, late;
+};
+WindowEnds window_ends(size_t frames);
+
+struct WindowCandidates {
+  size_t frames;  // of the window
+  std::span<const Place> early, late;
+};
+
+// The walk through a window's frames, dt apart; nullopt when nobody walks there, is cut
+// off by an edge or hidden in part of the frames. `eye`: where the camera stands that sees the
+// distance least (any, if several do).
+std::optional<Sighting> find_walk(const WindowCandidates& window, const WindowScore& score,
+                                  double dt, const Eigen::Vector2d& eye,
                                   const SightingConfig& config, int threads);
 
 }  // namespace walktrack

@@ -106,17 +106,7 @@ void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& ou
     begin(*std::exchange(scene_.initial, std::nullopt), scene_.initial_phase);
     return compete(evidence, out);
   }
-  if (places_.empty())
-    places_ = standing_places(scene_.cameras, scene_.model.body.subject.height, config_.sighting);
-  const uint32_t newest = frame_ + static_cast<uint32_t>(window_.size());
-  const auto score = [&](const Eigen::Vector2d& place) {
-    if (!within_reach(place, newest)) return 0.0;
-    // Half of the figures, half a step, will do for a first look.
-    const std::span<const Pose> figures = figures_.at(kUsualSpeed);
-    return place_score(scene_, evidence, figures.first(figures.size() / 2), place,
-                       side_on_heading(scene_.cameras[0], place));
-  };
-  candidates_.push_back(find_figures(score, places_, config_.sighting, threads_));
+  candidates_.emplace_back();
   window_.push_back(evidence);
   if (static_cast<int>(window_.size()) < frames_in(config_.sighting.window, scene_.dt)) return;
   const auto window_score = [&](size_t frame, const Eigen::Vector2d& place,
@@ -124,14 +114,32 @@ void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& ou
     return place_score(scene_, window_[frame], figures_.at(velocity.norm()), place,
                        std::atan2(velocity.y(), velocity.x()));
   };
+  const WindowEnds ends = window_ends(window_.size());
   const auto sighting =
-      find_walk(std::vector(candidates_.begin(), candidates_.end()), window_score, scene_.dt,
-                camera_centre(scene_.cameras[0]).head<2>(), config_.sighting, threads_);
+      find_walk({window_.size(), candidates(ends.early), candidates(ends.late)}, window_score,
+                scene_.dt, camera_centre(scene_.cameras[0]).head<2>(), config_.sighting, threads_);
   if (sighting && within_reach(sighting->position, frame_) && attempt(*sighting, out)) return;
   window_.pop_front();
   candidates_.pop_front();
   ++frame_;
   out.emplace_back();
+}
+
+// Where somebody may stand in a frame of the window.
+const std::vector<Place>& Tracker::candidates(size_t index) {
+  if (places_.empty())
+    places_ = standing_places(scene_.cameras, scene_.model.body.subject.height, config_.sighting);
+  std::optional<std::vector<Place>>& found = candidates_[index];
+  if (found) return *found;
+  const auto score = [&](const Eigen::Vector2d& place) {
+    if (!within_reach(place, frame_ + static_cast<uint32_t>(index))) return 0.0;
+    // Half of the figures, half a step, will do for a first look.
+    const std::span<const Pose> figures = figures_.at(kUsualSpeed);
+    return place_score(scene_, window_[index], figures.first(figures.size() / 2), place,
+                       side_on_heading(scene_.cameras[0], place));
+  };
+  found = find_figures(score, places_, config_.sighting, threads_);
+  return *found;
 }
 
 // Tracks the window's frames from a sighting; false, and nothing has happened, if the track

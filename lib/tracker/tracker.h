@@ -80,6 +80,7 @@ class Tracker {
   enum class Mode { kSearching, kStarting, kTracking };
   void consume(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   void search(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
+  const std::vector<Place>& candidates(size_t index);
   bool attempt(const Sighting& sighting, std::vector<FrameRecord>& out);
   void begin(const Sighting& sighting, std::optional<double> stride_phase);
   void compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
@@ -104,7 +105,7 @@ class Tracker {
   StepBook steps_;
   std::vector<Eigen::Vector2d> places_;
   std::deque<SceneEvidence> window_;
-  std::deque<std::vector<Place>> candidates_;
+  std::deque<std::optional<std::vector<Place>>> candidates_;  // of frames that were asked
   std::optional<Contest> contest_;
   uint32_t starts_ = 0;  // how often a search has ended: keys the random streams
   WalkerFilter filter_;

@@ -28,20 +28,26 @@ double bell(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double h
   return height * std::exp(-(place - truth).squaredNorm() / (2 * 0.3 * 0.3));
 }
 
+constexpr size_t kFrames = 24;
+
 struct Film {
-  std::vector<std::vector<Place>> candidates;
+  std::vector<Place> early, late;
   WindowScore score;
+
+  std::optional<Sighting> walk(int threads = 1) const {
+    return find_walk({kFrames, early, late}, score, kDt, {0, -6}, {}, threads);
+  }
 };
 
 Film film(const std::function<double(size_t, const Eigen::Vector2d&)>& score) {
   const std::vector<Camera> cameras{side_camera()};
   const auto places = standing_places(cameras, 1.75, {});
-  Film out{{},
-           [=](size_t f, const Eigen::Vector2d& p, const Eigen::Vector2d&) { return score(f, p); }};
-  for (size_t f = 0; f < 24; ++f)
-    out.candidates.push_back(
-        find_figures([&](const Eigen::Vector2d& p) { return score(f, p); }, places, {}, 1));
-  return out;
+  const auto figures = [&](size_t f) {
+    return find_figures([&](const Eigen::Vector2d& p) { return score(f, p); }, places, {}, 1);
+  };
+  const WindowEnds ends = window_ends(kFrames);
+  return {figures(ends.early), figures(ends.late),
+          [=](size_t f, const Eigen::Vector2d& p, const Eigen::Vector2d&) { return score(f, p); }};
 }
 
 Eigen::Vector2d walker_at(size_t frame) { return {-0.8 + 1.3 * kDt * double(frame), 0.4}; }
@@ -62,7 +68,7 @@ TEST(FindWalk, FindsAWalkerBetweenThingsThatStandStill) {
   const Film f = film([](size_t frame, const Eigen::Vector2d& p) {
     return bell(p, walker_at(frame), 100) + bell(p, {0.8, 1.8}, 120);
   });
-  const auto walk = find_walk(f.candidates, f.score, kDt, {0, -6}, {}, 1);
+  const auto walk = f.walk();
   ASSERT_TRUE(walk);
   EXPECT_LT((walk->position - walker_at(0)).norm(), 0.03);  // the search ends at 1 cm steps
   EXPECT_NEAR(walk->velocity.x(), 1.3, 0.06);
@@ -71,16 +77,16 @@ TEST(FindWalk, FindsAWalkerBetweenThingsThatStandStill) {
 
 TEST(FindWalk, NobodyWalks) {
   const Film empty = film([](size_t, const Eigen::Vector2d&) { return -5.0; });
-  EXPECT_FALSE(find_walk(empty.candidates, empty.score, kDt, {0, -6}, {}, 1));
+  EXPECT_FALSE(empty.walk());
   const Film still = film([](size_t, const Eigen::Vector2d& p) { return bell(p, {0, 1}, 100); });
-  EXPECT_FALSE(find_walk(still.candidates, still.score, kDt, {0, -6}, {}, 1));
+  EXPECT_FALSE(still.walk());
 }
 
 TEST(FindWalk, AWalkerHiddenInPartOfTheFramesIsNotThereYet) {
   const Film f = film([](size_t frame, const Eigen::Vector2d& p) {
     return frame < 8 ? -1.0 : bell(p, walker_at(frame), 100);
   });
-  EXPECT_FALSE(find_walk(f.candidates, f.score, kDt, {0, -6}, {}, 1));
+  EXPECT_FALSE(f.walk());
 }
 
 // Poses that no figure resembles pass within a moment; who is hidden stays so.
@@ -89,7 +95,7 @@ TEST(FindWalk, AMomentOfStrangePosesIsForgiven) {
     const Film f = film([=](size_t frame, const Eigen::Vector2d& p) {
       return (frame >= 10 && frame < 10 + frames ? 0.1 : 1) * bell(p, walker_at(frame), 100);
     });
-    return find_walk(f.candidates, f.score, kDt, {0, -6}, {}, 1);
+    return f.walk();
   };
   EXPECT_TRUE(gap_of(2));
   EXPECT_FALSE(gap_of(5));
@@ -98,8 +104,8 @@ TEST(FindWalk, AMomentOfStrangePosesIsForgiven) {
 TEST(FindWalk, ThreadsDoNotMatter) {
   const Film f =
       film([](size_t frame, const Eigen::Vector2d& p) { return bell(p, walker_at(frame), 100); });
-  const auto one = find_walk(f.candidates, f.score, kDt, {0, -6}, {}, 1);
-  const auto many = find_walk(f.candidates, f.score, kDt, {0, -6}, {}, 8);
+  const auto one = f.walk();
+  const auto many = f.walk(8);
   ASSERT_TRUE(one && many);
   EXPECT_EQ(one->position, many->position);
   EXPECT_EQ(one->velocity, many->velocity);
