@@ -176,7 +176,7 @@ class ParticleFilter {
   size_t size() const { return set_.states.size(); }
 
   // A log-likelihood by its stages.
-  static constexpr int kMaxStages = 4;
+  static constexpr int kMaxStages = 2;
   using Stages = std::array<double, kMaxStages>;
 
   template <typename LogLikelihood>

@@ -1,5 +1,7 @@
 #include "tracker/frame_likelihood.h"
 
+#include <algorithm>
+
 namespace walktrack {
 
 namespace {
@@ -24,10 +26,7 @@ bool any_flow(const SceneEvidence& evidence) {
 
 FrameLikelihood::FrameLikelihood(const TrackerScene& scene, const SceneEvidence& evidence,
                                  bool with_motion)
-    : scene_(scene),
-      evidence_(evidence),
-      motion_(with_motion && any_flow(evidence)),
-      silhouette_stages_(std::clamp(static_cast<int>(evidence.size()), 1, kSilhouetteStages)) {}
+    : scene_(scene), evidence_(evidence), motion_(with_motion && any_flow(evidence)) {}
 
 FrameLikelihood::Account::Account(const FrameLikelihood& frame, const WalkerParticle& particle)
     : frame_(frame),
@@ -35,31 +34,31 @@ FrameLikelihood::Account::Account(const FrameLikelihood& frame, const WalkerPart
       parts_(parts_of(frame.scene_.model.body, particle.pose)) {}
 
 double FrameLikelihood::Account::operator()(int stage) const {
-  if (stage == frame_.silhouette_stages_) return flow();
-  const double prior = stage == 0 ? log_uprightness(frame_.scene_.model, particle_.pose) : 0;
-  return prior + silhouettes(stage);
+  if (stage > 0) return all_else();
+  const double prior = log_uprightness(frame_.scene_.model, particle_.pose);
+  return frame_.evidence_.empty() ? prior : prior + silhouettes(0);
 }
 
-double FrameLikelihood::Account::silhouettes(int stage) const {
+double FrameLikelihood::Account::all_else() const {
   double sum = 0;
-  const auto step = static_cast<size_t>(frame_.silhouette_stages_);
-  for (size_t c = static_cast<size_t>(stage); c < frame_.evidence_.size(); c += step)
-    sum += silhouette_log_likelihood(frame_.evidence_[c],
-                                     project_parts(frame_.scene_.cameras[c], parts_));
-  return sum;
-}
-
-double FrameLikelihood::Account::flow() const {
+  for (size_t c = 1; c < frame_.evidence_.size(); ++c) sum += silhouettes(c);
+  if (!frame_.motion_) return sum;
   const PosedParts before = parts_of(frame_.scene_.model.body, particle_.pose_before);
-  double sum = 0;
-  for (size_t c = 0; c < frame_.evidence_.size(); ++c) {
-    const CameraEvidence& evidence = frame_.evidence_[c];
-    if (evidence.flow.samples.empty()) continue;
-    const Camera& camera = frame_.scene_.cameras[c];
-    sum += flow_log_likelihood(frame_.scene_.observation.flow, evidence,
-                               project_parts(camera, parts_), project_parts(camera, before));
-  }
+  for (size_t c = 0; c < frame_.evidence_.size(); ++c) sum += flow(c, before);
   return sum;
+}
+
+double FrameLikelihood::Account::silhouettes(size_t camera) const {
+  return silhouette_log_likelihood(frame_.evidence_[camera],
+                                   project_parts(frame_.scene_.cameras[camera], parts_));
+}
+
+double FrameLikelihood::Account::flow(size_t camera, const PosedParts& before) const {
+  const CameraEvidence& evidence = frame_.evidence_[camera];
+  if (evidence.flow.samples.empty()) return 0;
+  const Camera& view = frame_.scene_.cameras[camera];
+  return flow_log_likelihood(frame_.scene_.observation.flow, evidence, project_parts(view, parts_),
+                             project_parts(view, before));
 }
 
 }  // namespace walktrack

@@ -3,8 +3,6 @@
 // (filter/particle_filter.h).
 #pragma once
 
-#include <algorithm>
-
 #include "body/kinematics.h"
 #include "tracker/scene.h"
 
@@ -12,14 +10,15 @@ namespace walktrack {
 
 class FrameLikelihood {
  public:
-  static constexpr int kMaxStages = 4;
+  static constexpr int kMaxStages = 2;
 
   // `with_motion`: particles have a frame before this one, so that flow says something.
   FrameLikelihood(const TrackerScene& scene, const SceneEvidence& evidence, bool with_motion);
 
-  // Silhouettes of the cameras, one camera a stage while there are stages, then flow in all of them
-  // if anything was measured.
-  int stages() const { return silhouette_stages_ + (motion_ ? 1 : 0); }
+  // Silhouettes of the first camera, then all else: the other cameras' silhouettes, and flow where
+  // any was measured. More stages would save little more, and every stage that can reject a move
+  // costs some that all of them together would accept.
+  int stages() const { return evidence_.size() > 1 || motion_ ? 2 : 1; }
 
   class Account {
    public:
@@ -28,8 +27,9 @@ class FrameLikelihood {
     double operator()(int stage) const;
 
    private:
-    double silhouettes(int stage) const;
-    double flow() const;
+    double silhouettes(size_t camera) const;
+    double flow(size_t camera, const PosedParts& before) const;
+    double all_else() const;
 
     const FrameLikelihood& frame_;
     const WalkerParticle& particle_;
@@ -39,12 +39,9 @@ class FrameLikelihood {
   Account operator()(const WalkerParticle& particle) const { return {*this, particle}; }
 
  private:
-  static constexpr int kSilhouetteStages = kMaxStages - 1;
-
   const TrackerScene& scene_;
   const SceneEvidence& evidence_;
   bool motion_;
-  int silhouette_stages_;
 };
 
 }  // namespace walktrack

@@ -42,14 +42,14 @@ struct LinearRun {
 
 // The log-likelihood of one number, as if parts of it came from different cameras.
 struct InStages {
-  static constexpr int kMaxStages = 3;
+  static constexpr int kMaxStages = 2;
   std::function<double(const LinearState&)> whole;
   std::array<std::atomic<int>, kMaxStages>* asked;
 
   int stages() const { return kMaxStages; }
   auto operator()(const LinearState& state) const {
     return [this, value = whole(state)](int stage) {
-      constexpr std::array<double, kMaxStages> kShares{0.5, 0.2, 0.3};
+      constexpr std::array<double, kMaxStages> kShares{0.6, 0.4};
       ++(*asked)[static_cast<size_t>(stage)];
       return kShares[static_cast<size_t>(stage)] * value;
     };
@@ -126,11 +126,10 @@ TEST(ParticleFilter, TemperedFilterAgreesWithTheKalmanFilterOnASharpLikelihood) 
   expect_kalman({.particles = 20000, .max_layers = 12, .moves = 3}, 0.02, 30);
 }
 
-TEST(ParticleFilter, StagesLeaveThePosteriorAsItIsAndLaterOnesAreAskedLess) {
+TEST(ParticleFilter, StagesLeaveThePosteriorAsItIsAndTheSecondIsAskedLess) {
   std::array<std::atomic<int>, InStages::kMaxStages> asked{};
   expect_kalman({.particles = 20000, .max_layers = 12, .moves = 3}, 0.02, 30, &asked);
   EXPECT_LT(asked[1], 0.9 * asked[0]);
-  EXPECT_LT(asked[2], asked[1]);
 }
 
 TEST(ParticleFilter, BitIdenticalForAnyThreadCount) {
