@@ -36,6 +36,8 @@ int hardware_threads() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+int thread_count(int wanted) { return wanted > 0 ? wanted : hardware_threads(); }
+
 void parallel_ranges(size_t n, int threads, void (*body)(void*, size_t, size_t), void* context) {
   if (threads <= 1 || n < 2) {
     body(context, 0, n);

@@ -12,6 +12,9 @@ namespace walktrack {
 // Hardware threads of this machine, at least 1.
 int hardware_threads();
 
+// As many as are wanted; 0: all of the machine.
+int thread_count(int wanted);
+
 // Calls body(context, begin, end) on disjoint ranges that cover [0, n).
 void parallel_ranges(size_t n, int threads, void (*body)(void*, size_t, size_t), void* context);
 

@@ -28,8 +28,6 @@ GaitPrior read_prior(const fs::path& path) {
   return parse_gait_prior(read_text_file(path, kMaxPriorBytes), path.string());
 }
 
-int thread_count(int threads) { return threads > 0 ? threads : hardware_threads(); }
-
 // One line a node: where it stands, then what line(node) says.
 template <typename Node, typename Line>
 std::string gaits_table(const PriorTable<Node>& prior, const WalkerUnits& units,

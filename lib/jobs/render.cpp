@@ -219,7 +219,7 @@ std::string kinetics_truth(const RenderJob& job, WalkedGait walked, std::vector<
 
 size_t render_scene(const RenderJob& given, const JobControl& control) {
   RenderJob job = given;
-  const int threads = job.threads > 0 ? job.threads : hardware_threads();
+  const int threads = thread_count(job.threads);
   refuse_existing(job.output / "scene.yaml", job.overwrite);
   fs::create_directories(job.output);
   fs::remove(job.output / "scene.yaml");

@@ -227,8 +227,7 @@ SweepReport run_sweep(const SweepJob& job, const JobControl& control) {
   report.scene = job.scene.file.filename().string();
   report.knobs = job.knobs;
   report.seeds = job.seeds;
-  const int threads = job.config.values.threads;
-  report.threads = threads > 0 ? threads : hardware_threads();
+  report.threads = thread_count(job.config.values.threads);
   const std::vector<SweepSetting> grid = sweep_grid(job.knobs);
   const size_t runs =
       grid.size() * static_cast<size_t>(job.seeds) * static_cast<size_t>(job.repeats);

@@ -15,8 +15,7 @@ namespace walktrack {
 namespace {
 
 int threads_of(const TrackJob& job) {
-  const int wanted = job.config.values.threads;
-  const int threads = wanted > 0 ? wanted : hardware_threads();
+  const int threads = thread_count(job.config.values.threads);
   cv::setNumThreads(threads);
   return threads;
 }

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/errors.h"
+#include "core/parallel_for.h"
 #include "io/video.h"
 #include "observation/background.h"
 #include "observation/shrink.h"
@@ -43,12 +44,12 @@ double expected_height_px(const Scene& scene, const Camera& camera, const Sighti
   return *chosen;
 }
 
-BackgroundModel learn_background(const SceneCamera& camera, const BackgroundConfig& config,
-                                 int shrink, const JobControl& control) {
+BackgroundModel learn_background(const SceneCamera& camera, const Config& config, int shrink,
+                                 const JobControl& control) {
   const bool empty_frames = !camera.background.empty();
   FrameSource source(empty_frames ? camera.background : camera.video,
                      cv::Size(camera.camera.width_px, camera.camera.height_px));
-  BackgroundSampler sampler(config, shrink);
+  BackgroundSampler sampler(config.observation.background, shrink);
   const auto total = static_cast<size_t>(source.facts().frame_count);
   cv::Mat frame;
   for (size_t done = 0; source.read(frame); ++done) {
@@ -56,7 +57,7 @@ BackgroundModel learn_background(const SceneCamera& camera, const BackgroundConf
     control.progress("learning the background", done, total);
     if (control.stopping()) break;  // not before there is a frame, without which there is no model
   }
-  return sampler.model();
+  return sampler.model(thread_count(config.threads));
 }
 
 Observer make_observer(const Scene& scene, const SceneCamera& camera, const Config& config,
@@ -70,7 +71,7 @@ Observer make_observer(const Scene& scene, const SceneCamera& camera, const Conf
   if (learned) {
     input.background = learned->background;
   } else if (observation.background.enabled) {
-    input.background = learn_background(camera, observation.background, input.shrink, control);
+    input.background = learn_background(camera, config, input.shrink, control);
   }
   Observer observer(observation, std::move(input));
   if (learned) observer.resume(*learned);

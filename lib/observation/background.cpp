@@ -9,6 +9,7 @@
 
 #include "core/conventions.h"
 #include "core/errors.h"
+#include "core/parallel_for.h"
 #include "observation/shrink.h"
 
 namespace walktrack {
@@ -87,22 +88,65 @@ BackgroundModel sized(int width, int height) {
   return model;
 }
 
-// Holds variances in the place of precisions until floor_variances.
-BackgroundModel statistics_of(const std::vector<std::vector<uint8_t>>& frames,
-                              const std::vector<float>& gains, int width, int height) {
-  BackgroundModel model = sized(width, height);
-  std::vector<Sample> samples(frames.size());
-  std::vector<float> scratch;
-  for (size_t i = 0; i < model.luma.size(); ++i) {
-    for (size_t f = 0; f < frames.size(); ++f) samples[f] = sample_at(frames[f], i, gains[f]);
-    const Statistics s = robust_statistics(samples, scratch);
-    model.luma[i] = s.luma;
-    model.orange[i] = s.orange;
-    model.green[i] = s.green;
-    model.luma_precision[i] = s.luma_variance;
-    model.chroma_precision[i] = s.chroma_variance;
+// What was kept of the frames: BGR, and the strength of the light in each.
+struct Frames {
+  const std::vector<std::vector<uint8_t>>& bgr;
+  std::vector<float> gains;
+};
+
+// Works pixels out one after the other.
+class PixelStatistics {
+ public:
+  PixelStatistics(const Frames& frames, BackgroundModel& model)
+      : frames_(frames), model_(model), samples_(frames.bgr.size()) {}
+
+  // Puts variances in the place of precisions, until floor_variances.
+  void fill(size_t pixel) {
+    for (size_t f = 0; f < samples_.size(); ++f)
+      samples_[f] = sample_at(frames_.bgr[f], pixel, frames_.gains[f]);
+    const Statistics s = robust_statistics(samples_, scratch_);
+    model_.luma[pixel] = s.luma;
+    model_.orange[pixel] = s.orange;
+    model_.green[pixel] = s.green;
+    model_.luma_precision[pixel] = s.luma_variance;
+    model_.chroma_precision[pixel] = s.chroma_variance;
   }
-  return model;
+
+ private:
+  const Frames& frames_;
+  BackgroundModel& model_;
+  std::vector<Sample> samples_;
+  std::vector<float> scratch_;
+};
+
+struct Pixel {
+  int x, y;
+};
+
+// Where the light is measured: a grid over the image.
+std::vector<Pixel> light_grid(int width, int height) {
+  constexpr int kGrid = 48;  // points along either side
+  std::vector<Pixel> grid;
+  for (int j = 0; j < kGrid; ++j)
+    for (int i = 0; i < kGrid; ++i)
+      grid.push_back({(2 * i + 1) * width / (2 * kGrid), (2 * j + 1) * height / (2 * kGrid)});
+  return grid;
+}
+
+size_t index_of(const BackgroundModel& model, const Pixel& pixel) {
+  return static_cast<size_t>(pixel.y) * static_cast<size_t>(model.width) +
+         static_cast<size_t>(pixel.x);
+}
+
+// The strength of the light in each frame, against what the grid's points look like throughout.
+void measure_light(int width, int height, Frames& frames) {
+  BackgroundModel model = sized(width, height);
+  PixelStatistics statistics(frames, model);
+  for (const Pixel& point : light_grid(width, height)) statistics.fill(index_of(model, point));
+  for (size_t f = 0; f < frames.bgr.size(); ++f) {
+    const cv::Mat frame(height, width, CV_8UC3, const_cast<uint8_t*>(frames.bgr[f].data()));
+    frames.gains[f] = static_cast<float>(light_gain(model, frame));
+  }
 }
 
 // Square of the largest step of a channel to the four neighbours: what a shake by a pixel changes.
@@ -267,37 +311,28 @@ void BackgroundSampler::add(const cv::Mat& frame_bgr) {
                         small.ptr<uint8_t>(y) + 3 * small.cols);
 }
 
-BackgroundModel BackgroundSampler::model() const {
+BackgroundModel BackgroundSampler::model(int threads) const {
   if (kept_.empty()) throw InputError("background: no frame to learn it from");
-  std::vector<float> gains(kept_.size(), 1);
-  BackgroundModel model = statistics_of(kept_, gains, width_, height_);
-  if (kept_.size() > 1) {
-    // Once more without the flicker of the light.
-    for (size_t f = 0; f < kept_.size(); ++f) {
-      const cv::Mat frame(height_, width_, CV_8UC3, const_cast<uint8_t*>(kept_[f].data()));
-      gains[f] = static_cast<float>(light_gain(model, frame));
-    }
-    model = statistics_of(kept_, gains, width_, height_);
-  }
+  Frames frames{kept_, std::vector<float>(kept_.size(), 1)};
+  if (kept_.size() > 1) measure_light(width_, height_, frames);
+  BackgroundModel model = sized(width_, height_);
+  const auto width = static_cast<size_t>(width_);
+  parallel_for(static_cast<size_t>(height_), threads, [&](size_t y) {
+    PixelStatistics statistics(frames, model);
+    for (size_t x = 0; x < width; ++x) statistics.fill(y * width + x);
+  });
   floor_variances(config_, model);
   return model;
 }
 
 double light_gain(const BackgroundModel& model, const cv::Mat& bgr) {
-  constexpr int kGrid = 48;  // points along either side
   // Dark pixels have no reliable ratio, bright ones saturate.
   constexpr float kDark = 30, kBright = 225;
   std::vector<float> ratios;
-  ratios.reserve(kGrid * kGrid);
-  for (int j = 0; j < kGrid; ++j) {
-    for (int i = 0; i < kGrid; ++i) {
-      const int x = (2 * i + 1) * model.width / (2 * kGrid);
-      const int y = (2 * j + 1) * model.height / (2 * kGrid);
-      const float mean = model.luma[static_cast<size_t>(y) * static_cast<size_t>(model.width) +
-                                    static_cast<size_t>(x)];
-      const float seen = luma_at(bgr, x, y);
-      if (mean > kDark && mean < kBright && seen < kBright) ratios.push_back(seen / mean);
-    }
+  for (const Pixel& point : light_grid(model.width, model.height)) {
+    const float mean = model.luma[index_of(model, point)];
+    const float seen = luma_at(bgr, point.x, point.y);
+    if (mean > kDark && mean < kBright && seen < kBright) ratios.push_back(seen / mean);
   }
   return ratios.empty() ? 1.0 : static_cast<double>(median_of(ratios));
 }

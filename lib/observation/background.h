@@ -41,8 +41,8 @@ class BackgroundSampler {
 
   int frames() const { return static_cast<int>(kept_.size()); }
 
-  // Throws InputError when no frame was added.
-  BackgroundModel model() const;
+  // The same for any number of threads. Throws InputError when no frame was added.
+  BackgroundModel model(int threads = 1) const;
 
  private:
   BackgroundConfig config_;

@@ -153,6 +153,15 @@ TEST(Background, MemoryIsBounded) {
   EXPECT_THROW(BackgroundSampler(config, 1).model(), InputError);
 }
 
+TEST(Background, ThreadsDoNotMatter) {
+  Rng rng(7, Purpose::kTest);
+  BackgroundSampler sampler({}, 1);
+  for (int i = 0; i < 12; ++i) sampler.add(scene(rng, 3, 0.8 + 0.03 * i));
+  const BackgroundModel one = sampler.model(1), many = sampler.model(8);
+  EXPECT_EQ(one.luma, many.luma);
+  EXPECT_EQ(one.chroma_precision, many.chroma_precision);
+}
+
 TEST(Background, DriftIsFollowedAndBodiesAreNot) {
   Rng rng(6, Purpose::kTest);
   BackgroundModel model = model_of({scene(rng, 0)});
