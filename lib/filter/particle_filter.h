@@ -53,11 +53,11 @@ concept StagedLikelihood = requires(const L& likelihood, const State& state) {
 };
 
 struct FilterConfig {
-  int particles = 300;
+  int particles = 200;
   double resample_below = 0.5;  // resample when ESS / particles falls below this
   double layer_ess = 0.5;  // ESS / particles that an increment of the exponent may cost down to
   int max_layers = 8;      // the last layer takes whatever exponent is left
-  int moves = 3;           // Metropolis-Hastings steps a particle and layer
+  int moves = 4;           // Metropolis-Hastings steps a particle and layer
 };
 
 template <typename State>

@@ -135,6 +135,14 @@ TrackStatus judge(const TrackRun& run, const Quality& quality, const SceneVideo&
   return trouble.empty() ? TrackStatus::kTracked : TrackStatus::kBelowGates;
 }
 
+// With every term off there would be nothing but the walker's own gait.
+void require_a_term(const ObservationConfig& observation) {
+  if (observation.background.enabled || observation.foreground.enabled || observation.flow.enabled)
+    return;
+  throw UsageError(describe({"", 0, "observation"}, "no term that is enabled",
+                            "background, foreground or flow with enabled: true"));
+}
+
 // The checkpoint to go on from, if that is wanted and there is one that fits.
 std::optional<Checkpoint> checkpoint_for(const TrackJob& job, const Origin& origin,
                                          const JobControl& control) {
@@ -176,6 +184,7 @@ bool follow_film(TrackRun& run, SceneVideo& video, const JobControl& control,
 
 TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   const auto start = Clock::now();
+  require_a_term(job.config.values.observation);
   SceneVideo video(job.scene);
   const Origin origin = origin_of(job);
   std::optional<Checkpoint> checkpoint = checkpoint_for(job, origin, control);

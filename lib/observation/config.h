@@ -34,7 +34,7 @@ struct ForegroundConfig {
 };
 
 struct FlowConfig {
-  bool enabled = true;
+  bool enabled = false;      // costs time and wins little where colours are seen (README.md)
   int step_px = 4;           // between measured points, px of the shrunk image
   double error_px = .7;      // scale of the error of a well textured point, px
   double error_share = .15;  // and of the motion itself

@@ -47,8 +47,7 @@ TEST(Plan, SharesOfTimeAreAllOfIt) {
 }
 
 TEST(Plan, WhatIsOffCostsNothingAndIsNoCost) {
-  const Plan plan = plan_with({"observation.flow.enabled=false", "body.arms=false",
-                               "observation.foreground.enabled=false"});
+  const Plan plan = plan_with({"observation.foreground.enabled=false"});
   for (const char* name : {"flow", "arms", "appearance", "slope", "occluders"}) {
     EXPECT_FALSE(item(plan, name).on) << name;
     EXPECT_EQ(item(plan, name).ms, 0) << name;
@@ -63,10 +62,10 @@ TEST(Plan, WhatIsOffCostsNothingAndIsNoCost) {
 
 // What an item is said to save is what the plan without it costs less.
 TEST(Plan, SavingsAreDifferencesOfPlans) {
-  const Plan all = plan_with({"body.arms=true"});
-  EXPECT_NEAR(item(all, "flow").ms,
-              all.cost.sum() - ms_with({"body.arms=true", "observation.flow.enabled=false"}), 1e-9);
-  EXPECT_NEAR(item(all, "arms").ms, all.cost.sum() - ms_with({"body.arms=false"}), 1e-9);
+  const Plan all = plan_with({"body.arms=true", "observation.flow.enabled=true"});
+  EXPECT_NEAR(item(all, "flow").ms, all.cost.sum() - ms_with({"body.arms=true"}), 1e-9);
+  EXPECT_NEAR(item(all, "arms").ms, all.cost.sum() - ms_with({"observation.flow.enabled=true"}),
+              1e-9);
   EXPECT_GT(item(all, "flow").ms, 0);
   EXPECT_GT(item(all, "arms").ms, 0);
   EXPECT_GT(item(all, "head").ms, 0);
@@ -112,17 +111,20 @@ TEST(Plan, CountsTheState) {
 
 TEST(Plan, AdvisesWhatASceneDoesNotNeed) {
   const std::string much =
-      advice(plan_with({"body.arms=true", "observation.person_px=300", "filter.particles=2000"}));
+      advice(plan_with({"body.arms=true", "observation.flow.enabled=true",
+                        "observation.person_px=300", "filter.particles=2000"}));
   for (const char* word : {"Flow:", "Arms:", "Scale:", "Particles:", "Cameras:"})
     EXPECT_THAT(much, HasSubstr(word));
   Scene one_camera = demo();
   one_camera.cameras.resize(1);
-  const Plan lean = plan_with({"observation.flow.enabled=false"}, one_camera);
+  const Plan lean = plan_with({}, one_camera);
   EXPECT_TRUE(lean.advice.empty()) << advice(lean);
   EXPECT_THAT(plan_text(lean), HasSubstr("Nothing in it seems more"));
   // Flow that is all there is cannot be spared.
-  const Plan flow = plan_with(
-      {"observation.background.enabled=false", "observation.foreground.enabled=false"}, one_camera);
+  const Plan flow =
+      plan_with({"observation.background.enabled=false", "observation.foreground.enabled=false",
+                 "observation.flow.enabled=true"},
+                one_camera);
   EXPECT_THAT(advice(flow), Not(HasSubstr("Flow:")));
 }
 

@@ -160,16 +160,24 @@ TEST_F(Track, ACompleteResultIsNotOverwrittenUnasked) {
 
 TEST_F(Track, TermsThatAreOffTakeNoPartNoTimeAndNoHarm) {
   for (const bool background : {true, false}) {
-    TrackJob each = job(40, background ? "no_flow" : "no_background");
-    each.config.values.observation.flow.enabled = false;
+    TrackJob each = job(40, background ? "no_flow" : "flow");
+    each.config.values.observation.flow.enabled = !background;
     each.config.values.observation.foreground.enabled = background;
     each.config.values.observation.background.enabled = background;
     EXPECT_NO_THROW(track_scene(each, {}));
-    const auto run = run_json(background ? "no_flow" : "no_background");
+    const auto run = run_json(background ? "no_flow" : "flow");
     const auto& stages = run.at("timing").at("stage_seconds");
     EXPECT_EQ(stages.contains("background"), background) << stages;
     EXPECT_EQ(stages.contains("appearance"), background) << stages;
   }
+}
+
+TEST_F(Track, WithoutAnyTermThereIsNothingToTrackBy) {
+  TrackJob blind = job(3, "blind");
+  blind.config.values.observation.background.enabled = false;
+  blind.config.values.observation.foreground.enabled = false;
+  EXPECT_THROW(track_scene(blind, {}), UsageError);
+  EXPECT_FALSE(fs::exists(blind.output));
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ TEST(Observer, MergedClassesShareAPlane) {
 
 TEST(Observer, RegionLimitsWhatIsComputed) {
   const World world;
-  const ObservationConfig config;
+  const ObservationConfig config = every_term();
   Observer whole = world.observer(config), part = world.observer(config);
   const Region region = person_region(part.camera(), {0, 0}, 1.75, 0.7);
   EXPECT_LT(region.area.width() * region.area.height(), 320 * 240 / 2);
@@ -167,7 +167,7 @@ TEST(Observer, PersonRegionHoldsTheBody) {
 
 TEST(Observer, OccludersSayNothing) {
   const World world;
-  const ObservationConfig config;
+  const ObservationConfig config = every_term();
   BackgroundSampler sampler(config.background, 1);
   sampler.add(world.empty);
   const Polygon left_half{{-1, -1}, {160, -1}, {160, 240}, {-1, 240}};
@@ -273,7 +273,7 @@ INSTANTIATE_TEST_SUITE_P(Terms, TermAlone, testing::Values(0, 1, 2), term_name);
 
 TEST(Observer, SameBitsForAnyNumberOfThreads) {
   const World world;
-  const ObservationConfig config;
+  const ObservationConfig config = every_term();
   const auto run = [&](int threads) {
     cv::setNumThreads(threads);
     Observer observer = world.observer(config);

@@ -5,6 +5,7 @@
 
 #include "observation/likelihood.h"
 #include "tests/observation/perturbed.h"
+#include "tests/observation/scenes.h"
 
 namespace walktrack {
 namespace {
@@ -56,9 +57,9 @@ class Rendered : public testing::Test {
 
 // Shares are those measured, less a margin for small changes of the models.
 TEST_F(Rendered, TruePoseBeatsPerturbedPosesForEachTermAndTogether) {
-  ObservationConfig all, foreground, background, flow;
-  foreground.background.enabled = foreground.flow.enabled = false;
-  background.foreground.enabled = background.flow.enabled = false;
+  const ObservationConfig all = every_term();
+  ObservationConfig foreground, background, flow = all;
+  foreground.background.enabled = background.foreground.enabled = false;
   flow.foreground.enabled = flow.background.enabled = false;
   const double together = true_pose_wins(folder_, all).value();
   const double by_foreground = true_pose_wins(folder_, foreground).value();

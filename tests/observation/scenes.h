@@ -10,9 +10,16 @@
 #include "camera/camera.h"
 #include "core/conventions.h"
 #include "core/rng.h"
+#include "observation/config.h"
 #include "tests/camera/made_camera.h"
 
 namespace walktrack {
+
+inline ObservationConfig every_term() {
+  ObservationConfig config;
+  config.flow.enabled = true;
+  return config;
+}
 
 inline double draw(Rng& rng, double low, double high) { return low + (high - low) * rng.uniform(); }
 

@@ -11,6 +11,7 @@
 #include "observation/likelihood.h"
 #include "tests/observation/perturbed.h"
 #include "tests/observation/rendered.h"
+#include "tests/observation/scenes.h"
 
 namespace walktrack {
 namespace {
@@ -116,9 +117,7 @@ class Temper : public testing::Test {
 // Errors that last a tenth of a second make a patch of `independent_m` one pixel. A body that is
 // not ours errs for longer, so more frames know less than the sum of what each knows.
 TEST_F(Temper, SilhouettesWeighWhatATenthOfASecondKnows) {
-  ObservationConfig silhouettes;
-  silhouettes.flow.enabled = false;
-  const std::vector<Derivatives> all = of(silhouettes);
+  const std::vector<Derivatives> all = of({});
   EXPECT_GT(factor(all, 1), 2);
   EXPECT_GT(factor(all, 3), 0.9);
   EXPECT_LT(factor(all, 3), 2.5);
@@ -126,7 +125,7 @@ TEST_F(Temper, SilhouettesWeighWhatATenthOfASecondKnows) {
 }
 
 TEST_F(Temper, FlowKnowsMoreThanItWeighs) {
-  ObservationConfig flow;
+  ObservationConfig flow = every_term();
   flow.foreground.enabled = flow.background.enabled = false;
   const std::vector<Derivatives> all = of(flow);
   EXPECT_GT(factor(all, 10), 3);

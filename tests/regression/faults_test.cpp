@@ -108,7 +108,7 @@ Results with(const std::string& name, const std::function<void(TrackJob&)>& chan
 
 TEST(PlantedFaults, ADroppedFlowTermTakesAFigureOutOfItsBand) {
   const auto drop = [](TrackJob& job) {
-    apply_setting(job.config, "observation.flow.enabled=false", "--set");
+    apply_setting(job.config, "observation.flow.weight=0", "--set");
   };
   EXPECT_THAT(noticed("flow_only", with("flow_only", drop)), Not(IsEmpty()));
 }
