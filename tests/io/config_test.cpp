@@ -101,18 +101,18 @@ TEST(Config, WritesThroughGroupsToTheMembers) {
   apply_config_file(config, folder.write("c.yaml",
                                          "observation:\n"
                                          "  clip: 2.5\n"
-                                         "  flow: {enabled: false, step_px: 8}\n"
+                                         "  flow: {enabled: true, step_px: 8}\n"
                                          "  foreground:\n    classes: [0, 1, 1, 2, 0]\n"));
   const ObservationConfig& observation = config.values.observation;
   EXPECT_EQ(observation.clip, 2.5);
-  EXPECT_FALSE(observation.flow.enabled);
+  EXPECT_TRUE(observation.flow.enabled);
   EXPECT_EQ(observation.flow.step_px, 8);
   EXPECT_EQ(observation.foreground.classes, (std::array{0, 1, 1, 2, 0}));
   EXPECT_EQ(config.origin.at("observation.flow.step_px"), "c.yaml:3");
   EXPECT_EQ(config_as_yaml(config, ConfigScope::kChanged, false),
             "observation:  # how images become likelihoods\n  clip: 2.5\n"
             "  foreground:  # how the walker looks\n    classes: [0, 1, 1, 2, 0]\n"
-            "  flow:  # optical flow\n    enabled: false\n    step_px: 8\n");
+            "  flow:  # optical flow\n    enabled: true\n    step_px: 8\n");
 }
 
 TEST(ConfigFile, NamesKeysInsideGroups) {

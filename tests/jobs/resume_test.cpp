@@ -123,10 +123,13 @@ TEST_F(Resume, WithoutABackground) {
   expect_same_after_kill(15);
 }
 
-TEST_F(Resume, WithoutFlowAndColours) {
-  change_ = [](Config& config) {
-    config.observation.flow.enabled = config.observation.foreground.enabled = false;
-  };
+TEST_F(Resume, WithFlow) {
+  change_ = [](Config& config) { config.observation.flow.enabled = true; };
+  expect_same_after_kill(15);
+}
+
+TEST_F(Resume, WithoutColours) {
+  change_ = [](Config& config) { config.observation.foreground.enabled = false; };
   expect_same_after_kill(15);
 }
 
