@@ -53,15 +53,20 @@ StraightControls in_units(const StraightGaitVector& gait, const WalkerUnits& uni
 
 StraightLeggedParameters adult_straight_walker(double height, double mass, double slope) {
   const double leg = walker_units(adult_walker(height, mass)).length;
-  StraightLeggedParameters p;
-  p.gravity = kStandardGravity;
+  StraightLeggedParameters p = straight_walker({leg, mass, kStandardGravity});
   p.slope = slope;
-  p.hip_mass *= mass;
-  p.leg_mass *= mass;
-  p.leg_inertia *= mass * leg * leg;
-  p.hip_to_arc *= leg;
-  p.com_below_hip *= leg;
-  p.foot_radius *= leg;
+  return p;
+}
+
+StraightLeggedParameters straight_walker(const WalkerUnits& units) {
+  StraightLeggedParameters p;
+  p.gravity = units.gravity;
+  p.hip_mass *= units.mass;
+  p.leg_mass *= units.mass;
+  p.leg_inertia *= units.mass * units.length * units.length;
+  p.hip_to_arc *= units.length;
+  p.com_below_hip *= units.length;
+  p.foot_radius *= units.length;
   return p;
 }
 

@@ -37,6 +37,8 @@ StraightPrior load_straight_prior();
 // Kuo's proportions with the leg of an average adult of a stature (m) and the mass (kg), on a slope
 // (rad, positive downhill).
 StraightLeggedParameters adult_straight_walker(double height, double mass, double slope = 0);
+// Kuo's proportions with these units, on level ground.
+StraightLeggedParameters straight_walker(const WalkerUnits& units);
 
 // L is the standing hip height.
 WalkerUnits walker_units(const StraightLeggedParameters& parameters);

@@ -76,6 +76,12 @@ void add_motion(ParameterTable& table) {
   using M = MotionConfig;
   ParameterGroup<M> m(table, "motion", "how the walker moves", &Config::tracker,
                       &TrackerConfig::motion);
+  m.choice("model", &M::model,
+           {{"kneed", MotionKind::kKneed},
+            {"anthropomorphic", MotionKind::kAnthropomorphic},
+            {"markov", MotionKind::kMarkov}},
+           "what moves particles: the kneed walker, one of straight legs, or none");
+  m.number("unrest", &M::unrest, 0, 100, "multiplies the noise of model markov");
   m.number("torso_torque", &M::torso_torque, 0, 10, "torque noise, M g L per sqrt(s)");
   m.number("hip_torque", &M::hip_torque, 0, 10, "torque noise, M g L per sqrt(s)");
   m.number("stance_knee_torque", &M::stance_knee_torque, 0, 10, "torque noise, M g L per sqrt(s)");

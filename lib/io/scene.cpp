@@ -202,6 +202,16 @@ Polygon read_polygon(const YamlValue& value) {
   return polygon;
 }
 
+// A polygon, or one with the times between which it is there.
+Occluder read_occluder(const YamlValue& value) {
+  if (!value.is_map()) return {.outline = read_polygon(value)};
+  value.only_keys({"polygon", "from", "to"});
+  Occluder occluder{.outline = read_polygon(value.at("polygon"))};
+  if (value.has("from")) occluder.from = value.at("from").number(-1e6, 1e6);
+  if (value.has("to")) occluder.to = value.at("to").number(std::max(-1e6, occluder.from), 1e6);
+  return occluder;
+}
+
 void read_occluders(const YamlValue& root, std::vector<SceneCamera>& cameras) {
   if (!root.has("occluders")) return;
   const YamlValue occluders = root.at("occluders");
@@ -210,8 +220,8 @@ void read_occluders(const YamlValue& root, std::vector<SceneCamera>& cameras) {
   occluders.only_keys(names);
   for (SceneCamera& camera : cameras) {
     if (!occluders.has(camera.name)) continue;
-    for (const YamlValue& polygon : occluders.at(camera.name).items()) {
-      camera.occluders.push_back(read_polygon(polygon));
+    for (const YamlValue& occluder : occluders.at(camera.name).items()) {
+      camera.occluders.push_back(read_occluder(occluder));
     }
   }
 }
@@ -246,6 +256,13 @@ Scene read_scene(const fs::path& path) {
   if (root.has("truth")) scene.truth = existing_path(root.at("truth"), folder);
   read_range(root, scene);
   return scene;
+}
+
+std::vector<Polygon> occluders_at(const SceneCamera& camera, double time) {
+  std::vector<Polygon> out;
+  for (const Occluder& occluder : camera.occluders)
+    if (time >= occluder.from && time <= occluder.to) out.push_back(occluder.outline);
+  return out;
 }
 
 bool is_frame_pattern(const fs::path& path) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,13 @@ namespace walktrack {
 
 using Polygon = std::vector<Eigen::Vector2d>;  // corners, px
 
+// Something in front of the walker, always or for a while: a van that stops, a door that opens.
+struct Occluder {
+  Polygon outline;
+  double from = -std::numeric_limits<double>::infinity();  // s after first_frame
+  double to = std::numeric_limits<double>::infinity();     // s, the last moment
+};
+
 struct SceneCamera {
   std::string name;                   // unique; fit for a file name
   std::filesystem::path video;        // file, folder of frames or printf pattern
@@ -28,7 +36,7 @@ struct SceneCamera {
   Camera camera;                      // in the world
   int start_frame = 0;                // frame numbers count from here
   std::optional<double> frame_rate;   // Hz, where it differs from the scene's
-  std::vector<Polygon> occluders;     // static things in front of the walker
+  std::vector<Occluder> occluders;
 };
 
 // Where the walker is to begin with, as far as is known.
@@ -52,6 +60,9 @@ struct Scene {
   int first_frame = 0;            // time 0
   std::optional<int> last_frame;  // inclusive; otherwise the end of the shortest video
 };
+
+// Those that are there at a time, s after first_frame.
+std::vector<Polygon> occluders_at(const SceneCamera& camera, double time);
 
 Scene read_scene(const std::filesystem::path& path);
 

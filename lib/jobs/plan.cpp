@@ -99,6 +99,21 @@ class Items {
   std::vector<PlanItem> items_;
 };
 
+void add_walker(const Config& config, Items& items) {
+  const auto item = [&](const char* name, const char* what) {
+    items.fact(name, true, what, items.origin("motion.model"));
+  };
+  switch (config.tracker.motion.model) {
+    case MotionKind::kKneed:
+      return item("walker",
+                  "a kneed walker simulated from frame to frame, with noise on its torques");
+    case MotionKind::kAnthropomorphic:
+      return item("walker", "a walker of two straight legs; knees and trunk by habit");
+    case MotionKind::kMarkov:
+      return item("motion", "every coordinate by habit: no walker, no ground");
+  }
+}
+
 double slope_deg(const Scene& scene) {
   return deg_from_rad(std::atan2(scene.gravity.head<2>().norm(), -scene.gravity.z()));
 }
@@ -107,9 +122,7 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
   const Config& values = config.values;
   const ObservationConfig& images = values.observation;
   Items items(scene, config);
-  items.fact("walker", true,
-             "a kneed walker simulated from frame to frame, with noise on its torques",
-             "always: it is the motion model");
+  add_walker(values, items);
   items.fact("legs, trunk", true, "9 angles of legs and feet, list and heading of the pelvis",
              "always: the walker's body");
   items.flag("head", "body.head", values.body.head, "head and neck");

@@ -1,6 +1,7 @@
 #include "jobs/track_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -27,6 +28,13 @@ TrackSetup timed_set_up(const TrackJob& job, double frame_rate,
   TrackSetup setup = set_up(job.scene, job.config.values, frame_rate, learned, control);
   if (job.config.values.observation.background.enabled) watch.add("background", start);
   return setup;
+}
+
+// Whether anything stands in front of the walker for a while only.
+bool comes_or_goes(const SceneCamera& camera) {
+  return std::any_of(camera.occluders.begin(), camera.occluders.end(), [](const Occluder& each) {
+    return std::isfinite(each.from) || std::isfinite(each.to);
+  });
 }
 
 void grow(Stopwatch::Stages& stages, std::string_view stage, double seconds) {
@@ -126,7 +134,10 @@ Region TrackRun::region(size_t camera) const {
 
 void TrackRun::observe(const SceneFrames& images) {
   const Moment start;
+  const double time = static_cast<double>(frames_read_) / frames_.frame_rate;
   for (size_t c = 0; c < setup_.observers.size(); ++c) {
+    const SceneCamera& camera = job_.scene.cameras[c];
+    if (comes_or_goes(camera)) setup_.observers[c].hide(occluders_at(camera, time));
     if (!images.fresh[c]) {
       evidence_[c] = CameraEvidence{};  // a repeated frame says nothing new
       setup_.observers[c].forget_previous_frame();

@@ -67,7 +67,7 @@ Observer make_observer(const Scene& scene, const SceneCamera& camera, const Conf
   input.camera = camera.camera;
   input.shrink = working_scale(scene, camera.camera, config).shrink;
   input.appearances = appearances_of(body);
-  input.occluders = camera.occluders;
+  input.occluders = occluders_at(camera, 0);
   if (learned) {
     input.background = learned->background;
   } else if (observation.background.enabled) {

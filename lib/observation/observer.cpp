@@ -148,6 +148,11 @@ Observer::~Observer() = default;
 
 const Camera& Observer::camera() const { return state_->camera; }
 
+void Observer::hide(const std::vector<Polygon>& occluders) {
+  state_->occluded = !occluders.empty();
+  state_->mask = occluder_mask(state_->camera, occluders, state_->shrink);
+}
+
 void Observer::forget_previous_frame() { state_->grey_before.release(); }
 
 bool Observer::knows_walker() const { return state_->appearance.any_learned(); }

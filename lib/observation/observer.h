@@ -40,7 +40,7 @@ struct CameraEvidence {
   double pixel_weight = 1;  // independent pixels in a pixel: the temper of all sums over pixels
 };
 
-// A static thing in front of the walker: pixels of the calibrated (unshrunk) image.
+// A thing in front of the walker: pixels of the calibrated (unshrunk) image.
 using Polygon = std::vector<Eigen::Vector2d>;
 
 struct ObserverInput {
@@ -77,6 +77,9 @@ class Observer {
   // The evidence of the next frame (8-bit BGR, of the size of the calibrated camera). Flow is
   // measured against the frame of the last call. `out` keeps its memory from frame to frame.
   void observe(const cv::Mat& frame_bgr, const Region& region, CameraEvidence& out);
+
+  // From the next frame on, these stand in front of the walker instead of ObserverInput::occluders.
+  void hide(const std::vector<Polygon>& occluders);
 
   // Frames were dropped: the next one has no flow.
   void forget_previous_frame();

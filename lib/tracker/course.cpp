@@ -83,7 +83,7 @@ void change_course(const MotionContext& context, const CourseSpread& spread, dou
     particle.predicted_extra[kAngles[k]] += change;
     particle.extra_before[kAngles[k]] += change;
   }
-  realise(context.model, context.scale, particle);
+  context.moves.realise(context, particle);
   const Vector2d shift = wanted.head<2>() - particle.pose.root.head<2>();
   particle.predicted_ball += shift;
   particle.ball += shift;

@@ -1,24 +1,27 @@
-// How a particle gets from one frame to the next: the kneed walker under its springs, new controls
-// at every support transfer, and Markov processes for what the walker does not drive.
+// How a particle gets from one frame to the next: a walker goes on (tracker/motion_model.h), and
+// what it does not drive follows damped second-order Markov processes.
 //
 //   k_t = k_(t-1) + a (k_(t-1) - k_(t-2)) + b (k0 - k_(t-1)) + noise,
-//   r = exp(-dt / time), a = r^2, b = (1 - r)^2: critically damped,
-//   noise ~ N(0, s^2 (1 - r^2)^3 / (1 + r^2)): s is the process's own standard deviation
-// so that the process does not depend on the frame rate; truncated at anatomical limits. The
-// heading has no rest: b = 0, and its rate has the standard deviation s.
+//   r = exp(-dt / time), w = 2 pi dt / period, a = r^2, b = 1 + r^2 - 2 r cos w,
+//   noise ~ N(0, s^2 (1 - r^2) ((1 - r^2)^2 + 4 r^2 sin^2 w) / (1 + r^2)):
+//   s is the process's own standard deviation
+// so that the process does not depend on the frame rate; truncated at anatomical limits. Without a
+// period w = 0: critically damped. The heading has no rest: b = 0, and its rate has the standard
+// deviation s.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "gait/gait_prior.h"
-#include "tracker/particle.h"
+#include "tracker/motion_model.h"
 #include "tracker/step_book.h"
-#include "walker/kneed_advance.h"
 
 namespace walktrack {
 
 // For an adult of kAdultHeight.
 struct MotionConfig {
+  MotionKind model = MotionKind::kKneed;
   // Torque noise as shares of M g L per sqrt(s), L the leg's length: torso, hip, knees and, for the
   // ground under the stance foot, ankle.
   double torso_torque = 0.010;
@@ -39,6 +42,7 @@ struct MotionConfig {
   double aim_drift = 0.06;      // relative, per step, of the speed and the step length aimed at
   double rephasing = 30;        // 1/s: how often a particle reads its pose anew (tracker/rephase.h)
   double torque_noise_scale = 0.15;  // multiplies all five torques
+  double unrest = 1.5;  // multiplies the noise of model kMarkov; tuned on the demo, 1 = as fitted
 };
 
 // The same for somebody larger or smaller, who walks to scale: lengths grow in proportion to the
@@ -46,27 +50,27 @@ struct MotionConfig {
 inline constexpr double kAdultHeight = 1.75;  // m
 MotionConfig to_scale(const MotionConfig& config, double height);
 
-// Constants of the Markov process of one extra coordinate.
-struct MarkovConstants {
-  double rest, time, spread;  // rad, s, rad (the heading: rad/s)
-  double lowest, highest;     // rad
+// The process of one extra coordinate from frame to frame.
+struct MarkovStep {
+  double momentum = 0, pull = 0;             // a, b
+  double rest = 0, lowest = 0, highest = 0;  // rad
 };
-MarkovConstants markov_constants(Extra extra);
+using MarkovSteps = std::array<MarkovStep, kExtraCount>;
+MarkovSteps markov_steps(const MotionModel& moves, const MotionConfig& config, double dt);
 
-NoiseScale noise_scale(const MotionConfig& config, const BodyModel& model, double dt);
+NoiseScale noise_scale(const MotionModel& moves, const MotionConfig& config, const BodyModel& model,
+                       double dt);
 
 struct MotionContext {
   const BodyModel& model;
   const GaitPrior& prior;
   const StepBook& steps;
+  const MotionModel& moves;
   MotionConfig config;
   NoiseScale scale;
+  MarkovSteps markov;
   double dt;  // s
 };
-
-// Who falls, or whose state grows beyond bounds, is caught (goes on as the prior's gait); dead is
-// only who has no state left to go on from.
-enum class Outcome { kAlive, kFallen, kDiverged, kDead };
 
 // The first frame of a particle: nothing moves, but its noise is drawn.
 Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng);

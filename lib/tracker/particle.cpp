@@ -57,7 +57,12 @@ KneedState shown_state(const KneedState& walker, Side stance, const StepAim& aim
 
 Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance, const StepAim& aim,
              const Eigen::Vector2d& ball, const Extras& extra) {
-  const KneedState shown = shown_state(walker, stance, aim, extra);
+  return pose_showing(model, shown_state(walker, stance, aim, extra), walker.q[kStanceShank],
+                      stance, ball, extra);
+}
+
+Pose pose_showing(const BodyModel& model, const KneedState& shown, double shank, Side stance,
+                  const Eigen::Vector2d& ball, const Extras& extra) {
   Pose pose;
   pose.heading = extra[kHeading];
   pose.list = extra[kList];
@@ -66,12 +71,12 @@ Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance, cons
   set_leg(shown, false, extra, other(stance), pose);
   for (size_t i = 0; model.body.groups.arms && i < 2; ++i)
     pose.arms[i] = {extra[kShoulder + i], extra[kShoulderAbduction + i], extra[kElbow + i]};
-  stand_on(model.body, stance, Eigen::Vector3d(ball.x(), ball.y(), 0),
-           rolled_ankle(model, walker.q[kStanceShank]), pose);
+  stand_on(model.body, stance, Eigen::Vector3d(ball.x(), ball.y(), 0), rolled_ankle(model, shank),
+           pose);
   return pose;
 }
 
-void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle) {
+void realise_walker(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle) {
   const auto& z = particle.noise;
   Vector5 impulse;
   for (int k = 0; k < 5; ++k) impulse[k] = scale.impulse[size_t(k)] * z[size_t(kTorqueNoise + k)];
@@ -94,8 +99,12 @@ void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& pa
   particle.ball =
       particle.predicted_ball + particle.ball_sigma.x() * z[kBallNoise] * ahead +
       particle.ball_sigma.y() * z[kBallNoise + 1] * Eigen::Vector2d(-ahead.y(), ahead.x());
+}
+
+void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle) {
+  realise_walker(model, scale, particle);
   particle.pose =
-      pose_of(model, walker, particle.stance, particle.aim, particle.ball, particle.extra);
+      pose_of(model, particle.walker, particle.stance, particle.aim, particle.ball, particle.extra);
 }
 
 Eigen::Vector2d rolled_ankle(const BodyModel& model, double shank) {

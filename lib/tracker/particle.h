@@ -104,8 +104,10 @@ struct BodyModel {
   Eigen::Vector2d downhill = Eigen::Vector2d::Zero();  // horizontal gravity, m/s^2; 0 on the level
 };
 
-// Sets the realised part (walker, ball, extra, pose) from the predicted part and the noise.
+// Sets the realised part (walker, ball, extra, pose) from the predicted part and the noise: of a
+// kneed walker, and of any walker but for the pose.
 void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle);
+void realise_walker(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle);
 
 // The walker's state as the person shows it: with a person's legs (tracker/stride.h), strayed by
 // the extras.
@@ -115,6 +117,11 @@ KneedState shown_state(const KneedState& walker, Side stance, const StepAim& aim
 // The pose of a walker whose standing foot has its ball at `ball`.
 Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance, const StepAim& aim,
              const Eigen::Vector2d& ball, const Extras& extra);
+
+// The same of a walker whose state as the person shows it is `shown` and whose own standing shank
+// leans by `shank`, rad.
+Pose pose_showing(const BodyModel& model, const KneedState& shown, double shank, Side stance,
+                  const Eigen::Vector2d& ball, const Extras& extra);
 
 // The standing ankle relative to its ball's place, (forward, up), m, when the walker's round foot
 // has rolled to where its shank leans by `shank`, rad. The foot is flat at 0, its ball

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tracker/kneed_motion.h"
+
 namespace walktrack {
 
 namespace {

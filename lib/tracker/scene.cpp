@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "body/kinematics.h"
-#include "tracker/motion.h"
+#include "tracker/kneed_motion.h"
 
 namespace walktrack {
 
@@ -31,16 +31,9 @@ std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior
   const double unit_speed = std::sqrt(model.walker.parameters.gravity * leg);
   const PriorGait gait = gait_at(prior, model.walker.parameters, speed,
                                  leg * preferred_step_length(speed / unit_speed));
-  Extras extra{};
-  for (int k = 0; k < extra_count(model.body); ++k)
-    extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).rest;
   std::vector<Pose> figures;
-  for (int k = 0; k < kFigures; ++k) {
-    const KneedState state = state_at_phase(model.walker, gait, double(k) / kFigures);
-    figures.push_back(pose_of(model, state, Side::kLeft, {gait.speed, gait.step_length},
-                              Eigen::Vector2d::Zero(), extra));
-    figures.back().root.head<2>().setZero();
-  }
+  for (int k = 0; k < kFigures; ++k)
+    figures.push_back(pose_in_gait(model, gait, Side::kLeft, double(k) / kFigures));
   return figures;
 }
 

@@ -2,42 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "core/conventions.h"
-#include "walker/kneed_batch.h"
+#include "tracker/kneed_motion.h"
 
 namespace walktrack {
 
 namespace {
-
-// The aimed gait's first moment and its controls. Returns when in the step its `phase` is, s.
-double enter_gait(const MotionContext& context, double phase, WalkerParticle& particle) {
-  const PriorGait gait = gait_at(context.prior, context.model.walker.parameters, particle.aim.speed,
-                                 particle.aim.step_length);
-  particle.aim = {gait.speed, gait.step_length};
-  particle.controls = gait.controls;
-  particle.walker = gait.start;
-  return phase * gait.period;
-}
-
-// Every walker on to its own moment, all in one batch: a step is as long as many frames.
-void walk_to(const KneedModel& model, std::span<const double> times,
-             std::span<WalkerParticle> particles) {
-  std::vector<KneedState> states;
-  std::vector<KneedControls> controls;
-  for (const WalkerParticle& p : particles) {
-    states.push_back(p.walker);
-    controls.push_back(p.controls);
-  }
-  const std::vector<Vector5> noise(states.size(), Vector5::Zero());
-  std::vector<KneedAdvance> done(states.size());
-  kneed_advance_batch(model, controls, noise, times, states, done);
-  for (size_t i = 0; i < states.size(); ++i) {
-    particles[i].walker = particles[i].predicted = states[i];
-    particles[i].velocity_per_impulse.setZero();
-  }
-}
 
 // Steps about as long as people's at that speed, m/s.
 StepAim draw_aim(const MotionContext& context, const StartConfig& config, double speed, Rng& rng) {
@@ -51,9 +22,9 @@ StepAim draw_aim(const MotionContext& context, const StartConfig& config, double
 void place(const MotionContext& context, const Eigen::Vector2d& position, WalkerParticle& p) {
   p.predicted_ball.setZero();
   p.predicted_extra = p.extra;
-  realise(context.model, context.scale, p);
+  context.moves.realise(context, p);
   p.predicted_ball = position - p.pose.root.head<2>();
-  realise(context.model, context.scale, p);
+  context.moves.realise(context, p);
   p.pose_before = p.pose;
 }
 
@@ -80,7 +51,7 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
                                   uint64_t seed) {
   std::vector<WalkerParticle> out(static_cast<size_t>(config.particles));
   std::vector<Eigen::Vector2d> positions(out.size());
-  std::vector<double> times(out.size());
+  std::vector<double> phases(out.size());
   for (size_t i = 0; i < out.size(); ++i) {
     Rng rng(seed, Purpose::kInitialisation, 0, static_cast<uint32_t>(i));
     WalkerParticle& p = out[i];
@@ -91,13 +62,12 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
     p.aim = draw_aim(context, config, velocity.norm(), rng);
     p.stance = range.stance;
     for (int k = 0; k < extra_count(context.model.body); ++k)
-      p.extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).rest;
+      p.extra[static_cast<size_t>(k)] = context.markov[static_cast<size_t>(k)].rest;
     p.extra[kHeading] = std::atan2(velocity.y(), velocity.x());
     p.extra_before = p.extra;
-    const double phase = range.from + (range.to - range.from) * rng.uniform();
-    times[i] = enter_gait(context, phase, p);
+    phases[i] = range.from + (range.to - range.from) * rng.uniform();
   }
-  walk_to(context.model.walker, times, out);
+  context.moves.enter(context, phases, out);
   for (size_t i = 0; i < out.size(); ++i) place(context, positions[i], out[i]);
   return out;
 }

@@ -37,7 +37,9 @@ Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig
       config_(to_scale(config, scene_.model.body.subject.height)),
       seed_(seed),
       threads_(threads),
-      frame_scale_(noise_scale(config_.motion, scene_.model, scene_.dt)),
+      moves_(make_motion_model(config_.motion.model, scene_.model)),
+      frame_scale_(noise_scale(*moves_, config_.motion, scene_.model, scene_.dt)),
+      markov_(markov_steps(*moves_, config_.motion, scene_.dt)),
       figures_(scene_.model, prior),
       steps_(scene_.model.walker, prior),
       filter_(config.filter, seed, threads) {}
@@ -172,7 +174,7 @@ bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
 WalkerFilterContext Tracker::context(bool first) const {
   const NoiseScale scale = first ? start_scale(config_.start, frame_scale_) : frame_scale_;
   return {scene_,
-          {scene_.model, prior_, steps_, config_.motion, scale, scene_.dt},
+          {scene_.model, prior_, steps_, *moves_, config_.motion, scale, markov_, scene_.dt},
           config_.samples,
           threads_,
           config_.model_error};

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -97,7 +98,9 @@ class Tracker {
   TrackerConfig config_;
   uint64_t seed_;
   int threads_;
+  std::unique_ptr<const MotionModel> moves_;
   NoiseScale frame_scale_;
+  MarkovSteps markov_;
 
   Mode mode_ = Mode::kSearching;
   uint32_t frame_ = 0;  // of the next evidence to be worked on

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "body/kinematics.h"
+#include "tracker/support.h"
 #include "walker/kneed_batch.h"
 
 namespace walktrack {
@@ -15,15 +15,12 @@ namespace {
 // pushed to where its legs can hide from the images, and will not come up again.
 constexpr KneedLimits kWalks{.min_hip_height = 0.8};
 
-size_t index(Side side) { return static_cast<size_t>(side); }
-
-// The new step aims a little differently from the last; its controls start from the gait of that
-// aim, corrected for the state that the strike has left.
+// The new step's controls start from the gait of its aim, corrected for the state that the strike
+// has left.
 void choose_controls(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   const MotionConfig& config = context.config;
   StepAim& aim = particle.aim;
-  aim.speed *= std::exp(config.aim_drift * rng.truncated_normal(3));
-  aim.step_length *= std::exp(config.aim_drift * rng.truncated_normal(3));
+  vary_aim(config, aim, rng);
   const PriorGait gait =
       gait_at(context.prior, context.model.walker.parameters, aim.speed, aim.step_length);
   aim = {gait.speed, gait.step_length};  // within the table
@@ -34,24 +31,9 @@ void choose_controls(const MotionContext& context, WalkerParticle& particle, Rng
 
 // The swing foot has come down: it carries the body from here, and a new step begins.
 void change_support(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  const Side landed = other(particle.stance);
-  // The transfer has exchanged the names of the legs already: pose them by their new roles on the
-  // old place, which is where the leg that now swings still stands.
-  particle.stance = landed;
-  Pose pose = particle.pose;
-  const KneedState shown = shown_state(particle.walker, landed, particle.aim, particle.extra);
-  pose.tilt = shown.q[kTorso];
-  const auto set = [&](Side side, int thigh, int shank) {
-    LegPose& leg = pose.legs[index(side)];
-    leg.hip_flexion = pose.tilt - shown.q[thigh];
-    leg.knee_flexion = shown.q[shank] - shown.q[thigh];
-  };
-  set(landed, kStanceThigh, kStanceShank);
-  set(other(landed), kSwingThigh, kSwingShank);
-  stand_on(context.model.body, other(landed),
-           Eigen::Vector3d(particle.ball.x(), particle.ball.y(), 0),
-           rolled_ankle(context.model, particle.walker.q[kSwingShank]), pose);
-  particle.ball = landing_ball(context.model, pose, landed, particle.walker.q[kStanceShank]);
+  change_feet(context.model,
+              shown_state(particle.walker, other(particle.stance), particle.aim, particle.extra),
+              particle);
   choose_controls(context, particle, rng);
 }
 

@@ -85,6 +85,7 @@ ParticleScene particle_scene(size_t count) {
   ParticleScene scene{.model = model,
                       .prior = prior,
                       .steps = StepBook(model.walker, prior),
+                      .moves = make_motion_model(MotionKind::kKneed, model),
                       .config = {},
                       .particles = {}};
   StartConfig start;

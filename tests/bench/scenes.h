@@ -41,12 +41,20 @@ struct ParticleScene {
   BodyModel model;
   GaitPrior prior;
   StepBook steps;
+  std::unique_ptr<const MotionModel> moves;
   MotionConfig config;
   double dt = 1.0 / 30;  // s
   std::vector<WalkerParticle> particles;
 
   MotionContext context() const {
-    return {model, prior, steps, config, noise_scale(config, model, dt), dt};
+    return {model,
+            prior,
+            steps,
+            *moves,
+            config,
+            noise_scale(*moves, config, model, dt),
+            markov_steps(*moves, config, dt),
+            dt};
   }
 };
 ParticleScene particle_scene(size_t count);

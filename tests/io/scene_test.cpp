@@ -65,7 +65,7 @@ TEST_F(SceneFile, ReadsEveryKey) {
   EXPECT_EQ(camera.video, folder_.path() / "frames_%03d.png");
   EXPECT_EQ(camera.start_frame, 3);
   EXPECT_EQ(camera.frame_rate, 25);
-  EXPECT_EQ(camera.occluders.at(0).at(1), Vector2d(10, 0));
+  EXPECT_EQ(camera.occluders.at(0).outline.at(1), Vector2d(10, 0));
   EXPECT_NEAR(camera_centre(camera.camera).z(), 1 - 0.1, 1e-12);  // n.x = d has n of length 2
   EXPECT_EQ(scene.frame_rate, 50);
   EXPECT_EQ(scene.gravity, Vector3d(0.5, 0, -9.8));
@@ -81,6 +81,23 @@ TEST_F(SceneFile, ReadsEveryKey) {
   EXPECT_EQ(scene.truth, folder_.path() / "truth.csv");
   EXPECT_EQ(scene.first_frame, 5);
   EXPECT_EQ(scene.last_frame, 9);
+}
+
+TEST_F(SceneFile, OccludersMayComeAndGo) {
+  const Scene scene = read(kCamera +
+                           "occluders:\n  a:\n    - [[0, 0], [1, 0], [1, 1]]\n"
+                           "    - {polygon: [[5, 0], [6, 0], [6, 1]], from: 1, to: 1.5}\n"
+                           "    - {polygon: [[7, 0], [8, 0], [8, 1]], to: 1}\n");
+  const auto first_corners = [&](double time) {
+    std::vector<double> out;
+    for (const Polygon& polygon : occluders_at(scene.cameras[0], time))
+      out.push_back(polygon[0].x());
+    return out;
+  };
+  EXPECT_THAT(first_corners(0), testing::ElementsAre(0, 7));
+  EXPECT_THAT(first_corners(1), testing::ElementsAre(0, 5, 7));
+  EXPECT_THAT(first_corners(1.5), testing::ElementsAre(0, 5));
+  EXPECT_THAT(first_corners(1.51), testing::ElementsAre(0));
 }
 
 TEST_F(SceneFile, TurnsCalibrationAxesIntoTheWorld) {
@@ -126,6 +143,9 @@ TEST_F(SceneFile, NamesPlaceFoundAndAllowed) {
        "initial.position: found 2 numbers, allowed: [x, y, z], for z is not up"},
       {kCamera + "occluders: {b: []}\n", "occluders.b: found an unknown key"},
       {kCamera + "occluders: {a: [[[0, 0], [1, 1]]]}\n", "occluders.a[0]: found 2 corners"},
+      {kCamera + "occluders: {a: [{from: 1}]}\n", "occluders.a[0].polygon: found nothing"},
+      {kCamera + "occluders: {a: [{polygon: [[0, 0], [9, 0], [9, 9]], from: 2, to: 1}]}\n",
+       "occluders.a[0].to: found '1', allowed: a number from 2"},
       {kCamera + "truth: none.csv\n", "truth: found 'none.csv', allowed: a file that exists"},
       {replaced(kCamera, "a.mp4", "b.mp4"), ":2: cameras[0].video: found 'b.mp4'"},
       {replaced(kCamera, "name: a", "name: a/b"), "cameras[0].name: found 'a/b'"},

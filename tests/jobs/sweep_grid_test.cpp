@@ -30,6 +30,7 @@ TEST(SweepKnobs, AreReadFromWords) {
   EXPECT_EQ(knobs[0].name, "particles");
   EXPECT_THAT(knobs[0].values, ElementsAre("50", "100"));
   EXPECT_EQ(knobs[2].name, "motion.misfit");
+  EXPECT_THAT(knobs_of({"model=markov:kneed"})[0].values, ElementsAre("markov", "kneed"));
   EXPECT_TRUE(knobs_of({}).empty());
 }
 
@@ -47,6 +48,7 @@ TEST(SweepKnobs, MistakesAreNamed) {
       {{"particels=3"}, "found an unknown knob, did you mean 'particles'?"},
       {{"step=3"}, "--over: step: found an unknown knob"},
       {{"filter.particle=3"}, "did you mean 'filter.particles'?"},
+      {{"model=legs"}, "motion.model: found 'legs', allowed: kneed, anthropomorphic, markov"},
       {{"particles=0"}, "filter.particles: found '0', allowed: a whole number from 1"},
       {{"particles=10::20"}, "filter.particles: found ''"},
       {{"particles=10:10"}, "particles: found '10', allowed: every value once"},

@@ -182,6 +182,23 @@ TEST(Observer, OccludersSayNothing) {
   EXPECT_EQ(evidence.flow.at(150, 120)->lxx, 0);
 }
 
+TEST(Observer, WhatStandsInFrontMayComeAndGo) {
+  const World world;
+  Observer observer = world.observer({});
+  const auto ratio = [&] {
+    CameraEvidence evidence;
+    observer.observe(world.frame(world.pose(0)), whole_image(observer.camera(), 0.01), evidence);
+    return log_ratio_at(evidence.planes, Appearance::kTrunk, 165, 120);
+  };
+  const auto seen = ratio();
+  EXPECT_NE(seen, 0);
+  observer.hide({{{-1, -1}, {320, -1}, {320, 240}, {-1, 240}}});
+  EXPECT_EQ(ratio(), 0);
+  observer.hide({});
+  // Light and drift are followed meanwhile: the same picture again, to some per cent.
+  EXPECT_NEAR(ratio(), seen, 0.1 * std::abs(seen));
+}
+
 TEST(Observer, RefusesFramesAndModelsOfAnotherSize) {
   const World world;
   const ObservationConfig config;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/conventions.h"
+#include "tracker/kneed_motion.h"
 #include "tracker/motion.h"
 #include "tracker/planar_body.h"
 #include "tracker/scene.h"
@@ -18,11 +19,20 @@ inline BodyModel test_model() {
 
 // What a context refers to, kept together.
 struct Walking {
+  explicit Walking(MotionKind kind = MotionKind::kKneed) : moves(make_motion_model(kind, model)) {}
   BodyModel model = test_model();
   GaitPrior prior = load_gait_prior();
   StepBook steps{model.walker, prior};
+  std::unique_ptr<const MotionModel> moves;
   MotionContext context(double dt, const MotionConfig& config = {}) const {
-    return {model, prior, steps, config, noise_scale(config, model, dt), dt};
+    return {model,
+            prior,
+            steps,
+            *moves,
+            config,
+            noise_scale(*moves, config, model, dt),
+            markov_steps(*moves, config, dt),
+            dt};
   }
 };
 

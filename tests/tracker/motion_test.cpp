@@ -125,28 +125,9 @@ TEST(Propagate, MostNoisyWalkersWalkOnForThreeSeconds) {
   EXPECT_GT(alive, kWalkers / 2);
 }
 
-TEST(Perturb, LeavesTheStandardNormalPriorOfTheNoiseInvariant) {
-  const Walking walking;
-  const MotionContext context = walking.context(1.0 / 30);
-  constexpr int kChains = 4000;
-  double sum = 0, squares = 0;
-  WalkerParticle p = walkers(context, 1.2, 1)[0];
-  for (uint32_t i = 0; i < kChains; ++i) {
-    Rng rng(i, Purpose::kTest);
-    for (double& z : p.noise) z = rng.normal();
-    for (int move = 0; move < 5; ++move) perturb(context, 0.5, p, rng);
-    const double z = p.noise[int{kExtraNoise} + kTilt];
-    sum += z;
-    squares += z * z;
-  }
-  EXPECT_NEAR(sum / kChains, 0, 5 / std::sqrt(double{kChains}));
-  EXPECT_NEAR(squares / kChains, 1, 5 * std::sqrt(2.0 / kChains));
-}
-
 TEST(NoiseScale, GrowsAsDiffusionDoes) {
   const Walking walking;
-  const NoiseScale slow = noise_scale({}, walking.model, 0.2),
-                   fast = noise_scale({}, walking.model, 0.05);
+  const NoiseScale slow = walking.context(0.2).scale, fast = walking.context(0.05).scale;
   EXPECT_NEAR(slow.impulse[0] / fast.impulse[0], 2, 1e-12);
 }
 
@@ -155,7 +136,7 @@ TEST(NoiseScale, MarkovProcessesKeepTheirSpreadAtAnyFrameRate) {
   const Walking walking;
   const MarkovConstants c = markov_constants(kList);
   for (const double dt : {1.0 / 7, 1.0 / 30, 1.0 / 240}) {
-    const double sigma = noise_scale({}, walking.model, dt).extra[kList];
+    const double sigma = walking.context(dt).scale.extra[kList];
     const double r = std::exp(-dt / c.time);
     Rng rng(3, Purpose::kTest);
     double now = c.rest, before = c.rest, squares = 0;

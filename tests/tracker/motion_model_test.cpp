@@ -1,0 +1,100 @@
+// Laws that every motion model keeps.
+#include "tracker/motion_model.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "fixture.h"
+#include "tracker/course.h"
+
+namespace walktrack {
+namespace {
+
+constexpr double kDt = 1.0 / 30;
+
+class EveryMotionModel : public testing::TestWithParam<MotionKind> {
+ protected:
+  Walking walking_{GetParam()};
+};
+
+bool same(const Pose& a, const Pose& b) {
+  return a.root == b.root && a.heading == b.heading && a.tilt == b.tilt &&
+         a.legs[0].hip_flexion == b.legs[0].hip_flexion &&
+         a.legs[1].knee_flexion == b.legs[1].knee_flexion;
+}
+
+// What becomes of a particle depends on its own numbers alone, not on who goes with it.
+TEST_P(EveryMotionModel, ParticlesDoNotDependOnTheirGroup) {
+  const MotionContext context = walking_.context(kDt);
+  const std::vector<WalkerParticle> start = walkers_on_their_way(context, 9);
+  const auto stream = [](size_t i) { return Rng(3, Purpose::kTest, 0, static_cast<uint32_t>(i)); };
+  std::vector<WalkerParticle> group = start;
+  std::vector<Rng> rngs;
+  for (size_t i = 0; i < group.size(); ++i) rngs.push_back(stream(i));
+  std::vector<Outcome> outcomes(group.size());
+  propagate(context, group, rngs, outcomes);
+  for (size_t i = 0; i < group.size(); ++i) {
+    WalkerParticle alone = start[i];
+    Rng rng = stream(i);
+    EXPECT_EQ(propagate(context, alone, rng), outcomes[i]);
+    EXPECT_TRUE(same(alone.pose, group[i].pose)) << "particle " << i;
+  }
+}
+
+TEST_P(EveryMotionModel, PerturbLeavesTheStandardNormalPriorOfTheNoiseInvariant) {
+  const MotionContext context = walking_.context(kDt);
+  constexpr int kChains = 4000;
+  double sum = 0, squares = 0;
+  WalkerParticle p = walkers(context, 1.2, 1)[0];
+  for (uint32_t i = 0; i < kChains; ++i) {
+    Rng rng(i, Purpose::kTest);
+    for (double& z : p.noise) z = rng.normal();
+    for (int move = 0; move < 5; ++move) perturb(context, 0.5, p, rng);
+    const double z = p.noise[int{kExtraNoise} + kTilt];
+    sum += z;
+    squares += z * z;
+  }
+  EXPECT_NEAR(sum / kChains, 0, 5 / std::sqrt(double{kChains}));
+  EXPECT_NEAR(squares / kChains, 1, 5 * std::sqrt(2.0 / kChains));
+}
+
+// Realising twice is realising once: moves may come back to where they were.
+TEST_P(EveryMotionModel, ThePoseFollowsFromPredictionAndNoise) {
+  const MotionContext context = walking_.context(kDt);
+  for (WalkerParticle p : walkers_on_their_way(context, 20)) {
+    const Pose pose = p.pose;
+    const auto noise = p.noise;
+    Rng rng(4, Purpose::kTest);
+    perturb(context, 0.9, p, rng);
+    p.noise = noise;
+    context.moves.realise(context, p);
+    EXPECT_TRUE(same(p.pose, pose));
+  }
+}
+
+// A change of course moves the body rigidly, with its motion.
+TEST_P(EveryMotionModel, AChangeOfCourseKeepsTheMotion) {
+  const MotionContext context = walking_.context(kDt);
+  std::vector<WalkerParticle> set = walkers_on_their_way(context, 50);
+  const CourseSpread spread = course_spread(set, std::vector<double>(set.size(), 0.0));
+  for (WalkerParticle& p : set) {
+    const double moved = (p.pose.root - p.pose_before.root).head<2>().norm();
+    Rng rng(5, Purpose::kTest);
+    change_course(context, spread, 0.5, p, rng);
+    EXPECT_NEAR((p.pose.root - p.pose_before.root).head<2>().norm(), moved, 1e-9);
+  }
+}
+
+TEST_P(EveryMotionModel, WalkersAreFirstSeenWhereTheyAreSighted) {
+  const MotionContext context = walking_.context(kDt);
+  for (const WalkerParticle& p : walkers(context, 1.3, 20))
+    EXPECT_NEAR(p.pose.root.head<2>().norm(), 0, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(KneedAnthropomorphicMarkov, EveryMotionModel,
+                         testing::Values(MotionKind::kKneed, MotionKind::kAnthropomorphic,
+                                         MotionKind::kMarkov));
+
+}  // namespace
+}  // namespace walktrack
