@@ -85,8 +85,8 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<TrackerState> T>
 void fields(Archive& archive, T& value) {
-  auto& [frame, starts, filter, last_seen, supports, below, beaten, losses] = value;
-  archive(frame, starts, filter, last_seen, supports, below, beaten, losses);
+  auto& [frame, starts, filter, last_seen, supports, below, beaten, losses, doubt] = value;
+  archive(frame, starts, filter, last_seen, supports, below, beaten, losses, doubt);
 }
 
 template <typename Archive, ArchivedAs<BackgroundModel> T>

@@ -39,15 +39,16 @@ double lost_percent(const TrackedFrames& frames) {
   return tracked > 0 ? 100.0 * lost / (tracked + lost) : 0;
 }
 
-// Per cent of the tracked frames.
-double doubtful_percent(const TrackedFrames& frames) {
-  constexpr double kDoubt = 0.05;  // probability of the other way round
-  int tracked = 0, doubtful = 0;
+// Mean over the tracked frames, per cent.
+double exchanged_percent(const TrackedFrames& frames) {
+  int tracked = 0;
+  double sum = 0;
   for (const FrameRecord& record : frames.records) {
-    tracked += record.tracked;
-    doubtful += record.tracked && record.modes.exchanged >= kDoubt;
+    if (!record.tracked) continue;
+    ++tracked;
+    sum += record.modes.exchanged;
   }
-  return tracked > 0 ? 100.0 * doubtful / tracked : 0;
+  return tracked > 0 ? 100 * sum / tracked : 0;
 }
 
 }  // namespace
@@ -75,8 +76,8 @@ Quality quality_of(const TrackedFrames& frames, const GateConfig& gates) {
           100 * gates.lost_share),
       at_least(measure("foot_changes", "Changes of the standing foot", foot_changes(frames), "", 0),
                gates.least_steps),
-      measure("doubtful_percent", "Which leg is which, open by 5 % or more",
-              doubtful_percent(frames), "% of frames", 1)};
+      measure("legs_exchanged_percent", "Left and right may be exchanged, mean probability",
+              exchanged_percent(frames), "%", 0)};
   const std::map<std::string, double> limits{{"leg_swaps_per_min", gates.leg_swaps},
                                              {"foot_slide_mm", 1000 * gates.foot_slide},
                                              {"penetration_mm", 1000 * gates.penetration},

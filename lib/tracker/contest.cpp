@@ -12,6 +12,10 @@ namespace {
 
 // A hypothesis this many nats behind the best has lost (odds of 1 to 3 million).
 constexpr double kHopeless = 15;
+// The evidence of a few particles is itself uncertain. Of 25 starts (side views from near and from
+// afar, two cameras; README.md) the leading hypothesis was the wrong one as often as if so many
+// nats were worth one.
+constexpr double kNatsForOne = 50;
 
 }  // namespace
 
@@ -45,18 +49,32 @@ bool Contest::step(const WalkerFilterContext& context, const SceneEvidence& evid
   ++frames_;
   const double best = leader().log_evidence;
   if (best == -std::numeric_limits<double>::infinity()) return false;
-  std::erase_if(hypotheses_,
-                [&](const Hypothesis& each) { return each.log_evidence < best - kHopeless; });
+  const std::optional<uint64_t> kept = rival();
+  std::erase_if(hypotheses_, [&](const Hypothesis& each) {
+    return each.log_evidence < best - kHopeless && each.seed != kept;
+  });
   weigh_modes();
   return true;
 }
 
-// Of the newest frame: how much of the evidence is for hypotheses with legs exchanged against one's
-// own.
+// The seed of the best of those whose legs are exchanged against the leader's: it stays, so that
+// the doubt can be told.
+std::optional<uint64_t> Contest::rival() const {
+  const double phase = leader().records.back().modes.phase;
+  const Hypothesis* best = nullptr;
+  for (const Hypothesis& each : hypotheses_) {
+    const bool alive = each.log_evidence > -std::numeric_limits<double>::infinity();
+    if (!alive || !apart(phase, each.records.back().modes.phase)) continue;
+    if (!best || each.log_evidence > best->log_evidence) best = &each;
+  }
+  return best ? std::optional(best->seed) : std::nullopt;
+}
+
+// Of the newest frame: how probable are hypotheses with legs exchanged against one's own.
 void Contest::weigh_modes() {
   std::vector<double> evidence, phases;
   for (const Hypothesis& each : hypotheses_) {
-    evidence.push_back(each.log_evidence);
+    evidence.push_back(each.log_evidence / kNatsForOne);
     phases.push_back(each.records.back().modes.phase);
   }
   const std::vector<double> share = normalised_weights(evidence);

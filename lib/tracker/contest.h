@@ -39,6 +39,7 @@ class Contest {
   };
 
   const Hypothesis& leader() const;
+  std::optional<uint64_t> rival() const;
   void weigh_modes();
 
   FilterConfig filter_;

@@ -33,18 +33,19 @@ double leading_phase(std::span<const double> phases, std::span<const double> wei
   const double leading = mass_apart(one, phases, weights) > 0.5 ? one + 0.5 : one;
   double beyond = 0, mass = 0;
   for (size_t i = 0; i < phases.size(); ++i) {
-    const double away = strides_between(leading, phases[i]);
-    if (std::abs(away) > 0.25) continue;
-    beyond += weights[i] * away;
+    if (apart(leading, phases[i])) continue;
+    beyond += weights[i] * strides_between(leading, phases[i]);
     mass += weights[i];
   }
   return whole_turns_off(leading + beyond / mass);
 }
 
+bool apart(double phase, double other) { return std::abs(strides_between(phase, other)) > 0.25; }
+
 double mass_apart(double phase, std::span<const double> phases, std::span<const double> weights) {
   double mass = 0;
   for (size_t i = 0; i < phases.size(); ++i)
-    if (std::abs(strides_between(phase, phases[i])) > 0.25) mass += weights[i];
+    if (apart(phase, phases[i])) mass += weights[i];
   return mass;
 }
 

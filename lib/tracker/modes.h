@@ -16,7 +16,8 @@ namespace walktrack {
 
 struct StrideModes {
   double phase = 0;      // of the mode reported, shares of the stride in [0, 1)
-  double exchanged = 0;  // mass of the other one: probability that the legs are exchanged
+  double exchanged = 0;  // mass of the other one: probability that the legs are exchanged,
+                         // in a FrameRecord of tracker/tracker.h with the doubt of the start
 };
 
 // In [0, 1).
@@ -24,6 +25,9 @@ double stride_phase(const WalkerParticle& particle);
 
 // Middle of the heavier of two modes half a stride apart. Weights sum to one.
 double leading_phase(std::span<const double> phases, std::span<const double> weights);
+
+// Whether two places in the stride are more than a quarter of it from each other.
+bool apart(double phase, double other);
 
 // Weight of what is more than a quarter of a stride from `phase`.
 double mass_apart(double phase, std::span<const double> phases, std::span<const double> weights);

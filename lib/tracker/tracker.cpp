@@ -59,8 +59,8 @@ std::vector<FrameRecord> Tracker::finish() {
 }
 
 TrackerState Tracker::state() const {
-  return {frame_,    starts_,       filter_.state(), last_seen_,
-          supports_, frames_below_, frames_beaten_,  losses_};
+  return {frame_,        starts_,        filter_.state(), last_seen_, supports_,
+          frames_below_, frames_beaten_, losses_,         doubt_};
 }
 
 void Tracker::resume(TrackerState state) {
@@ -74,6 +74,7 @@ void Tracker::resume(TrackerState state) {
   frames_below_ = state.frames_below;
   frames_beaten_ = state.frames_beaten;
   losses_ = state.losses;
+  doubt_ = state.doubt;
 }
 
 void Tracker::use_particles(int count) {
@@ -207,6 +208,7 @@ void Tracker::settle(std::vector<FrameRecord>& out) {
     supports_.push_back(record.support);
     out.push_back(record);
   }
+  doubt_ = contest_->records().back().modes.exchanged;
   contest_.reset();
   mode_ = Mode::kTracking;
   frames_below_ = frames_beaten_ = 0;
@@ -215,6 +217,8 @@ void Tracker::settle(std::vector<FrameRecord>& out) {
 void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
   FrameRecord record = advance(context(false), evidence, frame_, seed_, false, filter_);
   ++frame_;
+  // Whoever lost the start is not followed any more: nothing can tell what it would say now.
+  record.modes.exchanged += doubt_ * (1 - 2 * record.modes.exchanged);
   if (record.filter.all_dead || fading(record.support, figure_score(evidence, record.estimate))) {
     record.tracked = false;
     ++losses_;

@@ -49,6 +49,7 @@ struct TrackerState {
   std::optional<LastSeen> last_seen;
   std::deque<double> supports;
   int frames_below = 0, frames_beaten = 0, losses = 0;
+  double doubt = 0;
 };
 
 class Tracker {
@@ -116,6 +117,7 @@ class Tracker {
   std::deque<double> supports_;
   int frames_below_ = 0, frames_beaten_ = 0;
   int losses_ = 0;
+  double doubt_ = 0;  // probability that the start has chosen the wrong leg
 };
 
 }  // namespace walktrack
