@@ -29,15 +29,16 @@ Contest::Contest(const MotionContext& motion, const StartConfig& start, const Fi
        stride_phase ? phase_ranges(start, *stride_phase) : phase_ranges(start)) {
     // Streams of its own.
     const uint64_t own = seed + 0x9E3779B97F4A7C15u * (hypotheses_.size() + 1);
-    hypotheses_.push_back({WalkerFilter(small, own, threads), own, 0, {}});
+    hypotheses_.push_back({WalkerFilter(small, own, threads), own, 0, {}, false});
     hypotheses_.back().filter.start(spawn(motion, start, sighting, range, own));
   }
 }
 
 const Contest::Hypothesis& Contest::leader() const {
   return *std::max_element(
-      hypotheses_.begin(), hypotheses_.end(),
-      [](const Hypothesis& a, const Hypothesis& b) { return a.log_evidence < b.log_evidence; });
+      hypotheses_.begin(), hypotheses_.end(), [](const Hypothesis& a, const Hypothesis& b) {
+        return a.beaten != b.beaten ? a.beaten : a.log_evidence < b.log_evidence;
+      });
 }
 
 bool Contest::step(const WalkerFilterContext& context, const SceneEvidence& evidence,
@@ -49,10 +50,11 @@ bool Contest::step(const WalkerFilterContext& context, const SceneEvidence& evid
   ++frames_;
   const double best = leader().log_evidence;
   if (best == -std::numeric_limits<double>::infinity()) return false;
+  for (Hypothesis& each : hypotheses_)
+    each.beaten = each.beaten || each.log_evidence < best - kHopeless;
   const std::optional<uint64_t> kept = rival();
-  std::erase_if(hypotheses_, [&](const Hypothesis& each) {
-    return each.log_evidence < best - kHopeless && each.seed != kept;
-  });
+  std::erase_if(hypotheses_,
+                [&](const Hypothesis& each) { return each.beaten && each.seed != kept; });
   weigh_modes();
   return true;
 }
@@ -86,11 +88,13 @@ void Contest::weigh_modes() {
 
 std::vector<WalkerParticle> Contest::survivors() const {
   std::vector<double> evidence;
-  for (const Hypothesis& each : hypotheses_) evidence.push_back(each.log_evidence);
+  for (const Hypothesis& each : hypotheses_)
+    evidence.push_back(each.beaten ? -std::numeric_limits<double>::infinity() : each.log_evidence);
   const std::vector<double> share = normalised_weights(evidence);
   std::vector<const WalkerParticle*> states;
   std::vector<double> log_weights;
   for (size_t h = 0; h < hypotheses_.size(); ++h) {
+    if (hypotheses_[h].beaten) continue;
     const auto& set = hypotheses_[h].filter.particles();
     const double total = log_sum_exp(set.log_weights);
     for (size_t i = 0; i < set.states.size(); ++i) {

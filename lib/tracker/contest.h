@@ -36,6 +36,7 @@ class Contest {
     uint64_t seed;
     double log_evidence = 0;
     std::vector<FrameRecord> records;
+    bool beaten = false;  // has lost; followed on only to tell the doubt
   };
 
   const Hypothesis& leader() const;
