@@ -56,11 +56,9 @@ void add_observation(ParameterTable& table) {
 
   using W = FlowConfig;
   ParameterGroup<W> w(table, "observation.flow", "optical flow", &Config::observation, &O::flow);
-  w.flag("enabled", &W::enabled, "whether flow is measured");
-  w.integer("step_px", &W::step_px, 1, 1000, "between measured points, px of the shrunk image");
-  w.number("error_px", &W::error_px, 1e-3, 1000, "scale of the error of a textured point, px");
-  w.number("error_share", &W::error_share, 0, 10, "scale of the error, share of the motion");
-  w.number("noise", &W::noise, 0.01, 255, "of grey values, which texture has to exceed");
+  w.flag("enabled", &W::enabled, "whether the way from frame to frame is looked at");
+  w.number("error_px", &W::error_px, 0, 1000, "of a pose's motion that is still right, px");
+  w.number("noise", &W::noise, 0.01, 255, "of grey values from frame to frame, of 256");
   w.number("dof", &W::dof, 0.5, 1000, "of the Student-t; smaller expects more outliers");
   w.number("weight", &W::weight, 0, 1000, "against the silhouettes");
 }

@@ -190,8 +190,7 @@ std::vector<std::pair<std::string, double>> memory_of(const Scene& scene, const 
   }
   if (!scene.initial) {
     const double frames = std::ceil(config.tracker.sighting.window * plan.frame_rate);
-    const double flow_bytes =
-        images.flow.enabled ? sizeof(FlowSample) / std::pow(images.flow.step_px, 2) : 0;
+    const double flow_bytes = images.flow.enabled ? sizeof(FlowPixel) : 0;
     out.emplace_back("the search's window of frames",
                      frames * shrunk * (sizeof(int32_t) + flow_bytes));
   }

@@ -35,12 +35,10 @@ struct ForegroundConfig {
 
 struct FlowConfig {
   bool enabled = false;      // costs time and wins little where colours are seen (README.md)
-  int step_px = 4;           // between measured points, px of the shrunk image
-  double error_px = .7;      // scale of the error of a well textured point, px
-  double error_share = .15;  // and of the motion itself
-  double noise = 4;          // of the grey values that texture has to exceed
-  double dof = 3;            // of the Student-t: the smaller, the more outliers are expected
-  double weight = .1;        // against the silhouettes, both per independent area
+  double error_px = .35;  // of a pose's motion that is still right, px
+  double noise = 4;       // of a residual without texture, grey levels of 256
+  double dof = 3;         // of the Student-t: the smaller, the more outliers are expected
+  double weight = .1;     // against the silhouettes, both per independent area
 };
 
 struct ObservationConfig {

@@ -1,12 +1,14 @@
-// Optical flow: what moved where between two frames, and how well a pose explains it.
+// Optical flow without measuring it: how well two frames agree along the motion of a pose.
 //
-// Measured flow d (px, from the frame before to this one, at pixels of this one) comes with a
-// precision matrix L: large along directions in which the patch has texture, nothing along the
-// others (the aperture problem). A material point that the pose moves by p is compared with the
-// same pixel seen as resting background; e = d - p,
-//   log ratio = -(dof + 2)/2 [ log(1 + e'Le / dof) - log(1 + d'Ld / dof) ].
-// It is zero for a body at rest, for a point without texture and for one that is not seen, so poses
-// with different visible points stay comparable.
+// A material point of the visible surface is at pixel u now and, says the pose, was at w one frame
+// ago. If that is so, both pixels look alike; if the point is resting background, u looked alike
+// then. With the residuals m = I(u) - J(w) and r = I(u) - J(u) of the grey images I (now) and J
+// (before), both of variance s^2,
+//   log ratio = -(dof + 1)/2 [ log(1 + m^2 / (dof s^2)) - log(1 + r^2 / (dof s^2)) ],
+//   s^2 = noise^2 + error_px^2 |grad I|^2.
+// It is zero for a body at rest, where nothing has texture and for a point that is not seen, so
+// poses with different visible points stay comparable. What measured flow gets wrong at the very
+// places that matter (README.md, Flow) no particle needs: each brings its own motion along.
 #pragma once
 
 #include <vector>
@@ -21,27 +23,26 @@ class Mat;
 
 namespace walktrack {
 
-struct FlowSample {
-  float dx = 0, dy = 0;             // px since the frame before
-  float lxx = 0, lxy = 0, lyy = 0;  // precision, 1 / px^2
+struct FlowPixel {
+  float now = 0, before = 0;  // smoothed grey levels
+  float precision = 0;        // 1 / s^2; 0 = an occluder stands here, nothing is known
 };
 
-// A grid of samples: cell (i, j) covers step x step pixels from area.x0 + i step on.
+// Two successive frames around a walker, row by row.
 struct FlowField {
   PixelRect area;
-  int step = 1, columns = 0, rows = 0;
-  std::vector<FlowSample> samples;  // columns a row; none when there is no frame before
+  std::vector<FlowPixel> pixels;  // none when there is no frame before
 
-  const FlowSample* at(double x, double y) const {
-    const double i = (x + 0.5 - area.x0) / step, j = (y + 0.5 - area.y0) / step;
-    if (!(i >= 0 && j >= 0 && i < columns && j < rows)) return nullptr;
-    return &samples[static_cast<size_t>(j) * static_cast<size_t>(columns) + static_cast<size_t>(i)];
+  const FlowPixel& at(int x, int y) const {
+    return pixels[static_cast<size_t>(y - area.y0) * static_cast<size_t>(area.width()) +
+                  static_cast<size_t>(x - area.x0)];
   }
 };
 
-// Flow from `before` to `now`, 8-bit grey images of one size, inside `area`.
-void measure_flow(const FlowConfig& config, const cv::Mat& before, const cv::Mat& now,
-                  const PixelRect& area, FlowField& out);
+// `before` and `now`: 8-bit grey images of one size. Holds `area` and some pixels more to all sides,
+// from which a walker in it may have come.
+void pair_frames(const FlowConfig& config, const cv::Mat& before, const cv::Mat& now,
+                 const PixelRect& area, FlowField& out);
 
 // Sum over points of the visible surface, nats times square pixels: each point weighs as much as
 // the area it stands for. `now` and `before` are the capsules of one particle in this and the

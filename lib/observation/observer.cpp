@@ -204,7 +204,7 @@ void Observer::observe(const cv::Mat& frame_bgr, const Region& region, CameraEvi
     if (s.grey_before.empty()) {
       out.flow = {};
     } else {
-      measure_flow(s.config.flow, s.grey_before, grey, area, out.flow);
+      pair_frames(s.config.flow, s.grey_before, grey, area, out.flow);
       if (s.occluded) s.block_flow(out.flow);
     }
     s.grey_before = grey;
@@ -259,17 +259,15 @@ void Observer::State::fill_row(int y, double gain, LogRatioPlanes& planes) {
   }
 }
 
-// A sample whose cell touches an occluder says nothing.
+// Pixels that smoothing mixes with an occluder's say nothing.
 void Observer::State::block_flow(FlowField& flow) const {
-  for (int j = 0; j < flow.rows; ++j) {
-    for (int i = 0; i < flow.columns; ++i) {
-      const cv::Rect cell = cv::Rect(flow.area.x0 + i * flow.step, flow.area.y0 + j * flow.step,
-                                     flow.step, flow.step) &
-                            cv::Rect(0, 0, mask.cols, mask.rows);
-      if (cv::countNonZero(mask(cell)) > 0)
-        flow.samples[static_cast<size_t>(j * flow.columns + i)] = {};
-    }
-  }
+  constexpr int kReach = 2;
+  cv::Mat near;
+  cv::dilate(mask, near, cv::Mat::ones(2 * kReach + 1, 2 * kReach + 1, CV_8U));
+  auto pixel = flow.pixels.begin();
+  for (int y = flow.area.y0; y < flow.area.y1; ++y)
+    for (int x = flow.area.x0; x < flow.area.x1; ++x, ++pixel)
+      if (near.at<uint8_t>(y, x)) pixel->precision = 0;
 }
 
 void Observer::learn(const CameraEvidence& evidence, const CapsuleList& capsules) {

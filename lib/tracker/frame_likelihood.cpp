@@ -19,7 +19,7 @@ double log_uprightness(const BodyModel& model, const Pose& pose) {
 
 bool any_flow(const SceneEvidence& evidence) {
   return std::any_of(evidence.begin(), evidence.end(),
-                     [](const CameraEvidence& camera) { return !camera.flow.samples.empty(); });
+                     [](const CameraEvidence& camera) { return !camera.flow.pixels.empty(); });
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ double FrameLikelihood::Account::silhouettes(size_t camera) const {
 
 double FrameLikelihood::Account::flow(size_t camera, const PosedParts& before) const {
   const CameraEvidence& evidence = frame_.evidence_[camera];
-  if (evidence.flow.samples.empty()) return 0;
+  if (evidence.flow.pixels.empty()) return 0;
   const Camera& view = frame_.scene_.cameras[camera];
   return flow_log_likelihood(frame_.scene_.observation.flow, evidence, project_parts(view, parts_),
                              project_parts(view, before));

@@ -101,26 +101,26 @@ TEST(Config, WritesThroughGroupsToTheMembers) {
   apply_config_file(config, folder.write("c.yaml",
                                          "observation:\n"
                                          "  clip: 2.5\n"
-                                         "  flow: {enabled: true, step_px: 8}\n"
+                                         "  flow: {enabled: true, dof: 8}\n"
                                          "  foreground:\n    classes: [0, 1, 1, 2, 0]\n"));
   const ObservationConfig& observation = config.values.observation;
   EXPECT_EQ(observation.clip, 2.5);
   EXPECT_TRUE(observation.flow.enabled);
-  EXPECT_EQ(observation.flow.step_px, 8);
+  EXPECT_EQ(observation.flow.dof, 8);
   EXPECT_EQ(observation.foreground.classes, (std::array{0, 1, 1, 2, 0}));
-  EXPECT_EQ(config.origin.at("observation.flow.step_px"), "c.yaml:3");
+  EXPECT_EQ(config.origin.at("observation.flow.dof"), "c.yaml:3");
   EXPECT_EQ(config_as_yaml(config, ConfigScope::kChanged, false),
             "observation:  # how images become likelihoods\n  clip: 2.5\n"
             "  foreground:  # how the walker looks\n    classes: [0, 1, 1, 2, 0]\n"
-            "  flow:  # optical flow\n    enabled: true\n    step_px: 8\n");
+            "  flow:  # optical flow\n    enabled: true\n    dof: 8\n");
 }
 
 TEST(ConfigFile, NamesKeysInsideGroups) {
-  EXPECT_THAT(message_for_file("step_px: 3\n"),
-              HasSubstr("step_px: found an unknown key, did you mean 'observation.flow.step_px'?"));
-  EXPECT_THAT(message_for_file("observation:\n  flow:\n    step_pix: 3\n"),
-              HasSubstr("c.yaml:3: observation.flow.step_pix: found an unknown key, did you mean "
-                        "'observation.flow.step_px'?"));
+  EXPECT_THAT(message_for_file("error_px: 3\n"),
+              HasSubstr("error_px: found an unknown key, did you mean 'observation.flow.error_px'?"));
+  EXPECT_THAT(message_for_file("observation:\n  flow:\n    error_pix: 3\n"),
+              HasSubstr("c.yaml:3: observation.flow.error_pix: found an unknown key, did you mean "
+                        "'observation.flow.error_px'?"));
   EXPECT_THAT(message_for_file("observation: 3\n"), HasSubstr("observation: found an unknown key"));
   EXPECT_THAT(message_for_file("observation: {foreground: {classes: [1, 2]}}\n"),
               HasSubstr("found '[1, 2]', allowed: a list of 5 whole numbers from 0 to 4"));

@@ -1,5 +1,7 @@
 #include "tracker/frame_likelihood.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "fixture.h"
@@ -10,7 +12,7 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
 
-// Pixels that speak for a body, some more than others, and on request points that move to the
+// Pixels that speak for a body, some more than others, and on request stripes that move to the
 // right.
 CameraEvidence evidence_of(double nats, bool flow) {
   CameraEvidence out;
@@ -22,8 +24,10 @@ CameraEvidence evidence_of(double nats, bool flow) {
     set_row(out.planes, 0, y, row, 4);
   }
   if (!flow) return out;
-  out.flow = {{0, 0, kWidth, kHeight}, 4, kWidth / 4, kHeight / 4, {}};
-  out.flow.samples.assign(static_cast<size_t>(kWidth * kHeight / 16), {2, 0, 1, 0, 1});
+  out.flow.area = {0, 0, kWidth, kHeight};
+  const auto stripe = [](int x) { return 100 + 10 * std::sin(0.3F * static_cast<float>(x)); };
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) out.flow.pixels.push_back({stripe(x - 2), stripe(x), 0.05F});
   return out;
 }
 
