@@ -34,11 +34,11 @@ struct ForegroundConfig {
 };
 
 struct FlowConfig {
-  bool enabled = false;      // costs time and wins little where colours are seen (README.md)
-  double error_px = .35;  // of a pose's motion that is still right, px
-  double noise = 4;       // of a residual without texture, grey levels of 256
-  double dof = 3;         // of the Student-t: the smaller, the more outliers are expected
-  double weight = .1;     // against the silhouettes, both per independent area
+  bool enabled = false;  // costs time, wins where light is low, not in good light (README.md)
+  double error_px = 1;   // of a pose's motion that is still right, px
+  double noise = 4;      // of a residual without texture, grey levels of 256
+  double dof = 3;        // of the Student-t: the smaller, the more outliers are expected
+  double weight = 1;     // against the silhouettes, both per independent area
 };
 
 struct ObservationConfig {

@@ -64,7 +64,7 @@ struct Between {
   const FlowPixel* below;   // the one under it
   float right, down;        // shares
 
-  float mix(float FlowPixel::* value) const {
+  float mix(float FlowPixel::*value) const {
     const float top = corner->*value + right * (corner[1].*value - corner->*value);
     const float bottom = below->*value + right * (below[1].*value - below->*value);
     return top + down * (bottom - top);
@@ -173,9 +173,9 @@ void pair_frames(const FlowConfig& config, const cv::Mat& before, const cv::Mat&
   out.pixels.clear();
   out.area = {};
   if (area.empty()) return;
-  out.area = intersection(
-      {area.x0 - kMargin, area.y0 - kMargin, area.x1 + kMargin, area.y1 + kMargin},
-      {0, 0, now.cols, now.rows});
+  out.area =
+      intersection({area.x0 - kMargin, area.y0 - kMargin, area.x1 + kMargin, area.y1 + kMargin},
+                   {0, 0, now.cols, now.rows});
   const cv::Rect cut(out.area.x0, out.area.y0, out.area.width(), out.area.height());
   const cv::Mat present = smoothed(now(cut)), past = smoothed(before(cut));
   cv::Mat gradient_x, gradient_y;  // grey levels per px

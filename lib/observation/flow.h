@@ -39,8 +39,8 @@ struct FlowField {
   }
 };
 
-// `before` and `now`: 8-bit grey images of one size. Holds `area` and some pixels more to all sides,
-// from which a walker in it may have come.
+// `before` and `now`: 8-bit grey images of one size. Holds `area` and some pixels more to all
+// sides, from which a walker in it may have come.
 void pair_frames(const FlowConfig& config, const cv::Mat& before, const cv::Mat& now,
                  const PixelRect& area, FlowField& out);
 

@@ -116,8 +116,9 @@ TEST(Config, WritesThroughGroupsToTheMembers) {
 }
 
 TEST(ConfigFile, NamesKeysInsideGroups) {
-  EXPECT_THAT(message_for_file("error_px: 3\n"),
-              HasSubstr("error_px: found an unknown key, did you mean 'observation.flow.error_px'?"));
+  EXPECT_THAT(
+      message_for_file("error_px: 3\n"),
+      HasSubstr("error_px: found an unknown key, did you mean 'observation.flow.error_px'?"));
   EXPECT_THAT(message_for_file("observation:\n  flow:\n    error_pix: 3\n"),
               HasSubstr("c.yaml:3: observation.flow.error_pix: found an unknown key, did you mean "
                         "'observation.flow.error_px'?"));

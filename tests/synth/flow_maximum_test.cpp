@@ -117,8 +117,13 @@ double true_score() {
   return pairs().score([](PosePair&) {});
 }
 
-const std::vector<std::pair<std::string, std::function<void(Pose&, double)>>>& freedoms() {
-  static const std::vector<std::pair<std::string, std::function<void(Pose&, double)>>> all{
+struct Freedom {
+  std::string name;
+  std::function<void(Pose&, double by)> move;
+};
+
+const std::vector<Freedom>& freedoms() {
+  static const std::vector<Freedom> all{
       {"along", [](Pose& p, double by) { p.root.x() += 0.06 * by; }},
       {"aside", [](Pose& p, double by) { p.root.y() += 0.06 * by; }},
       {"up", [](Pose& p, double by) { p.root.z() += 0.06 * by; }},
@@ -135,14 +140,13 @@ const std::vector<std::pair<std::string, std::function<void(Pose&, double)>>>& f
 TEST(FlowMaximum, LiesWhereTheBodyIs) {
   const double truth = true_score();
   EXPECT_GT(truth, 0);
-  for (const auto& [name, move] : freedoms()) {
+  for (const Freedom& freedom : freedoms()) {
     for (const double by : {-2.0, -1.0, -0.5, 0.5, 1.0, 2.0}) {
-      EXPECT_LT(pairs().score([&](PosePair& pair) {
-        move(pair.now, by);
-        move(pair.before, by);
-      }),
-                truth)
-          << name << " " << by;
+      const double beside = pairs().score([&](PosePair& pair) {
+        freedom.move(pair.now, by);
+        freedom.move(pair.before, by);
+      });
+      EXPECT_LT(beside, truth) << freedom.name << " " << by;
     }
   }
 }
@@ -150,10 +154,10 @@ TEST(FlowMaximum, LiesWhereTheBodyIs) {
 // A sixth of these changes, in the last frame alone.
 TEST(FlowMaximum, LiesAtTheTrueMotion) {
   const double truth = true_score();
-  for (const auto& [name, move] : freedoms())
+  for (const Freedom& freedom : freedoms())
     for (const double by : {-1.0 / 6, 1.0 / 6})
-      EXPECT_LT(pairs().score([&](PosePair& pair) { move(pair.now, by); }), truth)
-          << name << " " << by;
+      EXPECT_LT(pairs().score([&](PosePair& pair) { freedom.move(pair.now, by); }), truth)
+          << freedom.name << " " << by;
 }
 
 // Neither too slow nor too fast, and not at rest.
