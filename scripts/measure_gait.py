@@ -76,15 +76,21 @@ def one_camera(text):
     return "\n".join(kept) + "\n"
 
 
-def make_scenes(walktrack, out, count):
-    for i in range(count):
+def rendered_walks(walktrack, out, texts):
+    """The folder of each walk, which is rendered unless OUT holds it."""
+    for i, text in enumerate(texts):
         folder = out / "scenes" / f"walk{i:02}"
-        if not (folder / "scene_one_camera.yaml").exists():
+        if not (folder / "scene.yaml").exists():
             folder.mkdir(parents=True, exist_ok=True)
             options = folder / "options.yaml"
-            options.write_text(walk_options(i, count))
+            options.write_text(text)
             run(walktrack, "render", "--options", options, "-o", folder, "-y", "--threads", 1)
-            (folder / "scene_one_camera.yaml").write_text(one_camera((folder / "scene.yaml").read_text()))
+        yield folder
+
+
+def make_scenes(walktrack, out, count):
+    for folder in rendered_walks(walktrack, out, (walk_options(i, count) for i in range(count))):
+        (folder / "scene_one_camera.yaml").write_text(one_camera((folder / "scene.yaml").read_text()))
         yield folder
 
 

@@ -20,7 +20,7 @@ import statistics
 import sys
 
 from fit_model_error import cameras_of, table
-from measure_gait import OTHERS, SIDE, run
+from measure_gait import OTHERS, SIDE, rendered_walks, run
 
 # Each with the noise that did best on the shipped demo, if that is not the default's.
 MODELS = {"kneed": (), "anthropomorphic": ("--set", "motion.aim_drift=0.03"), "markov": ()}
@@ -47,17 +47,6 @@ cameras:
   - {OTHERS[0]}
   - {OTHERS[1]}
 """
-
-
-def made_scenes(walktrack, out, count):
-    for i in range(count):
-        folder = out / "scenes" / f"walk{i:02}"
-        if not (folder / "scene.yaml").exists():
-            folder.mkdir(parents=True, exist_ok=True)
-            options = folder / "options.yaml"
-            options.write_text(walk_options(i, count))
-            run(walktrack, "render", "--options", options, "-o", folder, "-y", "--threads", 1)
-        yield folder
 
 
 def hip_row(camera, rows):
@@ -152,7 +141,8 @@ def main():
         words, options = words[:words.index("--")], words[words.index("--") + 1:]
     arguments = parser.parse_args(words)
     walktrack, rows = arguments.walktrack.resolve(), []
-    folders = [*made_scenes(walktrack, arguments.out, arguments.walks), *arguments.scenes]
+    texts = (walk_options(i, arguments.walks) for i in range(arguments.walks))
+    folders = [*rendered_walks(walktrack, arguments.out, texts), *arguments.scenes]
     for seed in range(1, arguments.seeds + 1):
         for folder in folders:
             for seconds in (0, *arguments.hidden):

@@ -45,9 +45,10 @@ namespace walktrack {
 // acceptance (Christen & Fox, "Markov chain Monte Carlo using an approximation", JCGS 14, 2005;
 // Banterle, Grazian, Lee & Robert, "Accelerating Metropolis-Hastings algorithms by delayed
 // acceptance", 2019). It leaves the same distribution invariant, with fewer moves accepted.
+inline constexpr int kMaxStages = 2;
+
 template <typename L, typename State>
 concept StagedLikelihood = requires(const L& likelihood, const State& state) {
-  { L::kMaxStages } -> std::convertible_to<int>;
   { likelihood.stages() } -> std::convertible_to<int>;      // from 1 to kMaxStages
   { likelihood(state)(0) } -> std::convertible_to<double>;  // of stage 0
 };
@@ -176,17 +177,12 @@ class ParticleFilter {
   size_t size() const { return set_.states.size(); }
 
   // A log-likelihood by its stages.
-  static constexpr int kMaxStages = 2;
   using Stages = std::array<double, kMaxStages>;
 
   template <typename LogLikelihood>
   static int stages_of(const LogLikelihood& log_likelihood) {
-    if constexpr (StagedLikelihood<LogLikelihood, State>) {
-      static_assert(LogLikelihood::kMaxStages <= kMaxStages);
-      return log_likelihood.stages();
-    } else {
-      return 1;
-    }
+    if constexpr (StagedLikelihood<LogLikelihood, State>) return log_likelihood.stages();
+    return 1;
   }
 
   // Asks one stage after the other, until `go_on(stage, value)` has heard enough.

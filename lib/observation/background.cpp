@@ -124,12 +124,16 @@ struct Pixel {
 };
 
 // Where the light is measured: a grid over the image.
-std::vector<Pixel> light_grid(int width, int height) {
-  constexpr int kGrid = 48;  // points along either side
-  std::vector<Pixel> grid;
-  for (int j = 0; j < kGrid; ++j)
-    for (int i = 0; i < kGrid; ++i)
-      grid.push_back({(2 * i + 1) * width / (2 * kGrid), (2 * j + 1) * height / (2 * kGrid)});
+constexpr int kLightGrid = 48;  // points along either side
+
+std::array<Pixel, kLightGrid * kLightGrid> light_grid(int width, int height) {
+  constexpr int kHalves = 2 * kLightGrid;
+  std::array<Pixel, kLightGrid * kLightGrid> grid;
+  for (int k = 0; k < kLightGrid * kLightGrid; ++k) {
+    const int column = k % kLightGrid, row = k / kLightGrid;
+    grid[static_cast<size_t>(k)] = {(2 * column + 1) * width / kHalves,
+                                    (2 * row + 1) * height / kHalves};
+  }
   return grid;
 }
 

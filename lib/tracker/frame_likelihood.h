@@ -4,21 +4,20 @@
 #pragma once
 
 #include "body/kinematics.h"
+#include "filter/particle_filter.h"
 #include "tracker/scene.h"
 
 namespace walktrack {
 
 class FrameLikelihood {
  public:
-  static constexpr int kMaxStages = 2;
-
   // `with_motion`: particles have a frame before this one, so that flow says something.
   FrameLikelihood(const TrackerScene& scene, const SceneEvidence& evidence, bool with_motion);
 
   // Silhouettes of the first camera, then all else: the other cameras' silhouettes, and flow where
   // any was measured. More stages would save little more, and every stage that can reject a move
   // costs some that all of them together would accept.
-  int stages() const { return evidence_.size() > 1 || motion_ ? 2 : 1; }
+  int stages() const { return evidence_.size() > 1 || motion_ ? kMaxStages : 1; }
 
   class Account {
    public:

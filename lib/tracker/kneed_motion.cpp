@@ -130,7 +130,8 @@ void KneedMotion::enter(const MotionContext& context, std::span<const double> ph
 
 void KneedMotion::reconsider(const MotionContext& context, WalkerParticle& particle,
                              Rng& rng) const {
-  if (rng.uniform() < context.config.rephasing * context.dt) rephase(context, particle, rng);
+  if (rng.uniform() < context.config.rephasing * context.dt)
+    rephase(context, steps_, particle, rng);
 }
 
 void KneedMotion::walk(const MotionContext& context, std::span<WalkerParticle> particles,

@@ -5,6 +5,7 @@
 
 #include "gait/gait_prior.h"
 #include "tracker/motion_model.h"
+#include "tracker/step_book.h"
 
 namespace walktrack {
 
@@ -17,6 +18,7 @@ Pose pose_in_gait(const BodyModel& model, const PriorGait& gait, Side stance, do
 
 class KneedMotion : public MotionModel {
  public:
+  KneedMotion(const BodyModel& model, const GaitPrior& prior) : steps_(model.walker, prior) {}
   MarkovConstants constants(const MotionConfig& config, Extra extra) const override;
   void enter(const MotionContext& context, std::span<const double> phases,
              std::span<WalkerParticle> particles) const override;
@@ -26,6 +28,9 @@ class KneedMotion : public MotionModel {
   bool expect(const MotionContext& context, WalkerParticle& particle) const override;
   void realise(const MotionContext& context, WalkerParticle& particle) const override;
   std::span<const NoiseGroup> noise_groups() const override;
+
+ private:
+  StepBook steps_;  // what rephasing reads poses as
 };
 
 }  // namespace walktrack

@@ -5,9 +5,6 @@
 #include <span>
 
 #include "core/conventions.h"
-#include "tracker/anthropomorphic_motion.h"
-#include "tracker/kneed_motion.h"
-#include "tracker/markov_motion.h"
 
 namespace walktrack {
 
@@ -103,16 +100,15 @@ NoiseScale noise_scale(const MotionModel& moves, const MotionConfig& config, con
   return scale;
 }
 
-std::unique_ptr<const MotionModel> make_motion_model(MotionKind kind, const BodyModel& model) {
-  switch (kind) {
-    case MotionKind::kKneed:
-      break;
-    case MotionKind::kAnthropomorphic:
-      return std::make_unique<AnthropomorphicMotion>(model);
-    case MotionKind::kMarkov:
-      return std::make_unique<MarkovMotion>(model);
-  }
-  return std::make_unique<KneedMotion>();
+MotionContext motion_context(const BodyModel& model, const GaitPrior& prior,
+                             const MotionModel& moves, const MotionConfig& config, double dt) {
+  return {model,
+          prior,
+          moves,
+          config,
+          noise_scale(moves, config, model, dt),
+          markov_steps(moves, config, dt),
+          dt};
 }
 
 Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng) {

@@ -15,7 +15,6 @@
 
 #include "gait/gait_prior.h"
 #include "tracker/motion_model.h"
-#include "tracker/step_book.h"
 
 namespace walktrack {
 
@@ -64,13 +63,15 @@ NoiseScale noise_scale(const MotionModel& moves, const MotionConfig& config, con
 struct MotionContext {
   const BodyModel& model;
   const GaitPrior& prior;
-  const StepBook& steps;
   const MotionModel& moves;
   MotionConfig config;
   NoiseScale scale;
   MarkovSteps markov;
   double dt;  // s
 };
+
+MotionContext motion_context(const BodyModel& model, const GaitPrior& prior,
+                             const MotionModel& moves, const MotionConfig& config, double dt);
 
 // The first frame of a particle: nothing moves, but its noise is drawn.
 Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng);

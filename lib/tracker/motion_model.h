@@ -66,6 +66,8 @@ class MotionModel {
   virtual std::span<const NoiseGroup> noise_groups() const = 0;
 };
 
-std::unique_ptr<const MotionModel> make_motion_model(MotionKind kind, const BodyModel& model);
+// Of that body, with the prior's gaits where the model walks like them.
+std::unique_ptr<const MotionModel> make_motion_model(MotionKind kind, const BodyModel& model,
+                                                     const GaitPrior& prior);
 
 }  // namespace walktrack

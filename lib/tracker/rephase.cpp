@@ -72,8 +72,9 @@ void draw_before(const MotionContext& context, WalkerParticle& reading, Rng& rng
 
 }  // namespace
 
-bool rephase(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  const BookedStep* step = context.steps.near(particle.aim, rng);
+bool rephase(const MotionContext& context, const StepBook& steps, WalkerParticle& particle,
+             Rng& rng) {
+  const BookedStep* step = steps.near(particle.aim, rng);
   if (step == nullptr) return false;
   WalkerParticle reading = particle;
   reading.aim = step->aim;

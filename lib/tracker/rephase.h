@@ -14,12 +14,14 @@
 #pragma once
 
 #include "tracker/motion.h"
+#include "tracker/step_book.h"
 
 namespace walktrack {
 
-// Whether the proposal was accepted; then walker, stance, controls, aim, ball and the strays
-// (extra and extra_before from kTilt to kShankRight) are the new ones. They show the particle's
-// pose, but for the height of the hip, which the standing leg gives.
-bool rephase(const MotionContext& context, WalkerParticle& particle, Rng& rng);
+// Reads it as a moment of one of `steps`. Whether the proposal was accepted; then walker, stance,
+// controls, aim, ball and the strays (extra and extra_before from kTilt to kShankRight) are the new
+// ones. They show the particle's pose, but for the height of the hip, which the standing leg gives.
+bool rephase(const MotionContext& context, const StepBook& steps, WalkerParticle& particle,
+             Rng& rng);
 
 }  // namespace walktrack

@@ -37,11 +37,10 @@ Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig
       config_(to_scale(config, scene_.model.body.subject.height)),
       seed_(seed),
       threads_(threads),
-      moves_(make_motion_model(config_.motion.model, scene_.model)),
+      moves_(make_motion_model(config_.motion.model, scene_.model, prior)),
       frame_scale_(noise_scale(*moves_, config_.motion, scene_.model, scene_.dt)),
       markov_(markov_steps(*moves_, config_.motion, scene_.dt)),
       figures_(scene_.model, prior),
-      steps_(scene_.model.walker, prior),
       filter_(config.filter, seed, threads) {}
 
 std::vector<FrameRecord> Tracker::push(const SceneEvidence& evidence) {
@@ -175,7 +174,7 @@ bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
 WalkerFilterContext Tracker::context(bool first) const {
   const NoiseScale scale = first ? start_scale(config_.start, frame_scale_) : frame_scale_;
   return {scene_,
-          {scene_.model, prior_, steps_, *moves_, config_.motion, scale, markov_, scene_.dt},
+          {scene_.model, prior_, *moves_, config_.motion, scale, markov_, scene_.dt},
           config_.samples,
           threads_,
           config_.model_error};

@@ -106,7 +106,6 @@ class Tracker {
   Mode mode_ = Mode::kSearching;
   uint32_t frame_ = 0;  // of the next evidence to be worked on
   FigureBook figures_;
-  StepBook steps_;
   std::vector<Eigen::Vector2d> places_;
   std::deque<SceneEvidence> window_;
   std::deque<std::optional<std::vector<Place>>> candidates_;  // of frames that were asked

@@ -84,8 +84,7 @@ ParticleScene particle_scene(size_t count) {
   const GaitPrior prior = load_gait_prior();
   ParticleScene scene{.model = model,
                       .prior = prior,
-                      .steps = StepBook(model.walker, prior),
-                      .moves = make_motion_model(MotionKind::kKneed, model),
+                      .moves = make_motion_model(MotionKind::kKneed, model, prior),
                       .config = {},
                       .particles = {}};
   StartConfig start;

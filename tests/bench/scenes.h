@@ -40,22 +40,12 @@ FigureScene figure_scene(size_t poses);
 struct ParticleScene {
   BodyModel model;
   GaitPrior prior;
-  StepBook steps;
   std::unique_ptr<const MotionModel> moves;
   MotionConfig config;
   double dt = 1.0 / 30;  // s
   std::vector<WalkerParticle> particles;
 
-  MotionContext context() const {
-    return {model,
-            prior,
-            steps,
-            *moves,
-            config,
-            noise_scale(*moves, config, model, dt),
-            markov_steps(*moves, config, dt),
-            dt};
-  }
+  MotionContext context() const { return motion_context(model, prior, *moves, config, dt); }
 };
 ParticleScene particle_scene(size_t count);
 

@@ -42,7 +42,6 @@ struct LinearRun {
 
 // The log-likelihood of one number, as if parts of it came from different cameras.
 struct InStages {
-  static constexpr int kMaxStages = 2;
   std::function<double(const LinearState&)> whole;
   std::array<std::atomic<int>, kMaxStages>* asked;
 
@@ -57,7 +56,7 @@ struct InStages {
 };
 
 LinearRun run_linear(FilterConfig config, double r, int frames, int threads, uint64_t seed,
-                     std::array<std::atomic<int>, InStages::kMaxStages>* asked = nullptr) {
+                     std::array<std::atomic<int>, kMaxStages>* asked = nullptr) {
   ParticleFilter<LinearState> filter(config, seed, threads);
   filter.start(std::vector<LinearState>(static_cast<size_t>(config.particles)));
   Kalman kalman;
@@ -103,7 +102,7 @@ LinearRun run_linear(FilterConfig config, double r, int frames, int threads, uin
 // self-normalised estimate is below kSpread * posterior variance / N for these likelihoods
 // (effective sample sizes above N / kSpread).
 void expect_kalman(const FilterConfig& config, double r, double spread,
-                   std::array<std::atomic<int>, InStages::kMaxStages>* asked = nullptr) {
+                   std::array<std::atomic<int>, kMaxStages>* asked = nullptr) {
   const LinearRun run = run_linear(config, r, 60, 1, 11, asked);
   double z_mean = 0, z_evidence = 0;
   for (size_t t = 0; t < run.mean.size(); ++t) {
@@ -127,7 +126,7 @@ TEST(ParticleFilter, TemperedFilterAgreesWithTheKalmanFilterOnASharpLikelihood) 
 }
 
 TEST(ParticleFilter, StagesLeaveThePosteriorAsItIsAndTheSecondIsAskedLess) {
-  std::array<std::atomic<int>, InStages::kMaxStages> asked{};
+  std::array<std::atomic<int>, kMaxStages> asked{};
   expect_kalman({.particles = 20000, .max_layers = 12, .moves = 3}, 0.02, 30, &asked);
   EXPECT_LT(asked[1], 0.9 * asked[0]);
 }

@@ -19,20 +19,13 @@ inline BodyModel test_model() {
 
 // What a context refers to, kept together.
 struct Walking {
-  explicit Walking(MotionKind kind = MotionKind::kKneed) : moves(make_motion_model(kind, model)) {}
+  explicit Walking(MotionKind kind = MotionKind::kKneed)
+      : moves(make_motion_model(kind, model, prior)) {}
   BodyModel model = test_model();
   GaitPrior prior = load_gait_prior();
-  StepBook steps{model.walker, prior};
   std::unique_ptr<const MotionModel> moves;
   MotionContext context(double dt, const MotionConfig& config = {}) const {
-    return {model,
-            prior,
-            steps,
-            *moves,
-            config,
-            noise_scale(*moves, config, model, dt),
-            markov_steps(*moves, config, dt),
-            dt};
+    return motion_context(model, prior, *moves, config, dt);
   }
 };
 

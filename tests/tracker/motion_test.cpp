@@ -55,7 +55,7 @@ TEST(ToScale, TheSmallAndTheLargeWalkAlike) {
     const Subject subject{.height = height, .mass = 70 * std::pow(length, 3), .lengths = {}};
     walking.model.body = make_body(subject, {.head = true, .arms = false});
     walking.model.walker = kneed_model(kneed_parameters(subject, kStandardGravity));
-    walking.steps = StepBook(walking.model.walker, walking.prior);
+    walking.moves = make_motion_model(MotionKind::kKneed, walking.model, walking.prior);
     MotionConfig adult;
     adult.rephasing = 0;  // asks how far the angles stray, whose processes keep their times
     const MotionContext context = walking.context(dt, to_scale(adult, height));

@@ -22,6 +22,7 @@ MotionConfig with_rephasing(double rate) {
 // Walkers on their way, each rephased once if it is in a hundred attempts; how many were.
 template <typename Check>
 int rephase_each(const Walking& walking, int count, const Check& check) {
+  const StepBook steps(walking.model.walker, walking.prior);
   const MotionContext context = walking.context(kDt, with_rephasing(0));
   int accepted = 0;
   uint32_t i = 0;
@@ -30,7 +31,7 @@ int rephase_each(const Walking& walking, int count, const Check& check) {
     Rng rng = stream(i++);
     bool changed = false;
     for (int attempt = 0; attempt < 100 && !changed; ++attempt)
-      changed = rephase(context, particle, rng);
+      changed = rephase(context, steps, particle, rng);
     if (!changed) continue;
     ++accepted;
     check(context, before, particle);
@@ -82,6 +83,7 @@ void stray(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
 // Metropolis-Hastings: strays that have their distribution keep it, of now and of their change.
 TEST(Rephase, LeavesTheStraysDistribution) {
   const Walking walking;
+  const StepBook steps(walking.model.walker, walking.prior);
   const MotionContext context = walking.context(kDt, with_rephasing(0));
   constexpr int kParticles = 2000;
   int accepted = 0;
@@ -89,7 +91,7 @@ TEST(Rephase, LeavesTheStraysDistribution) {
   for (WalkerParticle& particle : walkers(context, 1.3, kParticles)) {
     Rng rng = stream(static_cast<uint32_t>(count));
     stray(context, particle, rng);
-    for (int repeat = 0; repeat < 20; ++repeat) accepted += rephase(context, particle, rng);
+    for (int repeat = 0; repeat < 20; ++repeat) accepted += rephase(context, steps, particle, rng);
     for (size_t k = kTilt; k <= kShankRight; ++k) {
       const MarkovConstants c = markov_constants(static_cast<Extra>(k));
       const double sd = context.config.misfit * c.spread, r = std::exp(-kDt / c.time);
@@ -108,6 +110,7 @@ TEST(Rephase, LeavesTheStraysDistribution) {
 // A set whose walkers still swing a leg that has come down finds the new step.
 TEST(Rephase, FindsAMissedStrike) {
   const Walking walking;
+  const StepBook steps(walking.model.walker, walking.prior);
   const MotionContext context = walking.context(kDt, with_rephasing(0));
   const KneedModel& model = context.model.walker;
   const PriorGait gait = gait_at(context.prior, model.parameters, 1.3, 0.7);
@@ -127,7 +130,7 @@ TEST(Rephase, FindsAMissedStrike) {
     particle.extra[kThigh] = rad_from_deg(25);  // what it takes to show that pose, about
     particle.extra[kThighRight] = rad_from_deg(-25);
     Rng rng = stream(i);
-    for (int frame = 0; frame < 60; ++frame) rephase(context, particle, rng);
+    for (int frame = 0; frame < 60; ++frame) rephase(context, steps, particle, rng);
     const double phase = particle.walker.since_transfer / particle.aim.duration();
     found += particle.stance == Side::kRight && std::abs(phase - kIntoTheStep) < 0.15;
   }
@@ -136,12 +139,13 @@ TEST(Rephase, FindsAMissedStrike) {
 
 TEST(Rephase, WalkersThatMayNotStrayAreLeftAlone) {
   const Walking walking;
+  const StepBook steps(walking.model.walker, walking.prior);
   MotionConfig config = with_rephasing(0);
   config.misfit = 0;
   const MotionContext context = walking.context(kDt, config);
   for (WalkerParticle& particle : walkers_on_their_way(context, 20)) {
     Rng rng = stream(0);
-    EXPECT_FALSE(rephase(context, particle, rng));
+    EXPECT_FALSE(rephase(context, steps, particle, rng));
   }
 }
 

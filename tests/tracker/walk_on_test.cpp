@@ -77,6 +77,31 @@ TEST(WalkOn, ASlopeOfNothingIsLevel) {
   expect_same(batch, single, 1e-7);
 }
 
+// Who changes feet within a frame has the new step's controls for the rest of it.
+TEST(WalkOn, LongFramesAreManyShortOnes) {
+  const Walking walking;
+  MotionConfig quiet;
+  quiet.clock = quiet.control_noise = quiet.aim_drift = 0;
+  constexpr int kShorter = 8;
+  const MotionContext once = walking.context(0.4, quiet);
+  const MotionContext often = walking.context(0.4 / kShorter, quiet);
+  std::vector<WalkerParticle> long_frame = walkers(once, 1.3, kWalkers);
+  // The next step is to be another one than the present one.
+  for (WalkerParticle& p : long_frame) p.aim = {1.6, 0.8};
+  std::vector<WalkerParticle> short_frames = long_frame;
+  std::vector<Rng> rngs(kWalkers, Rng(2, Purpose::kTest));
+  std::vector<Outcome> outcomes(kWalkers);
+  walk_on(once, long_frame, rngs, outcomes);
+  for (int k = 0; k < kShorter; ++k) walk_on(often, short_frames, rngs, outcomes);
+  int changed = 0;
+  for (size_t i = 0; i < kWalkers; ++i) {
+    const KneedState &a = long_frame[i].walker, &b = short_frames[i].walker;
+    EXPECT_LE((a.q - b.q).norm(), 1e-3) << i;
+    changed += a.since_transfer < 0.4;
+  }
+  EXPECT_GT(changed, kWalkers / 4);
+}
+
 // Downhill is forwards for those who head that way, backwards for those who head the other way.
 TEST(WalkOn, EverybodyFeelsTheSlopeOfTheirOwnHeading) {
   Walking walking;
