@@ -122,18 +122,19 @@ std::vector<Walk> proposed_walks(const WindowCandidates& window, double dt,
 }
 
 // The pattern of a climb: shifts of the line's two ends, metres. The score is a ridge along the
-// viewing rays, so the pattern lies along and across them.
+// viewing rays, so the pattern lies along and across each end's own.
 struct Shift {
   Vector2d begin, end;
 };
 
-std::vector<Shift> shifts(const Vector2d& ray) {
-  const Vector2d across(-ray.y(), ray.x()), none = Vector2d::Zero();
+std::vector<Shift> shifts(const Shift& rays) {
+  const Shift across{{-rays.begin.y(), rays.begin.x()}, {-rays.end.y(), rays.end.x()}};
+  const Vector2d none = Vector2d::Zero();
   std::vector<Shift> out;
-  for (const Vector2d& axis : {ray, across}) {
+  for (const Shift& axes : {rays, across}) {
     for (const double sign : {1.0, -1.0}) {
-      const Vector2d shift = sign * axis;
-      out.insert(out.end(), {{shift, shift}, {shift, none}, {none, shift}, {shift, -shift}});
+      const Vector2d begin = sign * axes.begin, end = sign * axes.end;
+      out.insert(out.end(), {{begin, end}, {begin, none}, {none, end}, {begin, -end}});
     }
   }
   return out;
@@ -144,7 +145,9 @@ Walk refined(Walk walk, const WindowScore& score, size_t frames, double dt, cons
   const double time = dt * double(frames - 1);
   const size_t stride = std::max<size_t>(1, frames / kScored);
   walk.score = line_score(score, walk.line, frames, stride, dt);
-  const std::vector<Shift> pattern = shifts((walk.line.position - eye).normalized());
+  const Vector2d end = walk.line.position + time * walk.line.velocity;
+  const std::vector<Shift> pattern =
+      shifts({(walk.line.position - eye).normalized(), (end - eye).normalized()});
   for (double step = 0.24; step > 0.01; step *= 0.5) {
     for (bool better = true; better;) {
       better = false;

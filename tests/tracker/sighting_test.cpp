@@ -75,6 +75,32 @@ TEST(FindWalk, FindsAWalkerBetweenThingsThatStandStill) {
   EXPECT_NEAR(walk->velocity.y(), 0.0, 0.06);
 }
 
+// What one camera scores: a ridge along the viewing ray, forty times as long as it is wide.
+double ridge(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double height) {
+  const Eigen::Vector2d eye(0, -6), from_eye = place - eye, true_ray = truth - eye;
+  const double farther = from_eye.norm() / true_ray.norm() - 1;
+  const double aside = std::remainder(
+      std::atan2(from_eye.x(), from_eye.y()) - std::atan2(true_ray.x(), true_ray.y()), 2 * kPi);
+  return height * std::exp(-0.5 * (std::pow(farther / 0.3, 2) + std::pow(aside / 0.008, 2)));
+}
+
+// Either end of a line has a ray of its own. Who climbs along one ray with both leaves the ridge.
+TEST(FindWalk, ClimbsAlongTheRayOfEitherEnd) {
+  const auto truth = [](size_t frame) {
+    return Eigen::Vector2d(-1.6 + 1.4 * kDt * double(frame), 0.4);
+  };
+  Film f =
+      film([&](size_t frame, const Eigen::Vector2d& p) { return ridge(p, truth(frame), 100); });
+  // The only candidate of the late frame stands on its ray, but half as far again away.
+  const size_t late = window_ends(kFrames).late;
+  const Eigen::Vector2d eye(0, -6), far = eye + 1.5 * (truth(late) - eye);
+  f.late = {{far, f.score(late, far, {})}};
+  const auto walk = f.walk();
+  ASSERT_TRUE(walk);
+  EXPECT_LT((walk->position - truth(0)).norm(), 0.05);
+  EXPECT_NEAR(walk->velocity.y(), 0, 0.1);
+}
+
 TEST(FindWalk, NobodyWalks) {
   const Film empty = film([](size_t, const Eigen::Vector2d&) { return -5.0; });
   EXPECT_FALSE(empty.walk());
