@@ -88,6 +88,8 @@ void add_motion(ParameterTable& table) {
   m.number("torque_noise_scale", &M::torque_noise_scale, 0, 1000, "multiplies all five torques");
   m.number("clock", &M::clock, 0, 1, "how far the phase strays from the walker's, s per sqrt(s)");
   m.number("turning", &M::turning, 0, 100, "the usual rate of turning, rad/s");
+  m.number("facing", &M::facing, 0.01, 1000,
+           "time in which a heading comes back to the way that is gone, s");
   m.number("misfit", &M::misfit, 0, 10, "multiplies how far angles stray from the walker's");
   m.number("ball_drift", &M::ball_drift, 0, 1, "of a standing foot along its way, m per sqrt(s)");
   m.number("ball_slip", &M::ball_slip, 0, 1, "and across it, m per sqrt(s)");

@@ -59,10 +59,11 @@ void fields(Archive& archive, T& value) {
 template <typename Archive, ArchivedAs<WalkerParticle> T>
 void fields(Archive& archive, T& value) {
   auto& [predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_extra, noise,
-         walker, stance, ball, extra, extra_before, pose, pose_before, arriving, controls, aim] =
-      value;
+         walker, stance, ball, extra, extra_before, pose, pose_before, way, arriving, controls,
+         aim] = value;
   archive(predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_extra, noise,
-          walker, stance, ball, extra, extra_before, pose, pose_before, arriving, controls, aim);
+          walker, stance, ball, extra, extra_before, pose, pose_before, way, arriving, controls,
+          aim);
 }
 
 template <typename Archive, ArchivedAs<ParticleSet<WalkerParticle>> T>

@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
+
+#include <Eigen/Geometry>
 
 #include "core/conventions.h"
 
 namespace walktrack {
 
 namespace {
+
+using Eigen::Vector2d;
 
 // Arms swing against the legs: forward with the other side's thigh.
 double rest_of(Extra extra, const MarkovStep& step, const WalkerParticle& particle) {
@@ -29,6 +34,28 @@ void predict_extras(const MotionContext& context, WalkerParticle& particle) {
     particle.extra_before[i] = now;
     particle.predicted_extra[i] = std::clamp(next, step.lowest, step.highest);
   }
+}
+
+Vector2d turned(const Vector2d& v, double angle) { return Eigen::Rotation2Dd(angle) * v; }
+
+// The way of the last frame becomes part of that of the last step.
+void remember_way(const MotionContext& context, WalkerParticle& particle) {
+  const Pose &now = particle.pose, &before = particle.pose_before;
+  const Vector2d velocity = (now.root - before.root).head<2>() / context.dt;
+  const double kept = std::exp(-context.dt / particle.aim.duration());
+  particle.way =
+      kept * particle.way + (1 - kept) * turned(velocity, -0.5 * (now.heading + before.heading));
+}
+
+// The prediction turns to the way; that is no turning which goes on.
+void face_the_way(const MotionContext& context, WalkerParticle& particle) {
+  // Who hardly goes faces anywhere.
+  const double ahead = std::max(particle.way.x(), 0.25 * particle.aim.speed);
+  const double off = std::atan2(particle.way.y(), ahead);
+  const double turn = off * (1 - std::exp(-context.dt / context.config.facing));
+  particle.predicted_extra[kHeading] += turn;
+  particle.extra_before[kHeading] += turn;
+  particle.way = turned(particle.way, -turn);
 }
 
 void draw_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
@@ -67,6 +94,7 @@ MotionConfig to_scale(const MotionConfig& config, double height) {
   scaled.torque_noise_scale *= std::sqrt(time);  // of a share of M g L per root second
   scaled.clock *= std::sqrt(time);
   scaled.turning /= time;
+  scaled.facing *= time;
   scaled.ball_drift *= length / std::sqrt(time);
   scaled.ball_slip *= length / std::sqrt(time);
   scaled.landing *= length;
@@ -113,6 +141,7 @@ MotionContext motion_context(const BodyModel& model, const GaitPrior& prior,
 
 Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   particle.arriving = true;
+  particle.way = {particle.aim.speed, 0};
   return predict(context, particle, rng) ? Outcome::kAlive : Outcome::kDead;
 }
 
@@ -120,9 +149,10 @@ void propagate(const MotionContext& context, std::span<WalkerParticle> particles
                std::span<Rng> rngs, std::span<Outcome> outcomes) {
   for (size_t i = 0; i < particles.size(); ++i) {
     WalkerParticle& p = particles[i];
-    p.arriving = false;
+    if (!std::exchange(p.arriving, false)) remember_way(context, p);
     context.moves.reconsider(context, p, rngs[i]);
     predict_extras(context, p);
+    face_the_way(context, p);
   }
   context.moves.walk(context, particles, rngs, outcomes);
   for (size_t i = 0; i < particles.size(); ++i) {

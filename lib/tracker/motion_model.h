@@ -12,6 +12,7 @@
 #include <span>
 
 #include "core/rng.h"
+#include "gait/gait_prior.h"
 #include "tracker/particle.h"
 
 namespace walktrack {

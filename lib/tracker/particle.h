@@ -91,6 +91,8 @@ struct WalkerParticle {
   Eigen::Vector2d ball = Eigen::Vector2d::Zero();  // of the standing foot, on the ground, m
   Extras extra{}, extra_before{};                  // now and one frame ago
   Pose pose, pose_before;                          // now and one frame ago
+  // How the root has moved in about the last step, forward and to the left, m/s.
+  Eigen::Vector2d way = Eigen::Vector2d::Zero();
   bool arriving = false;  // the first frame: there is no frame before, extras start at rest
 
   KneedControls controls;

@@ -42,7 +42,10 @@ TEST(Propagate, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
   const double distance = p.pose.root.x() - start.x();
   // The gait is the prior's nearest to that aim, to some per cent.
   EXPECT_NEAR(distance / (kFrames * dt), 1.2, 0.06);
-  EXPECT_NEAR(p.extra[kHeading], 0, 1e-9);
+  // The heading follows the pelvis, which sways over the standing foot.
+  const double sway = rad_from_deg(1.5);
+  EXPECT_NEAR(p.extra[kHeading], 0, sway);
+  EXPECT_NEAR(p.pose.root.y() - start.y(), 0, sway * distance);
 }
 
 // Law of similarity: with lengths k and times root k, somebody k times as tall walks the same way,
@@ -71,6 +74,55 @@ TEST(ToScale, TheSmallAndTheLargeWalkAlike) {
   // Rounding grows through three supports.
   EXPECT_NEAR((where(0.9) - where(kAdultHeight)).norm(), 0, 1e-6);
   EXPECT_NEAR((where(3) - where(kAdultHeight)).norm(), 0, 1e-6);
+}
+
+// A walker that images keep taking aside, as a figure is that faces one way and goes another.
+double heading_after(double facing, double aside, double seconds) {
+  const Walking walking;
+  constexpr double dt = 1.0 / 30;
+  MotionConfig config = quiet();
+  config.facing = facing;
+  const MotionContext context = walking.context(dt, config);
+  WalkerParticle p = walkers(context, 1.2, 1)[0];
+  const double speed = p.aim.speed;
+  Rng rng(1, Purpose::kTest);
+  arrive(context, p, rng);
+  for (int frame = 0; frame * dt < seconds; ++frame) {
+    EXPECT_EQ(propagate(context, p, rng), Outcome::kAlive);
+    silence(p, context);
+    // From where the last frame was, along the way.
+    const double way = aside * std::clamp(frame * dt / 0.5, 0.0, 1.0);
+    const Eigen::Vector2d place =
+        p.pose_before.root.head<2>() + speed * dt * Eigen::Vector2d(std::cos(way), std::sin(way));
+    const Eigen::Vector2d shift = place - p.pose.root.head<2>();
+    p.ball += shift;
+    p.pose.root.head<2>() += shift;
+  }
+  return p.extra[kHeading];
+}
+
+TEST(Propagate, TheHeadingComesBackToTheWay) {
+  const double aside = rad_from_deg(20);
+  EXPECT_NEAR(heading_after(0.2, aside, 4), aside, rad_from_deg(1));
+  EXPECT_NEAR(heading_after(0.2, -aside, 4), -aside, rad_from_deg(1));
+  EXPECT_NEAR(heading_after(1000, aside, 4), 0, rad_from_deg(1));
+}
+
+// Who turns steadily is not held back: the way turns with them.
+TEST(Propagate, ATurnGoesOn) {
+  const Walking walking;
+  constexpr double dt = 1.0 / 30, rate = 0.5;
+  const MotionContext context = walking.context(dt, quiet());
+  WalkerParticle p = walkers(context, 1.2, 1)[0];
+  Rng rng(1, Purpose::kTest);
+  arrive(context, p, rng);
+  for (int frame = 0; frame < 90; ++frame) {
+    p.extra_before[kHeading] = p.extra[kHeading] - rate * dt;
+    ASSERT_EQ(propagate(context, p, rng), Outcome::kAlive);
+    silence(p, context);
+  }
+  const double momentum = context.markov[kHeading].momentum;
+  EXPECT_NEAR(p.extra[kHeading], 90 * momentum * rate * dt, 0.1 * 90 * rate * dt);
 }
 
 // People's pelvis goes on at nearly constant speed, the walker's slows over its standing leg and
