@@ -251,6 +251,8 @@ Scene read_scene(const fs::path& path) {
     scene.frame_rate = root.at("frame_rate").number(kSlowestRate, kFastestRate);
   }
   scene.subject = read_subject(root);
+  scene.height_given = root.has("subject") && root.at("subject").has("height");
+  scene.mass_given = root.has("subject") && root.at("subject").has("mass");
   scene.initial = read_initial(root, scene.world);
   read_occluders(root, scene.cameras);
   if (root.has("truth")) scene.truth = existing_path(root.at("truth"), folder);

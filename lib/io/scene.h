@@ -55,6 +55,7 @@ struct Scene {
   WorldFrame world;                         // world_from_calibration
   Eigen::Vector3d gravity{0, 0, -9.80665};  // world axes, m/s^2; a slope tilts it
   Subject subject;
+  bool height_given = true, mass_given = true;  // otherwise the subject's are usual ones
   std::optional<InitialState> initial;
   std::filesystem::path truth;    // empty = none
   int first_frame = 0;            // time 0

@@ -84,10 +84,16 @@ void fields(Archive& archive, T& value) {
   archive(position, velocity, frame);
 }
 
+template <typename Archive, ArchivedAs<Stature> T>
+void fields(Archive& archive, T& value) {
+  auto& [height, sd] = value;
+  archive(height, sd);
+}
+
 template <typename Archive, ArchivedAs<TrackerState> T>
 void fields(Archive& archive, T& value) {
-  auto& [frame, starts, filter, last_seen, supports, below, beaten, losses, doubt] = value;
-  archive(frame, starts, filter, last_seen, supports, below, beaten, losses, doubt);
+  auto& [frame, starts, filter, last_seen, supports, below, beaten, losses, doubt, stature] = value;
+  archive(frame, starts, filter, last_seen, supports, below, beaten, losses, doubt, stature);
 }
 
 template <typename Archive, ArchivedAs<BackgroundModel> T>

@@ -72,6 +72,13 @@ CheckReport check_scene(const CheckJob& job, const JobControl& control) {
   const bool poses_can_be = !report.failed();
   // Where calibrations or sizes are wrong, what is seen in the images means nothing.
   if (check_videos(scene, control, report) && poses_can_be) check_steps(scene, control, report);
+  if (!scene.height_given)
+    report.findings.push_back(
+        {"", false,
+         fmt::format("the scene does not say how tall the subject is: here {:g} m, in `track` what "
+                     "the images say",
+                     scene.subject.height),
+         "where the height is known, subject: {height: METRES}"});
   if (!job.pictures.empty()) write_check_pictures(scene, report, job.pictures);
   return report;
 }

@@ -143,6 +143,10 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
                         : "the scene has none");
   items.fact("search", !scene.initial, "finding the walk in a window of frames, until it is found",
              scene.initial ? "the scene says where the walk begins" : "the scene has no `initial`");
+  items.fact("size", !scene.height_given,
+             "how tall the walker is, from the first window in which they are found",
+             scene.height_given ? "the scene gives subject.height"
+                                : "the scene does not give subject.height");
   const bool paced = values.budget.frame_ms > 0;
   items.fact("budget", paced,
              paced ? fmt::format("{} to {} particles, by the clock: not deterministic",

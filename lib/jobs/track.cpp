@@ -74,6 +74,13 @@ std::string pace_note(const BudgetConfig& budget) {
       budget.least_particles, budget.most_particles, budget.frame_ms);
 }
 
+std::string size_note(const Stature& stature) {
+  return fmt::format(
+      "the scene does not say how tall the subject is: {:.2f} m, give or take {:.2f}, from the "
+      "images",
+      stature.height, stature.sd);
+}
+
 RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrames& frames,
                     const TrackOutcome& outcome, const Quality& quality,
                     const WrittenTables& tables, double seconds) {
@@ -87,6 +94,7 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
   if (!outcome.trouble.empty()) out.notes.push_back(outcome.trouble);
   const bool paced = job.config.values.budget.frame_ms > 0;
   if (paced) out.notes.push_back(pace_note(job.config.values.budget));
+  if (run.stature()) out.notes.push_back(size_note(*run.stature()));
   out.numbers = {{"frames", double(frames.records.size())},
                  {"tracked_frames", double(counts.tracked)},
                  {"first_tracked_frame", double(counts.first)},
@@ -100,6 +108,10 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
                  {"negative_work_j", tables.totals.negative_work},
                  {"cost_of_transport", tables.totals.cost_of_transport},
                  {"peak_foot_load_body_weights", tables.totals.peak_load}};
+  if (run.stature()) {
+    out.numbers.emplace_back("estimated_height_m", run.stature()->height);
+    out.numbers.emplace_back("estimated_height_sd_m", run.stature()->sd);
+  }
   out.quality = quality;
   out.by_frame = {
       {"ess", by_frame(frames, [](const FrameRecord& r) { return r.filter.ess; })},
@@ -202,8 +214,10 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   const Quality quality = quality_of(frames, job.config.values.gates);
   outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
   outcome.tracked = count(frames).tracked;
+  const Scene scene = with_stature(job.scene, run.stature());
+  if (run.stature()) control.say(size_note(*run.stature()));
   const AnalysedMotion analysed =
-      analysed_motion(frames, job.scene, job.config.values.tracker.model_error);
+      analysed_motion(frames, scene, job.config.values.tracker.model_error);
   const JointUncertainty uncertainty = uncertainty_of(frames);
   KineticsConfig forces = job.config.values.kinetics;
   forces.cutoff_hz = forces.tracked_cutoff_hz;

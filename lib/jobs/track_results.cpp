@@ -171,6 +171,15 @@ std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames) {
   return out;
 }
 
+Scene with_stature(const Scene& scene, const std::optional<Stature>& stature) {
+  Scene out = scene;
+  if (!stature) return out;
+  const double ratio = stature->height / scene.subject.height;
+  out.subject.height = stature->height;
+  if (!scene.mass_given) out.subject.mass *= ratio * ratio;
+  return out;
+}
+
 AnalysedMotion analysed_motion(const TrackedFrames& frames, const Scene& scene,
                                double model_error) {
   const Motion motion = motion_of(frames);

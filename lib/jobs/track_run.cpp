@@ -129,7 +129,7 @@ Region TrackRun::region(size_t camera) const {
   constexpr double kReach = 0.5;  // m around the last pose: limbs, and the way of one frame
   const FrameEstimate& last = frames_.records.back().estimate;
   return person_region(setup_.scene.cameras[camera], last.pose.root.head<2>(),
-                       job_.scene.subject.height, kReach + last.speed * setup_.scene.dt);
+                       tracker_.body().subject.height, kReach + last.speed * setup_.scene.dt);
 }
 
 void TrackRun::observe(const SceneFrames& images) {
@@ -172,7 +172,7 @@ void TrackRun::pace(const Moment& since) {
 void TrackRun::learn() {
   if (!tracker_.tracking() || !job_.config.values.observation.foreground.enabled) return;
   const Moment start;
-  const Body& body = setup_.scene.model.body;
+  const Body& body = tracker_.body();
   const Pose& pose = frames_.records.back().estimate.pose;
   const PosedParts parts = pose_parts(body, forward_kinematics(body, pose));
   for (size_t c = 0; c < setup_.observers.size(); ++c)

@@ -76,6 +76,7 @@ class TrackRun {
   int first_frame() const { return static_cast<int>(first_frame_); }
   int frames_read() const { return static_cast<int>(frames_read_); }
   int losses() const { return tracker_.losses(); }
+  std::optional<Stature> stature() const { return tracker_.stature(); }
   int threads() const { return threads_; }
   const TrackedFrames& frames() const { return frames_; }
   // By frame, NaN while not tracking; empty without a budget.

@@ -101,6 +101,7 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
   TrackSetup setup;
   TrackerScene& out = setup.scene;
   const double gravity = scene.gravity.norm();
+  out.size_known = scene.height_given;
   out.model.body = make_body(scene.subject, config.body);
   out.model.walker = kneed_model(kneed_parameters(scene.subject, gravity));
   out.model.downhill = scene.gravity.head<2>();

@@ -47,13 +47,13 @@ std::span<const Pose> FigureBook::at(double speed) const {
   return pages_[static_cast<size_t>(std::clamp(page, 0L, long{kPages - 1}))];
 }
 
-double place_score(const TrackerScene& scene, const SceneEvidence& evidence,
+double place_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
                    std::span<const Pose> figures, const Eigen::Vector2d& position, double heading) {
   double best = -std::numeric_limits<double>::infinity();
   for (Pose pose : figures) {
     pose.root.head<2>() = position;
     pose.heading = heading;
-    const PosedParts parts = parts_of(scene.model.body, pose);
+    const PosedParts parts = parts_of(body, pose);
     double sum = 0;
     for (size_t c = 0; c < evidence.size(); ++c)
       sum += log_likelihood(scene.observation, evidence[c], project_parts(scene.cameras[c], parts),

@@ -22,6 +22,7 @@ struct TrackerScene {
   std::optional<Sighting> initial;  // where the walk starts; without it, it is searched for
   int initial_frame = 0;
   std::optional<double> initial_phase;  // of the stride, 0 = left foot strike
+  bool size_known = true;               // the model's; otherwise it is estimated
 };
 
 // Frames of `dt` s in a span of time, at least two.
@@ -44,8 +45,8 @@ class FigureBook {
   std::vector<std::vector<Pose>> pages_;
 };
 
-// The log-likelihood of the figure that fits best, its root above `position`.
-double place_score(const TrackerScene& scene, const SceneEvidence& evidence,
+// The log-likelihood of the figure that fits best, its root above `position`. `body`: the figures'.
+double place_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
                    std::span<const Pose> figures, const Eigen::Vector2d& position, double heading);
 
 }  // namespace walktrack

@@ -64,9 +64,6 @@ std::vector<double> scores_along(const WindowScore& score, const Sighting& line,
   return scores;
 }
 
-// Frames closer in time than this err together.
-constexpr double kIndependent_s = 0.15;
-
 // How fast people walk, where nothing else is known: 1.25 +- .5 m/s. It matters along the viewing
 // rays, where images say little and a line may otherwise run off.
 double log_prior(const Sighting& line) {
@@ -79,9 +76,8 @@ double log_prior(const Sighting& line) {
 double line_score(const WindowScore& score, const Sighting& line, size_t frames, size_t stride,
                   double dt) {
   const std::vector<double> scores = scores_along(score, line, line.velocity, frames, stride, dt);
-  const double looks = std::max(1.0, dt * double(frames) / kIndependent_s);
   return std::accumulate(scores.begin(), scores.end(), 0.0) / double(scores.size()) +
-         log_prior(line) / looks;
+         log_prior(line) / independent_looks(frames, dt);
 }
 
 double mean_of_worst_third(std::vector<double> scores) {
@@ -172,7 +168,7 @@ Walk refined(Walk walk, const WindowScore& score, size_t frames, double dt, cons
 // from the curvature of the log-posterior over two steps.
 double spread_of(const Shift& shift, const Walk& walk, const WindowScore& score, size_t frames,
                  double dt) {
-  const double time = dt * double(frames - 1), looks = std::max(1.0, time / kIndependent_s);
+  const double time = dt * double(frames - 1);
   double bent = -2 * walk.score;
   for (const double sign : {1.0, -1.0}) {
     Sighting line = walk.line;
@@ -181,10 +177,7 @@ double spread_of(const Shift& shift, const Walk& walk, const WindowScore& score,
     bent += line_score(score, line, frames, 1, dt);
   }
   constexpr double kFlat = 0.05;  // nats: no less curved than this
-  // The figures are not the person: errors are so much larger than the curvature tells (measured
-  // on rendered walks, where lines were off by 0.05 to 0.15 m and 0.1 to 0.3 m/s along the ray).
-  constexpr double kStrange = 2;
-  return kStrange / std::sqrt(looks * std::max(kFlat, -bent));
+  return kStrangeFigure / std::sqrt(independent_looks(frames - 1, dt) * std::max(kFlat, -bent));
 }
 
 // How uncertain a walk is along the ray.
@@ -298,6 +291,18 @@ std::optional<Sighting> find_walk(const WindowCandidates& window, const WindowSc
   measure_spread((best.line.position - eye).normalized(), score, frames, dt, best);
   best.line.score = best.score;
   return best.line;
+}
+
+Sighting nearest_walk(const Sighting& walk, size_t frames, const WindowScore& score, double dt,
+                      const Vector2d& eye) {
+  Walk found = refined({walk, 0}, score, frames, dt, eye);
+  found.line.score = line_score(score, found.line, frames, 1, dt);
+  return found.line;
+}
+
+double independent_looks(size_t frames, double dt) {
+  constexpr double kIndependent_s = 0.15;
+  return std::max(1.0, dt * double(frames) / kIndependent_s);
 }
 
 }  // namespace walktrack

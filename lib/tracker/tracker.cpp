@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <utility>
 
 #include "core/conventions.h"
@@ -12,35 +10,28 @@ namespace walktrack {
 
 namespace {
 
-constexpr double kUsualSpeed = 1.25;  // m/s
 // Walkers that explain an image no better than this share of what a stiff figure does are lost:
 // where a person is a few dozen pixels high, a figure does nearly as well as the walker itself.
 constexpr double kFigureShare = 0.9;
 
-TrackerConfig to_scale(TrackerConfig config, double height) {
-  config.motion = to_scale(config.motion, height);
-  return config;
-}
-
-double total_support(const std::vector<FrameRecord>& records) {
-  double sum = 0;
-  for (const FrameRecord& record : records) sum += record.support;
-  return sum;
-}
-
 }  // namespace
+
+WalkerKit::WalkerKit(const BodyModel& model, const GaitPrior& prior, const MotionConfig& config,
+                     double dt)
+    : motion(to_scale(config, model.body.subject.height)),
+      moves(make_motion_model(motion.model, model, prior)),
+      frame_scale(noise_scale(*moves, motion, model, dt)),
+      markov(markov_steps(*moves, motion, dt)),
+      figures(model, prior) {}
 
 Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig& config,
                  uint64_t seed, int threads)
     : scene_(std::move(scene)),
       prior_(prior),
-      config_(to_scale(config, scene_.model.body.subject.height)),
+      config_(config),
       seed_(seed),
       threads_(threads),
-      moves_(make_motion_model(config_.motion.model, scene_.model, prior)),
-      frame_scale_(noise_scale(*moves_, config_.motion, scene_.model, scene_.dt)),
-      markov_(markov_steps(*moves_, config_.motion, scene_.dt)),
-      figures_(scene_.model, prior),
+      kit_(scene_.model, prior, config.motion, scene_.dt),
       filter_(config.filter, seed, threads) {}
 
 std::vector<FrameRecord> Tracker::push(const SceneEvidence& evidence) {
@@ -51,6 +42,7 @@ std::vector<FrameRecord> Tracker::push(const SceneEvidence& evidence) {
 
 std::vector<FrameRecord> Tracker::finish() {
   std::vector<FrameRecord> out;
+  if (scene_.initial && window_.size() > 1) start_as_given(out);
   if (mode_ == Mode::kStarting) settle(out);
   out.resize(out.size() + window_.size());
   window_.clear();
@@ -59,7 +51,7 @@ std::vector<FrameRecord> Tracker::finish() {
 
 TrackerState Tracker::state() const {
   return {frame_,        starts_,        filter_.state(), last_seen_, supports_,
-          frames_below_, frames_beaten_, losses_,         doubt_};
+          frames_below_, frames_beaten_, losses_,         doubt_,     stature_};
 }
 
 void Tracker::resume(TrackerState state) {
@@ -74,6 +66,8 @@ void Tracker::resume(TrackerState state) {
   frames_beaten_ = state.frames_beaten;
   losses_ = state.losses;
   doubt_ = state.doubt;
+  stature_ = state.stature;
+  if (stature_) set_height(stature_->height);
 }
 
 void Tracker::use_particles(int count) {
@@ -98,86 +92,14 @@ void Tracker::consume(const SceneEvidence& evidence, std::vector<FrameRecord>& o
   }
 }
 
-void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
-  if (scene_.initial) {
-    if (frame_ < static_cast<uint32_t>(scene_.initial_frame)) {
-      ++frame_;
-      out.emplace_back();
-      return;
-    }
-    begin(*std::exchange(scene_.initial, std::nullopt), scene_.initial_phase);
-    return compete(evidence, out);
-  }
-  candidates_.emplace_back();
-  window_.push_back(evidence);
-  if (static_cast<int>(window_.size()) < frames_in(config_.sighting.window, scene_.dt)) return;
-  const auto window_score = [&](size_t frame, const Eigen::Vector2d& place,
-                                const Eigen::Vector2d& velocity) {
-    return place_score(scene_, window_[frame], figures_.at(velocity.norm()), place,
-                       std::atan2(velocity.y(), velocity.x()));
-  };
-  const WindowEnds ends = window_ends(window_.size());
-  const auto sighting =
-      find_walk({window_.size(), candidates(ends.early), candidates(ends.late)}, window_score,
-                scene_.dt, camera_centre(scene_.cameras[0]).head<2>(), config_.sighting, threads_);
-  if (sighting && within_reach(sighting->position, frame_) && attempt(*sighting, out)) return;
-  window_.pop_front();
-  candidates_.pop_front();
-  ++frame_;
-  out.emplace_back();
-}
-
-// Where somebody may stand in a frame of the window.
-const std::vector<Place>& Tracker::candidates(size_t index) {
-  if (places_.empty())
-    places_ = standing_places(scene_.cameras, scene_.model.body.subject.height, config_.sighting);
-  std::optional<std::vector<Place>>& found = candidates_[index];
-  if (found) return *found;
-  const auto score = [&](const Eigen::Vector2d& place) {
-    if (!within_reach(place, frame_ + static_cast<uint32_t>(index))) return 0.0;
-    // Half of the figures, half a step, will do for a first look.
-    const std::span<const Pose> figures = figures_.at(kUsualSpeed);
-    return place_score(scene_, window_[index], figures.first(figures.size() / 2), place,
-                       side_on_heading(scene_.cameras[0], place));
-  };
-  found = find_figures(score, places_, config_.sighting, threads_);
-  return *found;
-}
-
-// Tracks the window's frames from a sighting; false, and nothing has happened, if the track
-// explains them worse than the straight walk of mere figures that it came from.
-bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
-  const uint32_t first_frame = frame_;
-  const auto seen_before = last_seen_;
-  const int losses_before = losses_;
-  std::vector<FrameRecord> tried;
-  begin(sighting, std::nullopt);
-  for (const SceneEvidence& each : window_) {
-    if (mode_ == Mode::kSearching) break;
-    consume(each, tried);
-  }
-  const double support = total_support(tried) + (contest_ ? total_support(contest_->records()) : 0);
-  if (mode_ != Mode::kSearching && support >= sighting.score * double(window_.size())) {
-    window_.clear();
-    candidates_.clear();
-    std::move(tried.begin(), tried.end(), std::back_inserter(out));
-    return true;
-  }
-  mode_ = Mode::kSearching;
-  frame_ = first_frame;
-  last_seen_ = seen_before;
-  losses_ = losses_before;
-  contest_.reset();
-  return false;
-}
-
 WalkerFilterContext Tracker::context(bool first) const {
-  const NoiseScale scale = first ? start_scale(config_.start, frame_scale_) : frame_scale_;
-  return {scene_,
-          {scene_.model, prior_, *moves_, config_.motion, scale, markov_, scene_.dt},
-          config_.samples,
-          threads_,
-          config_.model_error};
+  const NoiseScale scale = first ? start_scale(config_.start, kit_.frame_scale) : kit_.frame_scale;
+  return {
+      scene_,
+      {scene_.model, prior_, *kit_.moves, kit_.motion, scale, kit_.markov, scene_.dt},
+      config_.samples,
+      threads_,
+      config_.model_error};
 }
 
 void Tracker::begin(const Sighting& sighting, std::optional<double> stride_phase) {
@@ -248,19 +170,6 @@ bool Tracker::within_reach(const Eigen::Vector2d& place, uint32_t frame) const {
   if (elapsed > config_.seek) return true;
   const Eigen::Vector2d expected = last_seen_->position + elapsed * last_seen_->velocity;
   return (place - expected).norm() < kNear + kStray * elapsed;
-}
-
-// What a figure out of the gait's book would score where the walker is believed to be, whichever
-// way it faces.
-double Tracker::figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const {
-  constexpr int kHeadings = 6;
-  double best = -std::numeric_limits<double>::infinity();
-  for (int k = 0; k < kHeadings; ++k) {
-    const double heading = estimate.pose.heading + 2 * kPi * k / kHeadings;
-    best = std::max(best, place_score(scene_, evidence, figures_.at(kUsualSpeed),
-                                      estimate.pose.root.head<2>(), heading));
-  }
-  return best;
 }
 
 // Whether the track is lost: for a while the likelihood has been far below its own recent median,

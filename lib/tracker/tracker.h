@@ -1,7 +1,8 @@
 // The tracker: frames of evidence in, poses with their uncertainty out.
 //
 //   searching: look for a walk in a sliding window of frames         (tracker/sighting.h); a start
-//              that explains the window worse than the straight walk it came from has failed
+//              that explains the window worse than the straight walk it came from has failed. A
+//              person of unknown size is sized up by the same window  (tracker/stature.h), once
 //   starting:  hypotheses over phase and side compete for a while    (tracker/contest.h)
 //   tracking:  for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h)
 //   lost:      the likelihood fell far below its own past, or below that of a figure that merely
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "tracker/contest.h"
+#include "tracker/stature.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
@@ -50,6 +52,18 @@ struct TrackerState {
   std::deque<double> supports;
   int frames_below = 0, frames_beaten = 0, losses = 0;
   double doubt = 0;
+  std::optional<Stature> stature;
+};
+
+// What follows from the body that is tracked.
+struct WalkerKit {
+  WalkerKit(const BodyModel& model, const GaitPrior& prior, const MotionConfig& config, double dt);
+
+  MotionConfig motion;  // to the body's scale
+  std::unique_ptr<const MotionModel> moves;
+  NoiseScale frame_scale;
+  MarkovSteps markov;
+  FigureBook figures;
 };
 
 class Tracker {
@@ -71,6 +85,11 @@ class Tracker {
   const ParticleSet<WalkerParticle>& particles() const { return filter_.particles(); }
   // Times that the track was lost after it had been found.
   int losses() const { return losses_; }
+  // Who is tracked: the scene's model until they have been sized up, if it does not know their
+  // size.
+  const Body& body() const { return scene_.model.body; }
+  // What came of that; nullopt while there is no need.
+  std::optional<Stature> stature() const { return stature_; }
 
   // A tracker of the same scene, configuration and seed that takes the state of another one goes on
   // as that one. There is a state only while tracking(): what a search has in hand is large and
@@ -82,7 +101,19 @@ class Tracker {
   enum class Mode { kSearching, kStarting, kTracking };
   void consume(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   void search(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
+  std::vector<Place> places_in_frame(size_t index, const Body& body,
+                                     const FigureBook& figures) const;
   const std::vector<Place>& candidates(size_t index);
+  bool wants_size() const { return !scene_.size_known && !stature_; }
+  WindowScore window_score(const Body& body, const FigureBook& figures) const;
+  std::optional<Sighting> look_for_walk(const BodyModel& model) const;
+  Eigen::Vector2d eye() const;
+  SizedWalk sized_up(const Sighting& walk, double height) const;
+  SizedWalk best_size(const Sighting& found) const;
+  bool attempt_unsized(const Sighting& found, std::vector<FrameRecord>& out);
+  void take_size(const Stature& stature);
+  void set_height(double height);
+  void start_as_given(std::vector<FrameRecord>& out);
   bool attempt(const Sighting& sighting, std::vector<FrameRecord>& out);
   void begin(const Sighting& sighting, std::optional<double> stride_phase);
   void compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
@@ -99,13 +130,10 @@ class Tracker {
   TrackerConfig config_;
   uint64_t seed_;
   int threads_;
-  std::unique_ptr<const MotionModel> moves_;
-  NoiseScale frame_scale_;
-  MarkovSteps markov_;
+  WalkerKit kit_;
 
   Mode mode_ = Mode::kSearching;
   uint32_t frame_ = 0;  // of the next evidence to be worked on
-  FigureBook figures_;
   std::vector<Eigen::Vector2d> places_;
   std::deque<SceneEvidence> window_;
   std::deque<std::optional<std::vector<Place>>> candidates_;  // of frames that were asked
@@ -117,6 +145,7 @@ class Tracker {
   int frames_below_ = 0, frames_beaten_ = 0;
   int losses_ = 0;
   double doubt_ = 0;  // probability that the start has chosen the wrong leg
+  std::optional<Stature> stature_;
 };
 
 }  // namespace walktrack

@@ -44,6 +44,7 @@ TEST_F(SceneFile, NeedsOnlyACamera) {
   EXPECT_EQ(scene.cameras[0].camera.width_px, 64);
   EXPECT_EQ(scene.subject.height, 1.75);
   EXPECT_EQ(scene.subject.mass, 70);
+  EXPECT_FALSE(scene.height_given || scene.mass_given);
   EXPECT_EQ(scene.gravity, Vector3d(0, 0, -kStandardGravity));
   EXPECT_FALSE(scene.initial || scene.frame_rate || scene.last_frame);
   EXPECT_TRUE(scene.truth.empty());
@@ -70,6 +71,7 @@ TEST_F(SceneFile, ReadsEveryKey) {
   EXPECT_EQ(scene.frame_rate, 50);
   EXPECT_EQ(scene.gravity, Vector3d(0.5, 0, -9.8));
   EXPECT_EQ(scene.subject.height, 1.6);
+  EXPECT_TRUE(scene.height_given && scene.mass_given);
   EXPECT_EQ(scene.subject.lengths.thigh, 0.41);
   EXPECT_EQ(scene.subject.lengths.hip_width, 0.16);
   EXPECT_FALSE(scene.subject.lengths.shank);

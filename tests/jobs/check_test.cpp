@@ -51,7 +51,7 @@ class CheckTest : public testing::Test {
     folder_.write(file_name(i, ".yaml"), opencv_from_camera(camera));
   }
   CheckReport check(const std::string& more = "") {
-    std::string text = "frame_rate: 25\n";
+    std::string text = "frame_rate: 25\n" + subject_;
     text.append(more).append("cameras:\n");
     for (size_t i = 0; i < cameras_.size(); ++i) {
       text.append("  - {name: ").append(file_name(i, ""));
@@ -75,6 +75,7 @@ class CheckTest : public testing::Test {
   }
   TemporaryFolder folder_;
   std::vector<Camera> cameras_;
+  std::string subject_ = "subject: {height: 1.75}\n";
   CheckJob job_;
 };
 
@@ -85,6 +86,16 @@ TEST_F(CheckTest, ASoundSceneHasNothingToComplainAbout) {
   EXPECT_NEAR(report.cameras[0].view.centre.z(), 2, 1e-9);
   EXPECT_EQ(report.cameras[0].video.frame_count, 30);
   EXPECT_THAT(check_text(report), HasSubstr("c0\n  stands at (5.00, -4.00), 2.00 m above"));
+}
+
+TEST_F(CheckTest, SaysThatTheHeightIsLeftToTheImages) {
+  EXPECT_TRUE(check().findings.empty());
+  subject_ = "subject: {mass: 60}\n";
+  const CheckReport report = check();
+  EXPECT_FALSE(report.failed());
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_THAT(report.findings[0].what, HasSubstr("here 1.75 m"));
+  EXPECT_THAT(report.findings[0].cure, HasSubstr("subject: {height"));
 }
 
 TEST_F(CheckTest, FindsMillimetres) {

@@ -136,6 +136,14 @@ TEST(Plan, KnowsTheCameraAtTheSide) {
   EXPECT_FALSE(item(plan_with({}, scene), "search").on);
 }
 
+TEST(Plan, TheSizeIsLookedForWhereTheSceneDoesNotGiveIt) {
+  Scene scene = demo();
+  EXPECT_FALSE(item(plan_with({}, scene), "size").on);
+  scene.height_given = false;
+  EXPECT_TRUE(item(plan_with({}, scene), "size").on);
+  EXPECT_EQ(item(plan_with({}, scene), "size").why, "the scene does not give subject.height");
+}
+
 TEST(Plan, ASlopeIsOnWhereGravityLeans) {
   Scene scene = demo();
   scene.gravity = {-9.8 * std::sin(0.1), 0, -9.8 * std::cos(0.1)};

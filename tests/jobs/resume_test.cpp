@@ -32,6 +32,7 @@ class Resume : public testing::Test {
     // Told where to start: six frames later it is tracked.
     job.scene.initial = InitialState{0, {-2.5, 0}, 0, 1.25, {}};
     job.scene.last_frame = kFrames - 1;
+    job.scene.height_given = size_known_;
     Config& config = job.config.values;
     config.tracker.filter.particles = 40;
     config.tracker.filter.moves = 1;
@@ -82,6 +83,7 @@ class Resume : public testing::Test {
 
   TemporaryFolder folder_;
   size_t cameras_ = 1;
+  bool size_known_ = true;
   std::function<void(Config&)> change_;
 };
 
@@ -126,6 +128,15 @@ TEST_F(Resume, WithoutABackground) {
 TEST_F(Resume, WithFlow) {
   change_ = [](Config& config) { config.observation.flow.enabled = true; };
   expect_same_after_kill(15);
+}
+
+// The size that was found goes on with the walker.
+TEST_F(Resume, WithASizeFromTheImages) {
+  size_known_ = false;
+  change_ = [](Config& config) { config.tracker.sighting.window = 0.3; };
+  expect_same_after_kill(18);
+  EXPECT_TRUE(
+      Json::parse(result("whole").at("run.json"))["numbers"].contains("estimated_height_m"));
 }
 
 TEST_F(Resume, WithoutColours) {

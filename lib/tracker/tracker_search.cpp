@@ -1,0 +1,193 @@
+// The tracker while it looks for a walk: with figures, along lines, and of which size.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "core/conventions.h"
+#include "core/parallel_for.h"
+#include "tracker/tracker.h"
+
+namespace walktrack {
+
+namespace {
+
+constexpr double kUsualSpeed = 1.25;  // m/s
+
+double total_support(const std::vector<FrameRecord>& records) {
+  double sum = 0;
+  for (const FrameRecord& record : records) sum += record.support;
+  return sum;
+}
+
+}  // namespace
+
+void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
+  if (scene_.initial) {
+    if (frame_ < static_cast<uint32_t>(scene_.initial_frame)) {
+      ++frame_;
+      out.emplace_back();
+      return;
+    }
+    if (!wants_size()) {
+      begin(*std::exchange(scene_.initial, std::nullopt), scene_.initial_phase);
+      return compete(evidence, out);
+    }
+  }
+  candidates_.emplace_back();
+  window_.push_back(evidence);
+  if (static_cast<int>(window_.size()) < frames_in(config_.sighting.window, scene_.dt)) return;
+  if (scene_.initial) return start_as_given(out);
+  const WindowEnds ends = window_ends(window_.size());
+  const std::optional<Sighting> sighting =
+      find_walk({window_.size(), candidates(ends.early), candidates(ends.late)},
+                window_score(body(), kit_.figures), scene_.dt, eye(), config_.sighting, threads_);
+  if (sighting && within_reach(sighting->position, frame_) &&
+      (wants_size() ? attempt_unsized(*sighting, out) : attempt(*sighting, out)))
+    return;
+  window_.pop_front();
+  candidates_.pop_front();
+  ++frame_;
+  out.emplace_back();
+}
+
+WindowScore Tracker::window_score(const Body& body, const FigureBook& figures) const {
+  return [&](size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d& velocity) {
+    return place_score(scene_, window_[frame], body, figures.at(velocity.norm()), place,
+                       std::atan2(velocity.y(), velocity.x()));
+  };
+}
+
+// The walk that figures of another body see in the window.
+std::optional<Sighting> Tracker::look_for_walk(const BodyModel& model) const {
+  const FigureBook figures(model, prior_);
+  const WindowEnds ends = window_ends(window_.size());
+  const std::vector<Place> early = places_in_frame(ends.early, model.body, figures),
+                           late = places_in_frame(ends.late, model.body, figures);
+  return find_walk({window_.size(), early, late}, window_score(model.body, figures), scene_.dt,
+                   eye(), config_.sighting, threads_);
+}
+
+// Where the camera stands that is asked for distances.
+Eigen::Vector2d Tracker::eye() const { return camera_centre(scene_.cameras[0]).head<2>(); }
+
+SizedWalk Tracker::sized_up(const Sighting& walk, double height) const {
+  const auto score = [this](double tried) -> WindowScore {
+    const BodyModel model = with_height(scene_.model, tried);
+    return [this, body = model.body, figures = FigureBook(model, prior_)](
+               size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d& velocity) {
+      return window_score(body, figures)(frame, place, velocity);
+    };
+  };
+  return size_up(walk, height, window_.size(), score, scene_.dt, eye());
+}
+
+// The size and line that explain the window best. Figures of a wrong size may lay the line far off,
+// so it is looked for with others, too.
+SizedWalk Tracker::best_size(const Sighting& found) const {
+  std::vector<SizedWalk> sizes{{{body().subject.height, 0}, found}};
+  for (const double height : {1.3, 1.5, 1.6, 1.9}) {
+    const auto other = look_for_walk(with_height(scene_.model, height));
+    if (other) sizes.push_back({{height, 0}, *other});
+  }
+  parallel_for(sizes.size(), threads_,
+               [&](size_t i) { sizes[i] = sized_up(sizes[i].walk, sizes[i].stature.height); });
+  return *std::max_element(sizes.begin(), sizes.end(), [](const SizedWalk& a, const SizedWalk& b) {
+    return a.walk.score < b.walk.score;
+  });
+}
+
+bool Tracker::attempt_unsized(const Sighting& found, std::vector<FrameRecord>& out) {
+  const double height_before = body().subject.height;
+  const SizedWalk sized = best_size(found);
+  take_size(sized.stature);
+  if (attempt(sized.walk, out)) return true;
+  stature_.reset();
+  set_height(height_before);
+  return false;
+}
+
+void Tracker::take_size(const Stature& stature) {
+  stature_ = stature;
+  set_height(stature.height);
+}
+
+void Tracker::set_height(double height) {
+  scene_.model = with_height(scene_.model, height);
+  kit_ = WalkerKit(scene_.model, prior_, config_.motion, scene_.dt);
+  places_.clear();
+}
+
+// Starts where the scene says, the window's first frame, and tracks the window's frames.
+void Tracker::start_as_given(std::vector<FrameRecord>& out) {
+  const Sighting given = *std::exchange(scene_.initial, std::nullopt);
+  take_size(sized_up(given, body().subject.height).stature);
+  const std::deque<SceneEvidence> frames = std::exchange(window_, {});
+  candidates_.clear();
+  begin(given, scene_.initial_phase);
+  for (const SceneEvidence& each : frames) consume(each, out);
+}
+
+// Where somebody may stand in a frame of the window.
+std::vector<Place> Tracker::places_in_frame(size_t index, const Body& body,
+                                            const FigureBook& book) const {
+  const auto score = [&](const Eigen::Vector2d& place) {
+    if (!within_reach(place, frame_ + static_cast<uint32_t>(index))) return 0.0;
+    // Half of the figures, half a step, will do for a first look.
+    const std::span<const Pose> figures = book.at(kUsualSpeed);
+    return place_score(scene_, window_[index], body, figures.first(figures.size() / 2), place,
+                       side_on_heading(scene_.cameras[0], place));
+  };
+  return find_figures(score, places_, config_.sighting, threads_);
+}
+
+const std::vector<Place>& Tracker::candidates(size_t index) {
+  if (places_.empty())
+    places_ = standing_places(scene_.cameras, body().subject.height, config_.sighting);
+  std::optional<std::vector<Place>>& found = candidates_[index];
+  if (!found) found = places_in_frame(index, body(), kit_.figures);
+  return *found;
+}
+
+// Tracks the window's frames from a sighting; false, and nothing has happened, if the track
+// explains them worse than the straight walk of mere figures that it came from.
+bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
+  const uint32_t first_frame = frame_;
+  const auto seen_before = last_seen_;
+  const int losses_before = losses_;
+  std::vector<FrameRecord> tried;
+  begin(sighting, std::nullopt);
+  for (const SceneEvidence& each : window_) {
+    if (mode_ == Mode::kSearching) break;
+    consume(each, tried);
+  }
+  const double support = total_support(tried) + (contest_ ? total_support(contest_->records()) : 0);
+  if (mode_ != Mode::kSearching && support >= sighting.score * double(window_.size())) {
+    window_.clear();
+    candidates_.clear();
+    std::move(tried.begin(), tried.end(), std::back_inserter(out));
+    return true;
+  }
+  mode_ = Mode::kSearching;
+  frame_ = first_frame;
+  last_seen_ = seen_before;
+  losses_ = losses_before;
+  contest_.reset();
+  return false;
+}
+
+// What a figure out of the gait's book would score where the walker is believed to be, whichever
+// way it faces.
+double Tracker::figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const {
+  constexpr int kHeadings = 6;
+  double best = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kHeadings; ++k) {
+    const double heading = estimate.pose.heading + 2 * kPi * k / kHeadings;
+    best = std::max(best, place_score(scene_, evidence, body(), kit_.figures.at(kUsualSpeed),
+                                      estimate.pose.root.head<2>(), heading));
+  }
+  return best;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,115 @@
+// Somebody walks whose height the scene does not give. Images, not videos, whose encoder does not
+// give the same bytes twice.
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/job_control.h"
+#include "io/files.h"
+#include "io/motion_file.h"
+#include "io/render_file.h"
+#include "io/scene.h"
+#include "jobs/render.h"
+#include "jobs/track.h"
+#include "metrics/joint_error.h"
+#include "tests/io/sample_files.h"
+
+namespace walktrack {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kOptions = R"(
+seed: 20
+frame_rate: 30
+duration: 1.6
+images: true
+walk: {speed: 1.2, start: [-1, 0], phase: 0.2}
+subject: {height: 1.58, mass: 60}
+background_frames: 10
+cameras:
+  - {name: side, azimuth_deg: -90, distance: 3.6, height: 1.2, focal_px: 240, size: [240, 180]}
+  - {name: front, azimuth_deg: -20, distance: 4, height: 1.7, focal_px: 240, size: [240, 180]}
+)";
+constexpr const char* kSubject = "subject: {height: 1.58, mass: 60}";
+
+class UnknownSize : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    fs::remove_all(folder());
+    fs::create_directories(folder());
+    write_file_atomically(folder() / "options.yaml", kOptions);
+    const RenderFile file = read_render_file(folder() / "options.yaml");
+    RenderJob job;
+    job.options = file.options;
+    job.walker = file.subject;
+    job.output = folder() / "scene";
+    render_scene(job, {});
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder()); }
+  static fs::path folder() { return fs::temp_directory_path() / "walktrack_unknown_size"; }
+
+  // The scene with what it says of the subject.
+  static TrackJob job(const std::string& subject) {
+    const std::string scene = read_text_file(folder() / "scene/scene.yaml", size_t{1} << 20);
+    write_file_atomically(folder() / "scene/other.yaml", replaced(scene, kSubject, subject));
+    TrackJob job;
+    job.scene = read_scene(folder() / "scene/other.yaml");
+    job.config.values.tracker.filter.particles = 60;
+    job.config.values.tracker.start.particles = 40;
+    job.output = folder() / "tracked";
+    job.overlay = false;
+    job.overwrite = true;
+    return job;
+  }
+  static nlohmann::json run_json() {
+    return nlohmann::json::parse(read_text_file(folder() / "tracked/run.json", size_t{1} << 24));
+  }
+};
+
+TEST_F(UnknownSize, IsReadOffTheWalkAndSaid) {
+  EXPECT_EQ(track_scene(job(""), {}).status, TrackStatus::kTracked);
+  const nlohmann::json numbers = run_json().at("numbers");
+  EXPECT_NEAR(numbers.at("estimated_height_m"), 1.58, 0.05);
+  EXPECT_LT(numbers.at("estimated_height_sd_m"), 0.1);
+  EXPECT_NE(run_json().at("notes").dump().find("does not say how tall"), std::string::npos);
+  const JointErrors errors = joint_errors(read_motion(folder() / "scene/truth.csv"),
+                                          read_motion(folder() / "tracked/joints.csv"));
+  EXPECT_LT(errors.absolute.mean, 0.08);
+}
+
+TEST_F(UnknownSize, IsReadOffAWalkThatTheSceneSaysWhereToFind) {
+  TrackJob placed = job("");
+  placed.scene.initial = InitialState{0, {-1, 0}, 0, 1.2, {}};
+  EXPECT_EQ(track_scene(placed, {}).status, TrackStatus::kTracked);
+  EXPECT_NEAR(run_json().at("numbers").at("estimated_height_m"), 1.58, 0.05);
+  EXPECT_EQ(run_json().at("numbers").at("first_tracked_frame"), 0);
+  // Also where the film ends before the window of the search is full.
+  placed.scene.last_frame = 20;
+  track_scene(placed, {});
+  EXPECT_NEAR(run_json().at("numbers").at("estimated_height_m"), 1.58, 0.08);
+  EXPECT_EQ(run_json().at("numbers").at("tracked_frames"), 21);
+}
+
+TEST_F(UnknownSize, IsNotLookedForWhereTheSceneGivesIt) {
+  track_scene(job("subject: {height: 1.58}"), {});
+  EXPECT_FALSE(run_json().at("numbers").contains("estimated_height_m"));
+  EXPECT_EQ(run_json().at("notes").size(), 0u);
+}
+
+TEST_F(UnknownSize, ThreadsDoNotMatter) {
+  std::string digest;
+  for (const int threads : {1, 3}) {
+    TrackJob each = job("");
+    each.config.values.threads = threads;
+    track_scene(each, {});
+    const std::string found = run_json().at("digest");
+    EXPECT_EQ(digest.empty() ? found : digest, found);
+    digest = found;
+  }
+}
+
+}  // namespace
+}  // namespace walktrack

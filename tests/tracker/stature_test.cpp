@@ -1,0 +1,88 @@
+#include "tracker/stature.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/tracker/fixture.h"
+
+namespace walktrack {
+namespace {
+
+constexpr double kDt = 1.0 / 30;
+constexpr size_t kFrames = 36;
+const Eigen::Vector2d kEye(0, -6), kBegin(-0.8, 0.4), kVelocity(1.3, 0);
+
+Sighting walk_off_by(const Eigen::Vector2d& shift) {
+  return {.position = kBegin + shift, .velocity = kVelocity};
+}
+
+// A bell over place and height, the place drifting away from the camera as figures grow: 40 nats at
+// `height`.
+FigureScore person_of(double height, double width) {
+  return [=](double tried) -> WindowScore {
+    return [=](size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d&) {
+      const Eigen::Vector2d there =
+          kBegin + kDt * double(frame) * kVelocity + Eigen::Vector2d(0, 2 * (tried - height));
+      const double size = (tried - height) / width;
+      return 40 * std::exp(-0.5 * (size * size + (place - there).squaredNorm() / (0.3 * 0.3)));
+    };
+  };
+}
+
+SizedWalk sized(double height, double width) {
+  return size_up(walk_off_by({0.1, -0.15}), 1.75, kFrames, person_of(height, width), kDt, kEye);
+}
+
+TEST(SizeUp, FindsTheHeightAndItsLine) {
+  for (const double height : {1.22, 1.58, 1.705, 1.96}) {
+    const SizedWalk found = sized(height, 0.2);
+    // The prior pulls: an sd of 0.15 m against one of 0.2 m / sqrt(40 nats * 8 looks).
+    EXPECT_NEAR(found.stature.height, height, 0.01) << height;
+    EXPECT_LT((found.walk.position - kBegin).norm(), 0.03) << height;  // the climb ends at 1 cm
+    EXPECT_NEAR(found.walk.score, 40, 0.5) << height;
+  }
+}
+
+TEST(SizeUp, TheSpreadIsThatOfTheEvidence) {
+  const double sharp = sized(1.7, 0.15).stature.sd, vague = sized(1.7, 0.6).stature.sd;
+  EXPECT_NEAR(sharp, kStrangeFigure * 0.15 / std::sqrt(40 * independent_looks(kFrames, kDt)),
+              0.2 * sharp);  // figures are 5 cm apart: no infinitesimal curvature
+  EXPECT_GT(vague, 2.5 * sharp);
+}
+
+TEST(SizeUp, WhereImagesSayNothingItIsAUsualHeight) {
+  const FigureScore blind = [](double) -> WindowScore {
+    return [](size_t, const Eigen::Vector2d&, const Eigen::Vector2d&) { return 10.0; };
+  };
+  const SizedWalk found = size_up(walk_off_by({0, 0}), 1.75, kFrames, blind, kDt, kEye);
+  EXPECT_NEAR(found.stature.height, 1.70, 1e-6);
+  EXPECT_NEAR(found.stature.sd, 0.15, 1e-6);
+}
+
+TEST(WithHeight, IsTheModelOfSomebodyThatTall) {
+  Subject subject;
+  subject.height = 1.6;
+  subject.mass = 55;
+  subject.lengths.thigh = 0.41;
+  BodyModel model = test_model();
+  model.body = make_body(subject, {.head = true, .arms = true});
+  model.walker = kneed_model(kneed_parameters(subject, kStandardGravity));
+  model.walker.gravity.y() = -9.7;  // on a slope
+  model.downhill = {0.5, 0};
+  const BodyModel taller = with_height(model, 1.9);
+  EXPECT_EQ(taller.body.subject.height, 1.9);
+  EXPECT_EQ(taller.body.subject.mass, 55);
+  EXPECT_EQ(taller.body.lengths.thigh, 0.41);
+  EXPECT_DOUBLE_EQ(taller.body.lengths.shank, 1.9 / 1.6 * model.body.lengths.shank);
+  EXPECT_EQ(taller.body.parts.size(), model.body.parts.size());
+  EXPECT_DOUBLE_EQ(taller.walker.parameters.shank_length, taller.body.lengths.shank);
+  EXPECT_EQ(taller.walker.gravity, model.walker.gravity);
+  EXPECT_EQ(taller.downhill, model.downhill);
+  const BodyModel same = with_height(model, 1.6);
+  EXPECT_EQ(same.walker.parameters.torso.mass, model.walker.parameters.torso.mass);
+  EXPECT_EQ(same.body.lengths.trunk, model.body.lengths.trunk);
+}
+
+}  // namespace
+}  // namespace walktrack
