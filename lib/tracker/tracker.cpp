@@ -94,12 +94,11 @@ void Tracker::consume(const SceneEvidence& evidence, std::vector<FrameRecord>& o
 
 WalkerFilterContext Tracker::context(bool first) const {
   const NoiseScale scale = first ? start_scale(config_.start, kit_.frame_scale) : kit_.frame_scale;
-  return {
-      scene_,
-      {scene_.model, prior_, *kit_.moves, kit_.motion, scale, kit_.markov, scene_.dt},
-      config_.samples,
-      threads_,
-      config_.model_error};
+  return {scene_,
+          {scene_.model, prior_, *kit_.moves, kit_.motion, scale, kit_.markov, scene_.dt},
+          config_.samples,
+          threads_,
+          config_.model_error};
 }
 
 void Tracker::begin(const Sighting& sighting, std::optional<double> stride_phase) {
