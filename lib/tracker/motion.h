@@ -31,7 +31,7 @@ struct MotionConfig {
   double ankle_torque = 0.040;
   double clock = 0.05;          // s per sqrt(s): how far people's phase strays from the walker's
   double turning = 0.08;        // rad/s: the usual rate of turning
-  double facing = 0.2;          // s in which a heading comes back to the way by 1 - 1/e
+  double facing = 0.3;          // s in which a heading comes back to the way by 1 - 1/e
   double misfit = 0.7;          // multiplies how far people's angles stray from the walker's
   double ball_drift = 0.03;     // m per sqrt(s): the drawn foot does not roll as the walker's does
   double ball_slip = 0.012;     // m per sqrt(s): nor does a standing foot quite keep its line
