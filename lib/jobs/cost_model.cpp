@@ -8,18 +8,18 @@ namespace walktrack {
 namespace {
 
 // Nanoseconds, as scripts/measure_costs.py prints them.
-constexpr double kDecoding = 5.55;
-constexpr double kBackground = 60.3;
-constexpr double kAppearance = 3.49;
-constexpr double kFlowMeasured = 499;
-constexpr double kFlowWeighed = 187;
-constexpr double kPartProjected = 157;
+constexpr double kDecoding = 5.94;
+constexpr double kBackground = 96.5;
+constexpr double kAppearance = 0.593;
+constexpr double kFlowMeasured = 55.7;
+constexpr double kFlowWeighed = 1040;
+constexpr double kPartProjected = 190;
 constexpr double kRowSummed = 5.5;
-constexpr double kWalker = 1.17e5;
-constexpr double kPartPosed = 807;
+constexpr double kWalker = 1.9e4;
+constexpr double kPartPosed = 851;
 
 // Mean layers of a frame with one, two, three cameras.
-constexpr std::array<double, 3> kLayers{4.0, 4.2, 4.8};
+constexpr std::array<double, 3> kLayers{4.0, 4.3, 5.0};
 
 constexpr double kMsPerNs = 1e-6;
 

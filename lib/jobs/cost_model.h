@@ -13,7 +13,7 @@
 //
 // The coefficients are CPU times of all threads together, fitted by scripts/measure_costs.py. They
 // are those of one machine: ratios carry over to others, times only roughly. Over the fifteen
-// settings of the fit the sum was off by 3 % (median), by 27 % at worst (flow alone), given the
+// settings of the fit the sum was off by 4 % (median), by 11 % at worst (arms), given the
 // poses that were in fact weighed; their number varies by a third between scenes. Not in it:
 // searching and the contest of the first half second, learning the background before the first
 // frame, writing results.
