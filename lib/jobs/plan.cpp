@@ -160,7 +160,7 @@ PlanState state_of(const Body& body) {
   PlanState state;
   const int extras = extra_count(body);
   state.walker = static_cast<int>(KneedState{}.q.size() + KneedState{}.qd.size());
-  state.place = 2;          // of the standing foot
+  state.place = 2 + 2;      // of the standing foot; the way that the root goes
   state.pose = 2 * extras;  // with their rates, as values of two frames
   state.controls = 13 + 2;  // four springs with dampers and rest angles, a push-off; the step's aim
   state.noise = kExtraNoise + extras;

@@ -70,7 +70,8 @@ std::string plan_text(const Plan& plan) {
   out += items_text(plan);
   const PlanState& s = plan.state;
   out += fmt::format(
-      "\nState: {} numbers a particle (walker {}, standing foot {}, angles and their rates {}, "
+      "\nState: {} numbers a particle (walker {}, standing foot and way {}, angles and their rates "
+      "{}, "
       "controls {}),\n{} drawn anew in a frame; {:.0f} bytes with its copies, most of them fixed\n",
       s.dimension(), s.walker, s.place, s.pose, s.controls, s.noise, s.bytes_per_particle);
   out += cost_text(plan);
