@@ -71,8 +71,8 @@ std::string plan_text(const Plan& plan) {
   const PlanState& s = plan.state;
   out += fmt::format(
       "\nState: {} numbers a particle (walker {}, standing foot and way {}, angles and their rates "
-      "{}, "
-      "controls {}),\n{} drawn anew in a frame; {:.0f} bytes with its copies, most of them fixed\n",
+      "{}, controls {}),\n{} drawn anew in a frame; "
+      "{:.0f} bytes with its copies, most of them fixed\n",
       s.dimension(), s.walker, s.place, s.pose, s.controls, s.noise, s.bytes_per_particle);
   out += cost_text(plan);
   out += "\nMemory, besides the program's own\n";
