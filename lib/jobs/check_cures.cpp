@@ -1,5 +1,6 @@
 // Poses that cannot be, and the change of the file that would put them right: every common mistake
 // is undone on trial, and what makes the camera plausible is the cure.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -103,32 +104,71 @@ std::vector<Cure> common_cures() {
   };
 }
 
-// How many of the other cameras see a person where this one sees one best.
-int companions(const Scene& scene, const Camera& camera, size_t self) {
-  const CameraInspection view = inspect_camera(camera, scene.subject.height);
+std::vector<Camera> cameras_of(const Scene& scene) {
+  std::vector<Camera> cameras;
+  for (const SceneCamera& camera : scene.cameras) cameras.push_back(camera.camera);
+  return cameras;
+}
+
+// How many of the others see a person where `camera` sees one best.
+int companions(const std::vector<Camera>& others, const Camera& camera, size_t self,
+               double person_height) {
+  const CameraInspection view = inspect_camera(camera, person_height);
   if (!view.standing_place) return 0;
   int count = 0;
-  for (size_t i = 0; i < scene.cameras.size(); ++i) {
-    const Camera& other = scene.cameras[i].camera;
-    if (i != self && sees_person(other, *view.standing_place, scene.subject.height)) ++count;
-  }
+  for (size_t i = 0; i < others.size(); ++i)
+    if (i != self && sees_person(others[i], *view.standing_place, person_height)) ++count;
   return count;
 }
 
+// Cameras that stand upright below the ground stand on a floor that is lower than z = 0, if with
+// some lower floor all of them are plausible and see common ground.
+constexpr const char* kLowerFloor =
+    "the floor lies below z = 0 of the calibration; say where: ground: {offset: -1.2} if it is "
+    "1.2 m below";
+
+bool stand_on_a_lower_floor(const Scene& scene) {
+  const double height = scene.subject.height;
+  double lowest = 0;
+  for (const SceneCamera& camera : scene.cameras) {
+    const CameraInspection view = inspect_camera(camera.camera, height);
+    if (std::abs(view.roll) >= kMostRoll) return false;
+    lowest = std::min(lowest, view.centre.z());
+  }
+  for (const double above : {0.5, 1.0, 1.5, 2.0, 3.0, 5.0}) {  // m, of the lowest camera
+    std::vector<Camera> raised = cameras_of(scene);
+    const WorldFrame floor = world_frame_on_ground({0, 0, 1}, lowest - above);
+    for (Camera& camera : raised) camera = camera_in_world(floor, camera);
+    bool all = true;
+    for (size_t i = 0; i < raised.size() && all; ++i) {
+      all = plausible(raised[i], height) &&
+            (raised.size() == 1 || companions(raised, raised[i], i, height) > 0);
+    }
+    if (all) return true;
+  }
+  return false;
+}
+
 std::string find_cure(const Scene& scene, size_t self) {
+  const double height = scene.subject.height;
+  const std::vector<Camera> others = cameras_of(scene);
+  const bool lower_floor =
+      inspect_camera(others[self], height).centre.z() <= 0 && stand_on_a_lower_floor(scene);
+  if (lower_floor && others.size() > 1) return kLowerFloor;
   const Camera file_camera = camera_in_calibration(scene.world, scene.cameras[self].camera);
   std::string best = "compare the file's units, axes and direction (x_camera = R x_world + t)";
   int most = -1;
   for (const Cure& cure : common_cures()) {
     const Camera cured = cure.apply(file_camera, scene.world);
-    if (!plausible(cured, scene.subject.height)) continue;
-    const int count = companions(scene, cured, self);
+    if (!plausible(cured, height)) continue;
+    const int count = companions(others, cured, self, height);
     if (count > most) {
       most = count;
       best = cure.text;
     }
   }
-  return best;
+  if (!lower_floor) return best;
+  return most < 0 ? kLowerFloor : fmt::format("{}; or {}", best, kLowerFloor);
 }
 
 // What the focal length alone says; with a wrong one the distortion means nothing.
@@ -155,9 +195,10 @@ void check_lens(const SceneCamera& camera, CheckReport& report) {
 // Cameras that are plausible alone but look at different places.
 void check_common_ground(const Scene& scene, CheckReport& report) {
   if (scene.cameras.size() < 2) return;
+  const std::vector<Camera> cameras = cameras_of(scene);
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
-    const Camera& camera = scene.cameras[i].camera;
-    if (companions(scene, camera, i) > 0) continue;
+    const Camera& camera = cameras[i];
+    if (companions(cameras, camera, i, scene.subject.height) > 0) continue;
     bool seen = false;
     for (size_t j = 0; j < scene.cameras.size() && !seen; ++j) {
       const auto& place = report.cameras[j].view.standing_place;

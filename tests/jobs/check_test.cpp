@@ -147,6 +147,26 @@ TEST_F(CheckTest, FindsAWorldThatIsUpsideDown) {
   EXPECT_FALSE(check("ground: {normal: [0, 0, -1]}\n").failed());  // the cure cures
 }
 
+TEST_F(CheckTest, FindsAFloorBelowTheCalibrationsOrigin) {
+  // A calibration board on a table taller than the cameras, or an origin in a corner of the wall.
+  const double floor = -2.6;  // m
+  for (size_t i = 0; i < cameras_.size(); ++i) {
+    cameras_[i].translation -= cameras_[i].rotation * Vector3d(0, 0, floor);
+    write_camera(i, cameras_[i]);
+  }
+  const CheckReport report = check();
+  ASSERT_EQ(report.findings.size(), 3u) << check_text(report);
+  for (const Finding& finding : report.findings) {
+    EXPECT_THAT(finding.what, HasSubstr("underground"));
+    EXPECT_THAT(finding.cure, testing::StartsWith("the floor lies below z = 0"));
+  }
+  EXPECT_FALSE(check("ground: {offset: -2.6}\n").failed());  // the cure cures
+
+  cameras_.resize(1);  // alone, a camera may as well be misplaced in another way
+  const std::string cure = only_failure(check()).cure;
+  EXPECT_THAT(cure, HasSubstr("the floor lies below z = 0"));
+}
+
 TEST_F(CheckTest, AMirroredMatrixIsRefusedByTheReader) {
   cameras_[0].rotation.row(0) *= -1;
   write_camera(0, cameras_[0]);
