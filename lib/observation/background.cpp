@@ -332,8 +332,10 @@ BackgroundModel BackgroundSampler::model(int threads) const {
 double light_gain(const BackgroundModel& model, const cv::Mat& bgr) {
   // Dark pixels have no reliable ratio, bright ones saturate.
   constexpr float kDark = 30, kBright = 225;
+  const auto grid = light_grid(model.width, model.height);
   std::vector<float> ratios;
-  for (const Pixel& point : light_grid(model.width, model.height)) {
+  ratios.reserve(grid.size());
+  for (const Pixel& point : grid) {
     const float mean = model.luma[index_of(model, point)];
     const float seen = luma_at(bgr, point.x, point.y);
     if (mean > kDark && mean < kBright && seen < kBright) ratios.push_back(seen / mean);

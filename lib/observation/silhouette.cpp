@@ -110,6 +110,7 @@ double silhouette_log_ratio(const LogRatioPlanes& planes, const CapsuleList& cap
 std::vector<VisibleRun> visible_runs(const PixelRect& area, const CapsuleList& capsules) {
   std::vector<VisibleRun> runs;
   if (area.empty()) return runs;
+  runs.reserve(4 * static_cast<size_t>(area.height()));  // trunk and limbs side by side
   visit_visible(area, capsules, [&](int row, int begin, int end, size_t capsule) {
     if (begin < end)
       runs.push_back({row, area.x0 + begin, area.x0 + end, static_cast<int>(capsule)});

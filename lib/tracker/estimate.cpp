@@ -7,10 +7,14 @@
 #include "body/kinematics.h"
 #include "core/conventions.h"
 #include "core/parallel_for.h"
+#include "core/scratch.h"
 
 namespace walktrack {
 
 namespace {
+
+// Columns of up to a thousand particles stay on the stack.
+using ColumnScratch = Scratch<16 * 1024>;
 
 // Adds `weight` times a pose's numbers; headings as differences to the first particle's, so that a
 // full turn does not split them.
@@ -42,7 +46,8 @@ void spread_angles(std::span<const WalkerParticle> particles, std::span<const do
       all[i][k] = middle[k] + std::remainder(all[i][k] - middle[k], 2 * kPi);
   });
   parallel_for(kJointAngleCount, threads, [&](size_t k) {
-    std::vector<double> values(all.size());
+    ColumnScratch scratch;
+    std::pmr::vector<double> values(all.size(), scratch.memory());
     for (size_t i = 0; i < all.size(); ++i) values[i] = all[i][k];
     out.angles[k] = weighted_spread(values, weights);
   });
@@ -56,7 +61,10 @@ double since_transfer(const WalkerParticle& particle) {
 // Over the particles that stand on `side`, one at least.
 Spread since_transfer(std::span<const WalkerParticle> particles, std::span<const double> weights,
                       Side side) {
-  std::vector<double> values, shares;
+  ColumnScratch scratch;
+  std::pmr::vector<double> values(scratch.memory()), shares(scratch.memory());
+  values.reserve(particles.size());
+  shares.reserve(particles.size());
   double total = 0;
   for (size_t i = 0; i < particles.size(); ++i) {
     if (particles[i].stance != side || weights[i] == 0) continue;
@@ -71,7 +79,8 @@ Spread since_transfer(std::span<const WalkerParticle> particles, std::span<const
 }  // namespace
 
 Spread weighted_spread(std::span<const double> values, std::span<const double> weights) {
-  std::vector<uint32_t> order(values.size());
+  ColumnScratch scratch;
+  std::pmr::vector<uint32_t> order(values.size(), scratch.memory());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
     return values[a] != values[b] ? values[a] < values[b] : a < b;
@@ -106,7 +115,8 @@ FrameEstimate estimate_frame(const BodyModel& model, std::span<const WalkerParti
   FrameEstimate out;
   out.joint_count = joints;
   parallel_for(joints * 3, threads, [&](size_t column) {
-    std::vector<double> values(n);
+    ColumnScratch scratch;
+    std::pmr::vector<double> values(n, scratch.memory());
     for (size_t i = 0; i < n; ++i)
       values[i] = positions[i].at[column / 3][static_cast<Eigen::Index>(column % 3)];
     out.spread[column / 3][column % 3] = weighted_spread(values, weights);

@@ -52,6 +52,7 @@ double mass_apart(double phase, std::span<const double> phases, std::span<const 
 StrideModes stride_modes(std::span<const WalkerParticle> particles,
                          std::span<const double> weights) {
   std::vector<double> phases;
+  phases.reserve(particles.size());
   for (const WalkerParticle& particle : particles) phases.push_back(stride_phase(particle));
   const double phase = leading_phase(phases, weights);
   return {phase, mass_apart(phase, phases, weights)};

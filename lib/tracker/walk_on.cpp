@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/scratch.h"
 #include "tracker/support.h"
 #include "walker/kneed_batch.h"
 
@@ -50,11 +51,22 @@ void catch_step(const MotionContext& context, WalkerParticle& particle) {
 
 // What the batch kernel takes of a group of particles.
 struct Group {
-  std::vector<KneedState> states;
-  std::vector<KneedControls> controls;
-  std::vector<Vector5> noise;
-  std::vector<double> left;  // s of the frame; 0 = has arrived
-  std::vector<KneedAdvance> done;
+  std::pmr::vector<KneedState> states;
+  std::pmr::vector<KneedControls> controls;
+  std::pmr::vector<Vector5> noise;
+  std::pmr::vector<double> left;  // s of the frame; 0 = has arrived
+  std::pmr::vector<KneedAdvance> done;
+
+  Group(size_t count, std::pmr::memory_resource* memory)
+      : states(memory),
+        controls(memory),
+        noise(count, Vector5::Zero(), memory),
+        left(memory),
+        done(count, memory) {
+    states.reserve(count);
+    controls.reserve(count);
+    left.reserve(count);
+  }
 };
 
 KneedModel model_of(const MotionContext& context, const WalkerParticle& particle) {
@@ -62,13 +74,9 @@ KneedModel model_of(const MotionContext& context, const WalkerParticle& particle
   return sloped ? in_plane(context.model, particle.extra[kHeading]) : context.model.walker;
 }
 
-Group group_of(const MotionContext& context, std::span<WalkerParticle> particles,
-               std::span<Rng> rngs) {
-  Group group;
-  const size_t count = particles.size();
-  group.noise.assign(count, Vector5::Zero());
-  group.done.resize(count);
-  for (size_t i = 0; i < count; ++i) {
+void gather(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,
+            Group& group) {
+  for (size_t i = 0; i < particles.size(); ++i) {
     WalkerParticle& p = particles[i];
     settle_knee_stops(model_of(context, p), p.controls, Vector5::Zero(), p.walker);
     group.states.push_back(p.walker);
@@ -77,7 +85,6 @@ Group group_of(const MotionContext& context, std::span<WalkerParticle> particles
     const double time = context.dt * std::exp(p.extra_before[kPace]) + stray;
     group.left.push_back(std::max(0.0, time));
   }
-  return group;
 }
 
 // To the end of everybody's time, or to the next event. On a slope gravity depends on the heading,
@@ -116,7 +123,9 @@ double resolve(const MotionContext& context, const KneedAdvance& done, double le
 void walk_on(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,
              std::span<Outcome> outcomes) {
   std::fill(outcomes.begin(), outcomes.end(), Outcome::kAlive);
-  Group group = group_of(context, particles, rngs);
+  Scratch<32 * 1024> scratch;
+  Group group(particles.size(), scratch.memory());
+  gather(context, particles, rngs, group);
   const auto has_time = [](double left) { return left > 0; };
   while (std::any_of(group.left.begin(), group.left.end(), has_time)) {
     advance(context, particles, group);

@@ -4,6 +4,7 @@
 
 #include "body/kinematics.h"
 #include "core/log_weights.h"
+#include "core/scratch.h"
 #include "tracker/course.h"
 #include "tracker/frame_likelihood.h"
 #include "tracker/model_error.h"
@@ -26,7 +27,9 @@ struct Streams {
 
 void predict(const MotionContext& motion, const Streams& streams, bool first,
              std::span<WalkerParticle> particles, std::span<Outcome> outcomes) {
-  std::vector<Rng> rngs;
+  Scratch<8 * 1024> scratch;
+  std::pmr::vector<Rng> rngs(scratch.memory());
+  rngs.reserve(particles.size());
   for (size_t i = 0; i < particles.size(); ++i)
     rngs.emplace_back(streams.seed, Purpose::kTorque, streams.frame,
                       static_cast<uint32_t>(streams.start + i));
@@ -47,6 +50,7 @@ void summarise(const WalkerFilterContext& context, const ParticleSet<WalkerParti
   std::vector<uint32_t> chosen(static_cast<size_t>(context.samples));
   systematic_resample(set.log_weights, 0.5, chosen);
   const Body& body = context.scene.model.body;
+  record.samples.reserve(chosen.size());
   for (const uint32_t i : chosen)
     record.samples.push_back(forward_kinematics(body, set.states[i].pose).joints);
 }

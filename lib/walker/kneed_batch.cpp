@@ -28,7 +28,8 @@ struct Stepper {
   const LaneModel model;
   const LaneBounds bounds;
   const size_t lane_limit = lane_count();
-  std::vector<LaneProgress> progress;
+  BatchScratch scratch;
+  std::pmr::vector<LaneProgress> progress;
   LaneQueues queues;
 
   explicit Stepper(const BatchInput& input)
@@ -36,7 +37,8 @@ struct Stepper {
         model(lane_model(input.model)),
         bounds{input.limits.min_hip_height * standing_hip_height(input.model.parameters),
                input.limits.max_torso_lean},
-        progress(input.states.size()) {
+        progress(input.states.size(), scratch.memory()),
+        queues(input.states.size(), scratch.memory()) {
     for (size_t i = progress.size(); i-- > 0;) {
       in.results[i] = {};
       if (0 < in.durations[i]) queues.ready.push_back(i);
@@ -57,7 +59,7 @@ struct Stepper {
   }
 
   // The last walkers of a queue, evaluated.
-  void take(std::vector<size_t>& queue, Lanes& lanes) {
+  void take(std::pmr::vector<size_t>& queue, Lanes& lanes) {
     LaneQueues::seat(queue, lane_limit, lanes);
     for (size_t lane = 0; lane < lane_limit; ++lane) {
       const size_t i = lanes.index[lane];

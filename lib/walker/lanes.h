@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
+
+#include "core/scratch.h"
 
 namespace walktrack {
 
@@ -42,10 +45,18 @@ struct LaneProgress {
 size_t lane_count();
 const char* lane_target();
 
+// What a call keeps of its walkers fits on the stack for as many as the tracker moves together.
+using BatchScratch = Scratch<4096>;
+
 // Walkers wait in two queues: those that can go on, and those that know of an event within their
 // next sub-step. Both are served a vector at a time, full vectors first.
 struct LaneQueues {
-  std::vector<size_t> ready, met;
+  std::pmr::vector<size_t> ready, met;
+
+  LaneQueues(size_t walkers, std::pmr::memory_resource* memory) : ready(memory), met(memory) {
+    ready.reserve(walkers);
+    met.reserve(walkers);
+  }
 
   template <typename Walk, typename Resolve>
   void serve(size_t lanes, const Walk& walk, const Resolve& resolve) {
@@ -60,7 +71,7 @@ struct LaneQueues {
   }
 
   // The last walkers of a queue leave it and take their seats.
-  static void seat(std::vector<size_t>& queue, size_t lanes, LaneGroup& group) {
+  static void seat(std::pmr::vector<size_t>& queue, size_t lanes, LaneGroup& group) {
     group.count = std::min(lanes, queue.size());
     for (size_t lane = 0; lane < lanes; ++lane) {
       const bool live = lane < group.count;

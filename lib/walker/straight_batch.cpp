@@ -32,10 +32,14 @@ double strike_guard(const StraightLanePoint& at, size_t lane) {
 struct StraightStepper {
   const StraightInput& in;
   const size_t lane_limit = lane_count();
-  std::vector<LaneProgress> progress;
+  BatchScratch scratch;
+  std::pmr::vector<LaneProgress> progress;
   LaneQueues queues;
 
-  explicit StraightStepper(const StraightInput& input) : in(input), progress(input.states.size()) {
+  explicit StraightStepper(const StraightInput& input)
+      : in(input),
+        progress(input.states.size(), scratch.memory()),
+        queues(input.states.size(), scratch.memory()) {
     for (size_t i = progress.size(); i-- > 0;) {
       in.results[i] = {};
       if (0 < in.durations[i]) queues.ready.push_back(i);
@@ -56,7 +60,7 @@ struct StraightStepper {
   }
 
   // The last walkers of a queue, evaluated.
-  void take(std::vector<size_t>& queue, StraightLanes& lanes) {
+  void take(std::pmr::vector<size_t>& queue, StraightLanes& lanes) {
     LaneQueues::seat(queue, lane_limit, lanes);
     for (size_t lane = 0; lane < lane_limit; ++lane) {
       const size_t i = lanes.index[lane];

@@ -5,31 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
+#include "made_evidence.h"
 #include "tests/observation/scenes.h"
 
 namespace walktrack {
 namespace {
-
-constexpr int kWidth = 320, kHeight = 240;
-
-// Pixels that speak for a body, some more than others, and on request stripes that move to the
-// right.
-CameraEvidence evidence_of(double nats, bool flow) {
-  CameraEvidence out;
-  resize(out.planes, {0, 0, kWidth, kHeight}, 1);
-  std::vector<float> row(kWidth);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x)
-      row[static_cast<size_t>(x)] = static_cast<float>(nats * ((x + 3 * y) % 17 - 8) / 8.0);
-    set_row(out.planes, 0, y, row, 4);
-  }
-  if (!flow) return out;
-  out.flow.area = {0, 0, kWidth, kHeight};
-  const auto stripe = [](int x) { return 100 + 10 * std::sin(0.3F * static_cast<float>(x)); };
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) out.flow.pixels.push_back({stripe(x - 2), stripe(x), 0.05F});
-  return out;
-}
 
 struct Seen : testing::Test {
   const Walking walking{};
@@ -39,8 +19,8 @@ struct Seen : testing::Test {
   std::vector<WalkerParticle> particles = walkers_on_their_way(context, 1);
 
   void add(double x, double nats, bool flow) {
-    scene.cameras.push_back(camera_at({x, -4, 1}, {x, 0, 1}, 300, kWidth, kHeight));
-    evidence.push_back(evidence_of(nats, flow));
+    scene.cameras.push_back(camera_at({x, -4, 1}, {x, 0, 1}, 300, kEvidenceWidth, kEvidenceHeight));
+    evidence.push_back(made_evidence(nats, flow));
   }
 
   // By an independent route: camera by camera, all terms at once.
@@ -85,7 +65,7 @@ TEST_F(Seen, OnlyWhatTheSceneHasIsAStage) {
   EXPECT_EQ(stages(true), 1);  // no camera: how upright the walker is
   add(0, 1, false);
   EXPECT_EQ(stages(true), 1);
-  evidence[0] = evidence_of(1, true);
+  evidence[0] = made_evidence(1, true);
   EXPECT_EQ(stages(true), 2);
   EXPECT_EQ(stages(false), 1);
   add(1, 1, false);

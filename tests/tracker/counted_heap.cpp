@@ -1,0 +1,43 @@
+#include "counted_heap.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define WALKTRACK_COUNTS_ALLOCATIONS 0
+#else
+#define WALKTRACK_COUNTS_ALLOCATIONS 1
+#endif
+
+namespace walktrack {
+
+namespace {
+
+std::atomic<long> count{0};
+
+}  // namespace
+
+bool allocations_counted() { return WALKTRACK_COUNTS_ALLOCATIONS; }
+
+long allocations() { return count; }
+
+}  // namespace walktrack
+
+#if WALKTRACK_COUNTS_ALLOCATIONS
+void* operator new(size_t size) {
+  ++walktrack::count;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new(size_t size, std::align_val_t alignment) {
+  ++walktrack::count;
+  const auto unit = static_cast<size_t>(alignment);
+  if (void* memory = std::aligned_alloc(unit, (size + unit - 1) / unit * unit)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+#endif
