@@ -122,7 +122,7 @@ int companions(const std::vector<Camera>& others, const Camera& camera, size_t s
 }
 
 // Cameras that stand upright below the ground stand on a floor that is lower than z = 0, if with
-// some lower floor all of them are plausible and see common ground.
+// some lower floor all of them are plausible.
 constexpr const char* kLowerFloor =
     "the floor lies below z = 0 of the calibration; say where: ground: {offset: -1.2} if it is "
     "1.2 m below";
@@ -130,21 +130,14 @@ constexpr const char* kLowerFloor =
 bool stand_on_a_lower_floor(const Scene& scene) {
   const double height = scene.subject.height;
   double lowest = 0;
-  for (const SceneCamera& camera : scene.cameras) {
-    const CameraInspection view = inspect_camera(camera.camera, height);
-    if (std::abs(view.roll) >= kMostRoll) return false;
-    lowest = std::min(lowest, view.centre.z());
-  }
+  for (const SceneCamera& camera : scene.cameras)
+    lowest = std::min(lowest, camera_centre(camera.camera).z());
   for (const double above : {0.5, 1.0, 1.5, 2.0, 3.0, 5.0}) {  // m, of the lowest camera
-    std::vector<Camera> raised = cameras_of(scene);
     const WorldFrame floor = world_frame_on_ground({0, 0, 1}, lowest - above);
-    for (Camera& camera : raised) camera = camera_in_world(floor, camera);
-    bool all = true;
-    for (size_t i = 0; i < raised.size() && all; ++i) {
-      all = plausible(raised[i], height) &&
-            (raised.size() == 1 || companions(raised, raised[i], i, height) > 0);
-    }
-    if (all) return true;
+    const auto stands = [&](const SceneCamera& camera) {
+      return plausible(camera_in_world(floor, camera.camera), height);
+    };
+    if (std::all_of(scene.cameras.begin(), scene.cameras.end(), stands)) return true;
   }
   return false;
 }
@@ -152,8 +145,7 @@ bool stand_on_a_lower_floor(const Scene& scene) {
 std::string find_cure(const Scene& scene, size_t self) {
   const double height = scene.subject.height;
   const std::vector<Camera> others = cameras_of(scene);
-  const bool lower_floor =
-      inspect_camera(others[self], height).centre.z() <= 0 && stand_on_a_lower_floor(scene);
+  const bool lower_floor = camera_centre(others[self]).z() <= 0 && stand_on_a_lower_floor(scene);
   if (lower_floor && others.size() > 1) return kLowerFloor;
   const Camera file_camera = camera_in_calibration(scene.world, scene.cameras[self].camera);
   std::string best = "compare the file's units, axes and direction (x_camera = R x_world + t)";

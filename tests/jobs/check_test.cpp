@@ -127,9 +127,13 @@ TEST_F(CheckTest, FindsAnInvertedPose) {
 }
 
 TEST_F(CheckTest, FindsThePlaceForTheTranslation) {
-  cameras_[0].translation = camera_centre(cameras_[0]);
-  write_camera(0, cameras_[0]);
-  EXPECT_THAT(only_failure(check()).cure, HasSubstr("the camera's place C; store -R C"));
+  for (const size_t i : {0u, 1u}) {  // the third could as well have its pose inverted
+    Camera wrong = cameras_[i];
+    wrong.translation = camera_centre(wrong);
+    write_camera(i, wrong);
+    EXPECT_THAT(only_failure(check()).cure, HasSubstr("the camera's place C; store -R C")) << i;
+    write_camera(i, cameras_[i]);
+  }
 }
 
 TEST_F(CheckTest, FindsAWorldThatIsUpsideDown) {
@@ -165,6 +169,14 @@ TEST_F(CheckTest, FindsAFloorBelowTheCalibrationsOrigin) {
   cameras_.resize(1);  // alone, a camera may as well be misplaced in another way
   const std::string cure = only_failure(check()).cure;
   EXPECT_THAT(cure, HasSubstr("the floor lies below z = 0"));
+}
+
+TEST_F(CheckTest, TheFloorIsNotToBlameForOneCameraAlone) {
+  cameras_[1].translation -= cameras_[1].rotation * Vector3d(0, 0, -2.6);
+  write_camera(1, cameras_[1]);
+  const Finding finding = only_failure(check());
+  EXPECT_THAT(finding.what, HasSubstr("underground"));
+  EXPECT_THAT(finding.cure, testing::Not(HasSubstr("floor")));
 }
 
 TEST_F(CheckTest, AMirroredMatrixIsRefusedByTheReader) {
