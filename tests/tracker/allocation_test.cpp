@@ -7,6 +7,7 @@
 #include "fixture.h"
 #include "made_evidence.h"
 #include "tests/observation/scenes.h"
+#include "tests/sanitized.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
@@ -42,7 +43,7 @@ long most_allocations(int particles) {
 // A step's walkers change feet, meet their knees' stops, are moved and measured, and the heap hears
 // only of the frame's weights and its record.
 TEST(Allocation, DoesNotGrowWithParticles) {
-  if (!allocations_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  if (kSanitized) GTEST_SKIP() << "a sanitizer owns the allocator";
   const long few = most_allocations(50);
   EXPECT_GT(few, 0);  // counted at all
   EXPECT_LE(few, 16);

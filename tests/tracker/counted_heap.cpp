@@ -4,11 +4,7 @@
 #include <cstdlib>
 #include <new>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define WALKTRACK_COUNTS_ALLOCATIONS 0
-#else
-#define WALKTRACK_COUNTS_ALLOCATIONS 1
-#endif
+#include "tests/sanitized.h"
 
 namespace walktrack {
 
@@ -18,13 +14,11 @@ std::atomic<long> count{0};
 
 }  // namespace
 
-bool allocations_counted() { return WALKTRACK_COUNTS_ALLOCATIONS; }
-
 long allocations() { return count; }
 
 }  // namespace walktrack
 
-#if WALKTRACK_COUNTS_ALLOCATIONS
+#if !WALKTRACK_SANITIZED
 void* operator new(size_t size) {
   ++walktrack::count;
   if (void* memory = std::malloc(size)) return memory;

@@ -1,10 +1,7 @@
-// This program's calls of operator new, counted.
+// This program's calls of operator new, counted; none where a sanitizer has the operator.
 #pragma once
 
 namespace walktrack {
-
-// False where a sanitizer has the operators.
-bool allocations_counted();
 
 // So far, of all threads.
 long allocations();
