@@ -1,7 +1,6 @@
 #include "observation/row_intervals.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 // Highway compiles this file once for each instruction set.
@@ -21,86 +20,90 @@ const hn::Rebind<int32_t, decltype(kReal)> kNarrow;
 
 int real_lanes() { return static_cast<int>(hn::Lanes(kReal)); }
 
-// The outline's reach in each row of a block, px; the padding lets vectors begin at any row.
+using Real = hn::Vec<decltype(kReal)>;
+
+// What bounds an outline in the rows of a vector, px.
 struct Reach {
-  double left[kBlockRows + kRowVector], right[kBlockRows + kRowVector];
+  Real left, right;
 };
 
-template <typename Mask, typename Vec>
-HWY_ATTR void widen(Mask rows, Vec left, Vec right, double* lefts, double* rights) {
-  const auto old_left = hn::LoadU(kReal, lefts), old_right = hn::LoadU(kReal, rights);
-  hn::StoreU(hn::IfThenElse(rows, hn::Min(old_left, left), old_left), kReal, lefts);
-  hn::StoreU(hn::IfThenElse(rows, hn::Max(old_right, right), old_right), kReal, rights);
+template <typename Mask>
+HWY_ATTR void widen_rows(Mask rows, Real left, Real right, Reach& reach) {
+  reach.left = hn::IfThenElse(rows, hn::Min(reach.left, left), reach.left);
+  reach.right = hn::IfThenElse(rows, hn::Max(reach.right, right), reach.right);
 }
 
-HWY_ATTR void widen_by_disc(const Disc& disc, int block_row, BlockRows rows, Reach& reach) {
-  const auto x = hn::Set(kReal, disc.centre.x());
-  const auto square = hn::Set(kReal, disc.radius * disc.radius);
-  const double top = block_row - disc.centre.y();
-  for (int k = rows.from; k < rows.to; k += real_lanes()) {
-    const auto dy = hn::Iota(kReal, top + k);
-    const auto left_over = hn::Sub(square, hn::Mul(dy, dy));
-    const auto half = hn::Sqrt(hn::Max(left_over, hn::Zero(kReal)));
-    widen(hn::Ge(left_over, hn::Zero(kReal)), hn::Sub(x, half), hn::Add(x, half), reach.left + k,
-          reach.right + k);
+struct DiscRows {
+  Real x, y, square;
+  double first, last;  // rows that it meets
+
+  HWY_ATTR explicit DiscRows(const Disc& disc)
+      : x(hn::Set(kReal, disc.centre.x())),
+        y(hn::Set(kReal, disc.centre.y())),
+        square(hn::Set(kReal, disc.radius * disc.radius)),
+        first(disc.centre.y() - disc.radius),
+        last(disc.centre.y() + disc.radius) {}
+
+  HWY_ATTR void widen(Real row, Reach& reach) const {
+    const Real dy = hn::Sub(row, y), left_over = hn::Sub(square, hn::Mul(dy, dy));
+    const Real half = hn::Sqrt(hn::Max(left_over, hn::Zero(kReal)));
+    widen_rows(hn::Ge(left_over, hn::Zero(kReal)), hn::Sub(x, half), hn::Add(x, half), reach);
   }
-}
+};
 
-HWY_ATTR void widen_by_edge(const Edge& edge, int block_row, BlockRows rows, Reach& reach) {
-  const auto first = hn::Set(kReal, edge.first), last = hn::Set(kReal, edge.last);
-  const auto x_at_0 = hn::Set(kReal, edge.x_at_0), slope = hn::Set(kReal, edge.slope);
-  for (int k = rows.from; k < rows.to; k += real_lanes()) {
-    const auto y = hn::Iota(kReal, static_cast<double>(block_row + k));
-    const auto x = hn::Add(x_at_0, hn::Mul(slope, y));
-    widen(hn::And(hn::Ge(y, first), hn::Le(y, last)), x, x, reach.left + k, reach.right + k);
+struct EdgeRows {
+  Real first, last, x_at_0, slope;
+
+  HWY_ATTR explicit EdgeRows(const Edge& edge)
+      : first(hn::Set(kReal, edge.first)),
+        last(hn::Set(kReal, edge.last)),
+        x_at_0(hn::Set(kReal, edge.x_at_0)),
+        slope(hn::Set(kReal, edge.slope)) {}
+
+  HWY_ATTR void widen(Real row, Reach& reach) const {
+    const Real x = hn::Add(x_at_0, hn::Mul(slope, row));
+    widen_rows(hn::And(hn::Ge(row, first), hn::Le(row, last)), x, x, reach);
   }
-}
+};
 
-// Of the rows given, those between two heights in the image.
-BlockRows rows_between(double first, double last, int block_row, BlockRows rows) {
-  const double from = std::ceil(first) - block_row, to = std::floor(last) - block_row + 1;
-  const auto clamped = [&](double row) {
-    return static_cast<int>(std::clamp(row, double(rows.from), double(rows.to)));
-  };
-  return {clamped(from), clamped(to)};
-}
+// The area's columns, as numbers to compare with.
+struct Span {
+  Real x0, width;
+};
 
 // Columns whose centres lie between left and right.
-HWY_ATTR void to_columns(const Reach& reach, const PixelRect& area, BlockRows rows,
-                         RowIntervals& out) {
-  const auto zero = hn::Zero(kReal), one = hn::Set(kReal, 1.0);
-  const auto x0 = hn::Set(kReal, static_cast<double>(area.x0));
-  const auto width = hn::Set(kReal, static_cast<double>(area.width()));
-  const auto clamped = [&](auto x) HWY_ATTR { return hn::Min(width, hn::Max(zero, x)); };
-  for (int k = rows.from; k < rows.to; k += real_lanes()) {
-    const auto from = clamped(hn::Sub(hn::LoadU(kReal, reach.left + k), x0));
-    const auto to = clamped(hn::Add(hn::Sub(hn::LoadU(kReal, reach.right + k), x0), one));
-    const auto begin = hn::DemoteTo(kNarrow, hn::Ceil(from));
-    const auto end = hn::DemoteTo(kNarrow, hn::Floor(to));
-    const auto some = hn::Lt(begin, end);
-    hn::StoreU(hn::IfThenElseZero(some, begin), kNarrow, out.begin + k);
-    hn::StoreU(hn::IfThenElseZero(some, end), kNarrow, out.end + k);
-  }
+HWY_ATTR void to_columns(const Reach& reach, const Span& span, int32_t* begins, int32_t* ends) {
+  const Real zero = hn::Zero(kReal), one = hn::Set(kReal, 1.0);
+  const auto clamped = [&](Real x) HWY_ATTR { return hn::Min(span.width, hn::Max(zero, x)); };
+  const Real from = clamped(hn::Sub(reach.left, span.x0));
+  const Real to = clamped(hn::Add(hn::Sub(reach.right, span.x0), one));
+  const auto begin = hn::DemoteTo(kNarrow, hn::Ceil(from));
+  const auto end = hn::DemoteTo(kNarrow, hn::Floor(to));
+  const auto some = hn::Lt(begin, end);
+  hn::StoreU(hn::IfThenElseZero(some, begin), kNarrow, begins);
+  hn::StoreU(hn::IfThenElseZero(some, end), kNarrow, ends);
 }
 
 // Every piece of the outline lies in the convex hull, so the outermost of those that meet a row
 // bound it there.
 HWY_ATTR void cover_rows(const Outline& outline, const PixelRect& area, int block_row,
                          BlockRows rows, RowIntervals& out) {
-  Reach reach;
+  const DiscRows discs[2]{DiscRows(outline.discs[0]), DiscRows(outline.discs[1])};
+  const EdgeRows edges[2]{EdgeRows(outline.edges[0]), EdgeRows(outline.edges[1])};
+  const Span span{hn::Set(kReal, static_cast<double>(area.x0)),
+                  hn::Set(kReal, static_cast<double>(area.width()))};
+  const Reach nothing{hn::Set(kReal, std::numeric_limits<double>::max()),
+                      hn::Set(kReal, std::numeric_limits<double>::lowest())};
   const BlockRows whole = whole_vectors(rows);
-  std::fill(reach.left + whole.from, reach.left + whole.to + kRowVector,
-            std::numeric_limits<double>::max());
-  std::fill(reach.right + whole.from, reach.right + whole.to + kRowVector,
-            std::numeric_limits<double>::lowest());
-  for (const Disc& disc : outline.discs) {
-    const double y = disc.centre.y();
-    widen_by_disc(disc, block_row, rows_between(y - disc.radius, y + disc.radius, block_row, rows),
-                  reach);
+  for (int k = whole.from; k < whole.to; k += real_lanes()) {
+    const double first = block_row + k, last = first + real_lanes() - 1;
+    const Real row = hn::Iota(kReal, first);
+    Reach reach = nothing;
+    for (const EdgeRows& edge : edges) edge.widen(row, reach);
+    for (const DiscRows& disc : discs)  // roots are dear
+      if (first <= disc.last && last >= disc.first) disc.widen(row, reach);
+    to_columns(reach, span, out.begin + k, out.end + k);
   }
-  for (const Edge& edge : outline.edges)
-    widen_by_edge(edge, block_row, rows_between(edge.first, edge.last, block_row, rows), reach);
-  to_columns(reach, area, whole, out);
   std::fill(out.begin + rows.to, out.begin + whole.to, 0);  // the area may end before a vector does
   std::fill(out.end + rows.to, out.end + whole.to, 0);
 }
