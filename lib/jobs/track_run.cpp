@@ -135,16 +135,16 @@ Region TrackRun::region(size_t camera) const {
 void TrackRun::observe(const SceneFrames& images) {
   const Moment start;
   const double time = static_cast<double>(frames_read_) / frames_.frame_rate;
-  for (size_t c = 0; c < setup_.observers.size(); ++c) {
+  parallel_for(setup_.observers.size(), threads_, [&](size_t c) {
     const SceneCamera& camera = job_.scene.cameras[c];
     if (comes_or_goes(camera)) setup_.observers[c].hide(occluders_at(camera, time));
     if (!images.fresh[c]) {
       evidence_[c] = CameraEvidence{};  // a repeated frame says nothing new
       setup_.observers[c].forget_previous_frame();
-      continue;
+      return;
     }
     setup_.observers[c].observe(images.images[c], region(c), evidence_[c]);
-  }
+  });
   watch_.add("evidence", start);
 }
 
@@ -175,8 +175,9 @@ void TrackRun::learn() {
   const Body& body = tracker_.body();
   const Pose& pose = frames_.records.back().estimate.pose;
   const PosedParts parts = pose_parts(body, forward_kinematics(body, pose));
-  for (size_t c = 0; c < setup_.observers.size(); ++c)
+  parallel_for(setup_.observers.size(), threads_, [&](size_t c) {
     setup_.observers[c].learn(evidence_[c], project_parts(setup_.scene.cameras[c], parts));
+  });
   watch_.add("appearance", start);
 }
 

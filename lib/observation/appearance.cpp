@@ -28,25 +28,26 @@ double broad_density(const ColourBins& bins, int bin) {
          chroma_density(bins.middle(bin % kChromaBins)) / 256;
 }
 
-// [1 2 1] / 4 along one axis of the histogram; the ends keep what would fall off.
-void smooth(std::vector<float>& histogram, int length, int step) {
-  std::vector<float> line(static_cast<size_t>(length));
-  for (int start = 0; start < kColourBins; ++start) {
-    if (start / step % length != 0) continue;
-    const auto at = [&](int k) -> float& {
-      return histogram[static_cast<size_t>(start + std::clamp(k, 0, length - 1) * step)];
-    };
-    for (int k = 0; k < length; ++k)
-      line[static_cast<size_t>(k)] = 0.25F * at(k - 1) + 0.5F * at(k) + 0.25F * at(k + 1);
-    for (int k = 0; k < length; ++k) at(k) = line[static_cast<size_t>(k)];
+// [1 2 1] / 4 along one axis of the histogram, whose neighbours are `step` bins apart; the ends
+// keep what would fall off.
+void smooth(const std::vector<float>& histogram, int length, int step, std::vector<float>& out) {
+  for (int block = 0; block < kColourBins; block += length * step) {
+    for (int k = 0; k < length; ++k) {
+      const float* here = histogram.data() + block + k * step;
+      const float* before = k > 0 ? here - step : here;
+      const float* after = k < length - 1 ? here + step : here;
+      float* to = out.data() + block + k * step;
+      for (int i = 0; i < step; ++i) to[i] = 0.25F * before[i] + 0.5F * here[i] + 0.25F * after[i];
+    }
   }
 }
 
 std::vector<float> smoothed(std::vector<float> histogram) {
-  smooth(histogram, kLumaBins, kChromaBins * kChromaBins);
-  smooth(histogram, kChromaBins, kChromaBins);
-  smooth(histogram, kChromaBins, 1);
-  return histogram;
+  std::vector<float> other(histogram.size());
+  smooth(histogram, kLumaBins, kChromaBins * kChromaBins, other);
+  smooth(other, kChromaBins, kChromaBins, histogram);
+  smooth(histogram, kChromaBins, 1, other);
+  return other;
 }
 
 void blend(std::vector<float>& into, const std::vector<float>& from, double share) {
@@ -75,7 +76,8 @@ AppearanceModel::AppearanceModel(const ForegroundConfig& config,
   }
   const ColourBins bins;
   AppearanceState fresh;
-  fresh.log_density = broad_table(bins);
+  log_broad_ = broad_table(bins);
+  fresh.log_density = log_broad_;
   states_.assign(labels.size(), fresh);
   for (int bin = 0; bin < kColourBins; ++bin)
     broad_.push_back(static_cast<float>(broad_density(bins, bin) * bins.volume(bin)));
@@ -113,8 +115,13 @@ void AppearanceModel::learn(const ColourBins& bins, const Counts& counts) {
 void AppearanceModel::refresh(const ColourBins& bins, AppearanceState& state) const {
   const double trust = state.anchor_pixels / (state.anchor_pixels + config_.prior_pixels);
   const double own = (1 - config_.broad_share) * trust;
+  const auto others = static_cast<float>(std::log(1 - own));
   for (int bin = 0; bin < kColourBins; ++bin) {
     const auto i = static_cast<size_t>(bin);
+    if (state.anchor[i] == 0 && state.recent[i] == 0) {  // most of them
+      state.log_density[i] = others + log_broad_[i];
+      continue;
+    }
     const double seen = config_.anchor_share * static_cast<double>(state.anchor[i]) +
                         (1 - config_.anchor_share) * static_cast<double>(state.recent[i]);
     const double share = own * seen + (1 - own) * static_cast<double>(broad_[i]);

@@ -63,6 +63,7 @@ class AppearanceModel {
   std::array<int, kAppearanceCount> class_of_{};
   std::vector<AppearanceState> states_;
   std::vector<float> broad_;  // share of each bin
+  ColourTable log_broad_;     // its density
 };
 
 }  // namespace walktrack
