@@ -103,6 +103,8 @@ def errors_of(folder, scene, result, figure):
                 if truth[t].get(name) is not None:
                     rows = out.setdefault((group(joint), "upright" if axis == "z" else "level"), [])
                     rows.append((row[name] - truth[t][name], row[name] - band[name + "_p05"], band[name + "_p95"] - row[name], variance))
+    if not (folder / "angles.csv").exists():  # truth of joints alone
+        return out
     true_angles, angles = table(folder / "angles.csv"), table(result / "angles.csv")
     for t in times:
         for name in (k for k in true_angles[t] if k.endswith("_deg")):

@@ -8,31 +8,35 @@ namespace walktrack {
 namespace {
 
 // Nanoseconds, as scripts/measure_costs.py prints them.
-constexpr double kDecoding = 5.94;
-constexpr double kBackground = 96.5;
-constexpr double kAppearance = 0.593;
-constexpr double kFlowMeasured = 55.7;
-constexpr double kFlowWeighed = 1040;
-constexpr double kPartProjected = 190;
-constexpr double kRowSummed = 5.5;
-constexpr double kWalker = 1.9e4;
-constexpr double kPartPosed = 851;
+constexpr double kDecoding = 2.22;
+constexpr double kBackground = 22.2;
+constexpr double kAppearance = 2.0e5;
+constexpr double kFlowMeasured = 31;
+constexpr double kFlowWeighed = 602;
+constexpr double kPartProjected = 121;
+constexpr double kRowSummed = 8.71;
+constexpr double kWalker = 7.54e3;
+constexpr double kPartPosed = 60;
+constexpr double kFrame = 1.23e5;
+
+// Share of the moves that the first camera lets through (filter/particle_filter.h).
+constexpr double kPassed = 0.57;
 
 // Mean layers of a frame with one, two, three cameras.
-constexpr std::array<double, 3> kLayers{4.0, 4.3, 5.0};
+constexpr std::array<double, 3> kLayers{3.9, 4.7, 4.9};
 
 constexpr double kMsPerNs = 1e-6;
 
-FrameCost::OfCamera camera_cost(const FrameWork& work, const CameraWork& camera) {
-  const double parts = work.poses * work.parts;
+FrameCost::OfCamera camera_cost(const FrameWork& work, const CameraWork& camera, double poses) {
+  const double parts = poses * work.parts;
   FrameCost::OfCamera out;
   out.decoding = kMsPerNs * kDecoding * camera.filmed_px;
   if (work.background) out.background = kMsPerNs * kBackground * camera.region_px;
-  out.appearance = kMsPerNs * kAppearance * camera.region_px * work.classes;
+  out.appearance = kMsPerNs * kAppearance * work.classes;
   if (work.flow) out.flow = kMsPerNs * (kFlowMeasured * camera.region_px + kFlowWeighed * parts);
   const bool silhouettes = work.background || work.classes > 0;
   if (silhouettes || work.flow) out.projection = kMsPerNs * kPartProjected * parts;
-  if (silhouettes) out.silhouettes = kMsPerNs * kRowSummed * work.poses * camera.rows;
+  if (silhouettes) out.silhouettes = kMsPerNs * kRowSummed * poses * camera.rows;
   return out;
 }
 
@@ -40,9 +44,11 @@ FrameCost::OfCamera camera_cost(const FrameWork& work, const CameraWork& camera)
 
 FrameCost frame_cost(const FrameWork& work) {
   FrameCost out;
-  for (const CameraWork& camera : work.cameras) out.cameras.push_back(camera_cost(work, camera));
+  const double others = work.particles + kPassed * (work.poses - work.particles);
+  for (const CameraWork& camera : work.cameras)
+    out.cameras.push_back(camera_cost(work, camera, out.cameras.empty() ? work.poses : others));
   out.walker = kMsPerNs * kWalker * work.particles;
-  out.poses = kMsPerNs * kPartPosed * work.poses * work.parts;
+  out.poses = kMsPerNs * (kPartPosed * work.poses * work.parts + kFrame);
   return out;
 }
 

@@ -3,20 +3,22 @@
 //
 //   decoding     a d                      a: pixels of a camera's frame as it is filmed
 //   background   b r                      r: pixels of the shrunk image around the walker
-//   appearance   c r k                    k: appearances told apart
+//   appearance   c k                      k: appearances told apart
 //   flow         e r + f n m              n: poses weighed, m: parts of the body
-//   projection   g n m
+//   projection   g n m                    parts and their outlines in the image
 //   silhouettes  h n y                    y: rows of the shrunk image that the walker covers
-// these for every camera, and once for all
+// these for every camera, n being the particles and those moves that the first camera has let
+// through for all cameras but the first; and once for all
 //   walker       w p                      p: particles
-//   poses        q n m
+//   poses        q n m + s
 //
-// The coefficients are CPU times of all threads together, fitted by scripts/measure_costs.py. They
-// are those of one machine: ratios carry over to others, times only roughly. Over the fifteen
-// settings of the fit the sum was off by 4 % (median), by 11 % at worst (arms), given the
-// poses that were in fact weighed; their number varies by a third between scenes. Not in it:
-// searching and the contest of the first half second, learning the background before the first
-// frame, writing results.
+// The coefficients are CPU times of all threads together, fitted by scripts/measure_costs.py to
+// frames after the contest of the first half second. They are those of one machine: ratios carry
+// over to others, times only roughly. Over the fifteen settings of the fit the sum was off by 9 %
+// (median), by 24 % at worst (arms), given the poses that were in fact weighed; their number varies
+// by a third between scenes, so that of ten films, balanced and fast, the plan was off by 12 %
+// (median), by 31 % at worst. Not in it: searching and the contest of the first half second,
+// learning the background before the first frame, writing results.
 #pragma once
 
 #include <string>
@@ -34,7 +36,7 @@ struct CameraWork {
 struct FrameWork {
   std::vector<CameraWork> cameras;
   double particles = 0;
-  double poses = 0;  // weighed in a frame, all particles and moves together
+  double poses = 0;  // weighed in a frame by the first camera, all particles and moves together
   int parts = 0;     // of the body
   int classes = 0;   // appearances told apart; 0 = appearance is off
   bool background = true, flow = true;
