@@ -94,7 +94,6 @@ TEST_F(UnknownSize, IsReadOffTheWalkAndSaid) {
   EXPECT_NEAR(thigh_length(tracked) / thigh_length(truth), 1, 0.04);
 }
 
-// From the side a figure of the usual height lays the line far off.
 TEST_F(UnknownSize, IsReadOffByOneCamera) {
   TrackJob alone = job("");
   alone.scene.cameras.resize(1);
