@@ -125,7 +125,11 @@ bool TrackRun::finish(bool resumable) {
 }
 
 Region TrackRun::region(size_t camera) const {
-  if (!tracker_.tracking()) return everywhere_[camera];
+  if (!tracker_.tracking()) {
+    Region region = everywhere_[camera];
+    region.picture = tracker_.wants_picture();
+    return region;
+  }
   constexpr double kReach = 0.5;  // m around the last pose: limbs, and the way of one frame
   const FrameEstimate& last = frames_.records.back().estimate;
   return person_region(setup_.scene.cameras[camera], last.pose.root.head<2>(),

@@ -7,6 +7,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "observation/flow_points.h"
+
 namespace walktrack {
 
 namespace {
@@ -26,62 +28,6 @@ cv::Mat smoothed(const cv::Mat& grey) {
   return out;
 }
 
-// A capsule with what asking about many points needs.
-struct Shape {
-  Vector2d foot, axis, aside;  // lower centre; to the upper centre; unit vector across
-  double radius, grow;         // at the foot; more at the other end
-  double inverse_curvature;    // see inside() of capsules.cpp; huge when one disc holds the other
-};
-
-// Sends the nearest disc of covers() to the larger end.
-constexpr double kOneDisc = 1e30;
-
-Shape shape_of(const Capsule& capsule) {
-  const Vector2d axis = capsule.upper.centre - capsule.lower.centre;
-  const double grow = capsule.upper.radius - capsule.lower.radius;
-  const double curvature = axis.squaredNorm() - grow * grow;
-  return {capsule.lower.centre, axis, Vector2d(-axis.y(), axis.x()) / (axis.norm() + 1e-9),
-          capsule.lower.radius, grow, curvature > 0 ? 1 / curvature : kOneDisc};
-}
-
-bool covers(const Shape& shape, const Vector2d& point) {
-  const Vector2d p = point - shape.foot;
-  const double t = std::clamp(
-      (p.dot(shape.axis) + shape.radius * shape.grow) * shape.inverse_curvature, 0.0, 1.0);
-  const double radius = shape.radius + t * shape.grow;
-  return (p - t * shape.axis).squaredNorm() <= radius * radius;
-}
-
-// The point a share `along` of the axis, moved aside by a share `aside` of the radius there.
-Vector2d material_point(const Shape& shape, double along, double aside) {
-  return shape.foot + along * shape.axis +
-         aside * (shape.radius + along * shape.grow) * shape.aside;
-}
-
-// A place between four pixels.
-struct Between {
-  const FlowPixel* corner;  // of lower x and y
-  const FlowPixel* below;   // the one under it
-  float right, down;        // shares
-
-  float mix(float FlowPixel::*value) const {
-    const float top = corner->*value + right * (corner[1].*value - corner->*value);
-    const float bottom = below->*value + right * (below[1].*value - below->*value);
-    return top + down * (bottom - top);
-  }
-  float precision() const { return (down < 0.5f ? corner : below)[right < 0.5f ? 0 : 1].precision; }
-};
-
-// nullopt outside the field.
-std::optional<Between> between(const FlowField& flow, const Vector2d& point) {
-  const double x = point.x() - flow.area.x0, y = point.y() - flow.area.y0;
-  if (!(x >= 0 && y >= 0 && x < flow.area.width() - 1 && y < flow.area.height() - 1)) return {};
-  const auto i = static_cast<int>(x), j = static_cast<int>(y);
-  const FlowPixel* const corner = &flow.at(flow.area.x0 + i, flow.area.y0 + j);
-  return Between{corner, corner + flow.area.width(), static_cast<float>(x - i),
-                 static_cast<float>(y - j)};
-}
-
 // Student-t densities differ by a power of this. 1 where nothing is known.
 double point_ratio(const FlowConfig& config, const FlowField& flow, const Vector2d& is,
                    const Vector2d& was) {
@@ -98,21 +44,6 @@ double point_ratio(const FlowConfig& config, const FlowField& flow, const Vector
 // made the likelihood rugged: 3 cm beside the truth it was as high again.
 constexpr double kAlong[] = {1.0 / 12, 3.0 / 12, 5.0 / 12, 7.0 / 12, 9.0 / 12, 11.0 / 12};
 constexpr double kAside[] = {-0.75, -0.25, 0.25, 0.75};
-
-// The box around a shape, px.
-struct Box {
-  Vector2d low, high;
-};
-
-Box box_of(const Shape& shape) {
-  const double radius = shape.radius + std::max(0.0, shape.grow);
-  const Vector2d end = shape.foot + shape.axis, reach(radius, radius);
-  return {shape.foot.cwiseMin(end) - reach, shape.foot.cwiseMax(end) + reach};
-}
-
-bool meet(const Box& a, const Box& b) {
-  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
-}
 
 // The shapes of a body, nearest first.
 struct Shapes {
@@ -155,9 +86,9 @@ double part_log_ratio(const FlowConfig& config, const FlowField& flow, const Sha
   for (const double along : kAlong) {
     double ratio = 1;  // of four points: far from overflow
     for (const double aside : kAside) {
-      const Vector2d point = material_point(own, along, aside);
+      const Vector2d point = pixel_of(own, {along, aside});
       if (hidden(hiders, point)) continue;
-      ratio *= point_ratio(config, flow, point, material_point(before, along, aside));
+      ratio *= point_ratio(config, flow, point, pixel_of(before, {along, aside}));
     }
     log_ratio += std::log(ratio);
   }
@@ -190,6 +121,15 @@ void pair_frames(const FlowConfig& config, const cv::Mat& before, const cv::Mat&
                             1 / (noise2 + error2 * (gx * gx + gy * gy))});
     }
   }
+}
+
+void pair_frames(const FlowConfig& config, const GreyImage& before, const GreyImage& now,
+                 const PixelRect& area, FlowField& out) {
+  // OpenCV has no view of constant pixels.
+  const auto view = [](const GreyImage& image) {
+    return cv::Mat(image.height, image.width, CV_8U, const_cast<uint8_t*>(image.pixels.data()));
+  };
+  pair_frames(config, view(before), view(now), area, out);
 }
 
 double flow_log_ratio(const FlowConfig& config, const FlowField& flow, const CapsuleList& now,

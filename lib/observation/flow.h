@@ -11,6 +11,7 @@
 // places that matter (README.md, Flow) no particle needs: each brings its own motion along.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "observation/capsules.h"
@@ -39,9 +40,16 @@ struct FlowField {
   }
 };
 
+struct GreyImage {
+  int width = 0, height = 0;
+  std::vector<uint8_t> pixels;  // row by row
+};
+
 // `before` and `now`: 8-bit grey images of one size. Holds `area` and some pixels more to all
 // sides, from which a walker in it may have come.
 void pair_frames(const FlowConfig& config, const cv::Mat& before, const cv::Mat& now,
+                 const PixelRect& area, FlowField& out);
+void pair_frames(const FlowConfig& config, const GreyImage& before, const GreyImage& now,
                  const PixelRect& area, FlowField& out);
 
 // Sum over points of the visible surface, nats times square pixels: each point weighs as much as

@@ -75,6 +75,7 @@ struct Observer::State {
   void fill_planes(const cv::Mat& bgr, const PixelRect& area, LogRatioPlanes& planes);
   int planes_wanted() const;
   void fill_row(int y, double gain, LogRatioPlanes& planes);
+  void measure_flow(const cv::Mat& grey, const PixelRect& area, FlowField& flow);
   void block_flow(FlowField& flow) const;
 
   ObservationConfig config;
@@ -120,6 +121,10 @@ Region person_region(const Camera& camera, const Eigen::Vector2d& position, doub
                        bound(std::ceil(box.max().x()) + 1, camera.width_px),
                        bound(std::ceil(box.max().y()) + 1, camera.height_px)};
   return {area, depth / camera.focal_px.mean()};
+}
+
+double independent_share(const ObservationConfig& config, double metres_per_px) {
+  return std::min(1.0, std::pow(metres_per_px / config.independent_m, 2));
 }
 
 std::array<bool, kAppearanceCount> appearances_of(const Body& body) {
@@ -198,18 +203,12 @@ void Observer::observe(const cv::Mat& frame_bgr, const Region& region, CameraEvi
   const cv::Mat bgr = shrunk(frame_bgr, s.shrink);
   const PixelRect area = intersection(region.area, image_area(s.camera));
   s.fill_planes(bgr, area, out.planes);
-  if (s.config.flow.enabled) {
-    cv::Mat grey;
-    cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
-    if (s.grey_before.empty()) {
-      out.flow = {};
-    } else {
-      pair_frames(s.config.flow, s.grey_before, grey, area, out.flow);
-      if (s.occluded) s.block_flow(out.flow);
-    }
-    s.grey_before = grey;
-  }
-  out.pixel_weight = std::min(1.0, std::pow(region.metres_per_px / s.config.independent_m, 2));
+  cv::Mat grey;
+  if (s.config.flow.enabled || region.picture) cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+  if (s.config.flow.enabled) s.measure_flow(grey, area, out.flow);
+  out.picture = {};
+  if (region.picture) out.picture = {grey.cols, grey.rows, {grey.datastart, grey.dataend}};
+  out.pixel_weight = independent_share(s.config, region.metres_per_px);
   ++s.frames;
 }
 
@@ -257,6 +256,16 @@ void Observer::State::fill_row(int y, double gain, LogRatioPlanes& planes) {
       if (blocked[i]) row_ratio[i] = 0;
     set_row(planes, plane, y, row_ratio, config.clip);
   }
+}
+
+void Observer::State::measure_flow(const cv::Mat& grey, const PixelRect& area, FlowField& flow) {
+  if (grey_before.empty()) {
+    flow = {};
+  } else {
+    pair_frames(config.flow, grey_before, grey, area, flow);
+    if (occluded) block_flow(flow);
+  }
+  grey_before = grey;
 }
 
 // Pixels that smoothing mixes with an occluder's say nothing.

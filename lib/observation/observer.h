@@ -24,6 +24,7 @@ namespace walktrack {
 struct Region {
   PixelRect area;
   double metres_per_px = .01;  // at the walker
+  bool picture = false;        // whether the evidence is to hold the image itself
 };
 
 // The whole image, the walker at the size given.
@@ -38,7 +39,11 @@ struct CameraEvidence {
   LogRatioPlanes planes;    // no planes when foreground and background are both off
   FlowField flow;           // no samples when flow is off or there is no frame before
   double pixel_weight = 1;  // independent pixels in a pixel: the temper of all sums over pixels
+  GreyImage picture;        // the whole image; empty unless Region::picture
 };
+
+// Independent pixels in a pixel that shows so much of the walker.
+double independent_share(const ObservationConfig& config, double metres_per_px);
 
 // A thing in front of the walker: pixels of the calibrated (unshrunk) image.
 using Polygon = std::vector<Eigen::Vector2d>;

@@ -80,6 +80,9 @@ class Tracker {
   // to their weights.
   void use_particles(int count);
 
+  // Whether the next frame's evidence is to hold its picture: a start in front of one camera looks
+  // at it to tell the legs apart.
+  bool wants_picture() const { return !tracking() && scene_.cameras.size() == 1; }
   // Whether the newest frame has been tracked, so that its particles say where the person is.
   bool tracking() const { return mode_ == Mode::kTracking; }
   const ParticleSet<WalkerParticle>& particles() const { return filter_.particles(); }
@@ -115,6 +118,10 @@ class Tracker {
   void set_height(double height);
   void start_as_given(std::vector<FrameRecord>& out);
   bool attempt(const Sighting& sighting, std::vector<FrameRecord>& out);
+  struct Trial;
+  void follow_rest(Trial& trial);
+  Trial with_legs_exchanged(const Trial& trial);
+  Trial with_legs_named(Trial first);
   void begin(const Sighting& sighting, std::optional<double> stride_phase);
   void compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   void settle(std::vector<FrameRecord>& out);

@@ -1,0 +1,129 @@
+#include "observation/leg_order.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace walktrack {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kSize = 120;
+constexpr PixelRect kAll{0, 0, kSize, kSize};
+
+// Cloth with stripes, `shift` px to the right.
+GreyImage cloth(double shift) {
+  GreyImage image{kSize, kSize, {}};
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x)
+      image.pixels.push_back(
+          static_cast<uint8_t>(std::lround(120 + 40 * std::sin(0.35 * (x - shift) + 0.1 * y))));
+  return image;
+}
+
+LogRatioPlanes everywhere(float nats) {
+  LogRatioPlanes planes;
+  resize(planes, kAll, 1);
+  for (int y = 0; y < kSize; ++y) set_row(planes, 0, y, std::vector<float>(kSize, nats), 4);
+  return planes;
+}
+
+enum Index { kLeftThigh, kRightThigh, kLeftShank, kRightShank, kTrunk };
+const std::vector<Part>& parts() {
+  static const std::vector<Part> all = [] {
+    std::vector<Part> made(5);
+    made[kLeftThigh].segment = Segment::kLeftThigh;
+    made[kRightThigh].segment = Segment::kRightThigh;
+    made[kLeftShank].segment = Segment::kLeftShank;
+    made[kRightShank].segment = Segment::kRightShank;
+    made[kTrunk].segment = Segment::kTrunk;
+    return made;
+  }();
+  return all;
+}
+
+// A part that stands upright.
+Capsule upright(int part, double x, double depth) {
+  Capsule capsule{};
+  capsule.lower = {{x, 90}, 8};
+  capsule.upper = {{x, 40}, 10};
+  capsule.depth = depth;
+  capsule.part = part;
+  return capsule;
+}
+
+CapsuleList list(std::initializer_list<Capsule> capsules) {
+  CapsuleList out;
+  for (const Capsule& capsule : capsules) out.insert(capsule);
+  return out;
+}
+
+// The left shank has come 4 px from the left, the right one stands.
+constexpr double kStep = 4;
+CapsuleList shanks(double left_depth, double left_x = 60) {
+  return list({upright(kLeftShank, left_x, left_depth), upright(kRightShank, 62, 5)});
+}
+
+double log_ratio(const GreyImage& before, const GreyImage& now, const CapsuleList& capsules_before,
+                 const CapsuleList& capsules, const LogRatioPlanes& planes = everywhere(1)) {
+  FlowField flow;
+  pair_frames({}, before, now, leg_overlap(parts(), capsules), flow);
+  return leg_order_log_ratio({}, parts(), flow, {capsules_before, everywhere(1)},
+                             {capsules, planes});
+}
+
+double shanks_log_ratio(const GreyImage& now, double left_depth) {
+  return log_ratio(cloth(0), now, shanks(left_depth, 60 - kStep), shanks(left_depth));
+}
+
+TEST(LegOrder, TheLegInFrontIsTheOneWhoseMotionIsSeen) {
+  const double swings = shanks_log_ratio(cloth(kStep), 4), stands = shanks_log_ratio(cloth(0), 4);
+  EXPECT_GT(swings, 100);
+  EXPECT_LT(stands, -100);
+  EXPECT_DOUBLE_EQ(shanks_log_ratio(cloth(kStep), 6), -swings) << "the other one in front";
+  EXPECT_DOUBLE_EQ(shanks_log_ratio(cloth(0), 6), -stands);
+}
+
+TEST(LegOrder, SaysNothingWithoutTexture) {
+  const GreyImage grey{kSize, kSize, std::vector<uint8_t>(kSize * kSize, 90)};
+  EXPECT_EQ(log_ratio(grey, grey, shanks(4, 60 - kStep), shanks(4)), 0);
+}
+
+TEST(LegOrder, SaysNothingOfLegsThatDoNotOverlap) {
+  EXPECT_TRUE(leg_overlap(parts(), shanks(4, 20)).empty());
+  EXPECT_EQ(log_ratio(cloth(0), cloth(kStep), shanks(4, 20 - kStep), shanks(4, 20)), 0);
+  const CapsuleList one = list({upright(kLeftShank, 60, 4)});
+  EXPECT_TRUE(leg_overlap(parts(), one).empty());
+}
+
+TEST(LegOrder, SaysNothingOfLegsThatGoTogether) {
+  const CapsuleList before =
+      list({upright(kLeftShank, 60 - kStep, 4), upright(kRightShank, 62 - kStep, 5)});
+  EXPECT_NEAR(log_ratio(cloth(0), cloth(kStep), before, shanks(4)), 0, 1e-6);
+}
+
+TEST(LegOrder, DoesNotAskWhatIsHiddenOrLooksLikeTheEmptyScene) {
+  const Capsule trunk = upright(kTrunk, 61, 1);
+  const CapsuleList before =
+      list({trunk, upright(kLeftShank, 60 - kStep, 4), upright(kRightShank, 62, 5)});
+  const CapsuleList now = list({trunk, upright(kLeftShank, 60, 4), upright(kRightShank, 62, 5)});
+  const double open = shanks_log_ratio(cloth(kStep), 4);
+  EXPECT_LT(log_ratio(cloth(0), cloth(kStep), before, now), 0.2 * open);
+  EXPECT_EQ(log_ratio(cloth(0), cloth(kStep), shanks(4, 60 - kStep), shanks(4), everywhere(-1)), 0);
+}
+
+// Hands swing past the upper thighs.
+TEST(LegOrder, AsksOnlyTheLowerEndsOfThighs) {
+  const auto thighs = [](double left_x) {
+    return list({upright(kLeftThigh, left_x, 4), upright(kRightThigh, 62, 5)});
+  };
+  const double whole = shanks_log_ratio(cloth(kStep), 4);
+  const double lower = log_ratio(cloth(0), cloth(kStep), thighs(60 - kStep), thighs(60));
+  EXPECT_GT(lower, 0.2 * whole);
+  EXPECT_LT(lower, 0.6 * whole);
+}
+
+}  // namespace
+}  // namespace walktrack

@@ -1,0 +1,109 @@
+#include "tracker/exchange.h"
+
+#include <gtest/gtest.h>
+
+#include "body/kinematics.h"
+#include "fixture.h"
+#include "tracker/modes.h"
+
+namespace walktrack {
+namespace {
+
+constexpr double kFrame = 1.0 / 30;
+
+class ExchangedLegs : public testing::TestWithParam<MotionKind> {
+ protected:
+  Walking walking{GetParam()};
+  MotionContext context = walking.context(kFrame);
+  const Body& body = walking.model.body;
+  std::vector<WalkerParticle> set = walkers_on_their_way(context, 30);
+
+  WalkerParticle exchanged(WalkerParticle particle) const {
+    exchange_legs(context, particle);
+    return particle;
+  }
+  JointPositions joints(const Pose& pose) const { return forward_kinematics(body, pose).joints; }
+};
+
+// To first order in the reach, so on the average; from the side the image stays.
+TEST_P(ExchangedLegs, PutTheOtherFootWhereAFootWas) {
+  double pelvis = 0, ankles = 0, knees = 0;  // m, that they are elsewhere
+  for (const WalkerParticle& particle : set) {
+    const JointPositions before = joints(particle.pose), after = joints(exchanged(particle).pose);
+    pelvis += (after[Joint::kPelvis] - before[Joint::kPelvis]).norm();
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      ankles += 0.5 * (after[ankle(side)] - before[ankle(other(side))]).norm();
+      knees += 0.5 * (after[knee(side)] - before[knee(other(side))]).norm();
+    }
+  }
+  const double count = static_cast<double>(set.size());
+  EXPECT_LT(pelvis / count, 0.03);
+  EXPECT_LT(ankles / count, 0.05);
+  EXPECT_NEAR(knees / count, 0.5 * body.lengths.hip_width, 0.04) << "half way to the hip";
+}
+
+TEST_P(ExchangedLegs, AreHalfAStrideAway) {
+  for (const WalkerParticle& particle : set)
+    EXPECT_NEAR(std::remainder(stride_phase(exchanged(particle)) - stride_phase(particle), 1.0),
+                stride_phase(particle) < 0.5 ? 0.5 : -0.5, 1e-12);
+}
+
+TEST_P(ExchangedLegs, AreAsBeforeWhenExchangedAgain) {
+  for (const WalkerParticle& particle : set) {
+    const WalkerParticle again = exchanged(exchanged(particle));
+    EXPECT_EQ(again.stance, particle.stance);
+    EXPECT_EQ(again.walker.q, particle.walker.q) << "the plane knows no sides";
+    for (size_t k = 0; k < kExtraCount; ++k) {
+      EXPECT_NEAR(again.extra[k], particle.extra[k], 1e-12) << k;
+      EXPECT_NEAR(again.extra_before[k], particle.extra_before[k], 1e-12) << k;
+    }
+    EXPECT_LT((again.pose.root - particle.pose.root).norm(), 1e-9);
+    EXPECT_NEAR(again.pose_before.legs[0].hip_abduction, particle.pose_before.legs[0].hip_abduction,
+                1e-12);
+  }
+}
+
+// Whoever goes on from there walks as anybody.
+TEST_P(ExchangedLegs, WalkOn) {
+  int alive = 0;
+  for (size_t i = 0; i < set.size(); ++i) {
+    WalkerParticle particle = exchanged(set[i]);
+    const Pose start = particle.pose;
+    Rng rng(9, Purpose::kTorque, 0, static_cast<uint32_t>(i));
+    Outcome outcome = Outcome::kAlive;
+    for (int frame = 0; frame < 10 && outcome == Outcome::kAlive; ++frame)
+      outcome = propagate(context, particle, rng);
+    if (outcome != Outcome::kAlive) continue;
+    ++alive;
+    EXPECT_NEAR((particle.pose.root - start.root).head<2>().norm(), 1.3 * 10 * kFrame, 0.35);
+  }
+  EXPECT_GT(alive, 20);
+}
+
+TEST_P(ExchangedLegs, OfARecordAreThoseOfItsParticles) {
+  const std::vector<double> weights(set.size(), 1.0 / double(set.size()));
+  FrameRecord record;
+  record.estimate = estimate_frame(walking.model, set, weights, kFrame, 1);
+  record.modes = stride_modes(set, weights);
+  exchange_legs(body, record);
+  for (WalkerParticle& particle : set) exchange_legs(context, particle);
+  const FrameEstimate after = estimate_frame(walking.model, set, weights, kFrame, 1);
+  for (int i = 0; i < kJointAngleCount; ++i) {
+    const Spread &is = record.estimate.angles[size_t(i)], &wanted = after.angles[size_t(i)];
+    EXPECT_NEAR(is.mean, wanted.mean, 0.02) << i;
+    EXPECT_NEAR(is.p05, wanted.p05, 0.06) << i;
+    EXPECT_NEAR(is.p95, wanted.p95, 0.06) << i;
+  }
+  for (size_t j = 0; j < size_t(kJointCountWithoutArms); ++j)
+    EXPECT_LT((record.estimate.joints.at[j] - after.joints.at[j]).norm(), 0.12) << j;
+  EXPECT_NEAR(record.estimate.left_stance, after.left_stance, 1e-12);
+  const StrideModes modes = stride_modes(set, weights);
+  EXPECT_NEAR(std::remainder(record.modes.phase - modes.phase, 1.0), 0, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, ExchangedLegs,
+                         testing::Values(MotionKind::kKneed, MotionKind::kAnthropomorphic,
+                                         MotionKind::kMarkov));
+
+}  // namespace
+}  // namespace walktrack
