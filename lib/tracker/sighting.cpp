@@ -54,13 +54,22 @@ struct Walk {
   double score;
 };
 
+// The frames that a walk is looked for in.
+struct Window {
+  const WindowScore& score;
+  size_t frames;
+  double dt;  // s
+  int threads;
+};
+
 // The figure's scores along a line, in every `stride`-th frame.
-std::vector<double> scores_along(const WindowScore& score, const Sighting& line,
-                                 const Vector2d& velocity, size_t frames, size_t stride,
-                                 double dt) {
-  std::vector<double> scores;
-  for (size_t f = 0; f < frames; f += stride)
-    scores.push_back(score(f, line.position + dt * double(f) * line.velocity, velocity));
+std::vector<double> scores_along(const Window& window, const Sighting& line,
+                                 const Vector2d& velocity, size_t stride) {
+  std::vector<double> scores((window.frames + stride - 1) / stride);
+  parallel_for(scores.size(), window.threads, [&](size_t i) {
+    const double time = window.dt * double(i * stride);
+    scores[i] = window.score(i * stride, line.position + time * line.velocity, velocity);
+  });
   return scores;
 }
 
@@ -73,11 +82,10 @@ double log_prior(const Sighting& line) {
 
 // Log-posterior of a line, by frame: every frame counts alike, for where a line lies, above all how
 // far away, is a matter of all of them.
-double line_score(const WindowScore& score, const Sighting& line, size_t frames, size_t stride,
-                  double dt) {
-  const std::vector<double> scores = scores_along(score, line, line.velocity, frames, stride, dt);
+double line_score(const Window& window, const Sighting& line, size_t stride = 1) {
+  const std::vector<double> scores = scores_along(window, line, line.velocity, stride);
   return std::accumulate(scores.begin(), scores.end(), 0.0) / double(scores.size()) +
-         log_prior(line) / independent_looks(frames, dt);
+         log_prior(line) / independent_looks(window.frames, window.dt);
 }
 
 double mean_of_worst_third(std::vector<double> scores) {
@@ -89,16 +97,12 @@ double mean_of_worst_third(std::vector<double> scores) {
 // Whether the line explains the frames where it fails better than standing in its middle explains
 // those where that fails: neither somebody who stands there, nor two things that are always there,
 // make a walk.
-bool moves(const WindowScore& score, const Sighting& line, size_t frames, double dt) {
-  const Sighting still{line.position + 0.5 * dt * double(frames - 1) * line.velocity,
-                       Vector2d::Zero(),
-                       line.ray,
-                       0,
-                       0,
-                       0};
+bool moves(const Window& window, const Sighting& line) {
+  const double half = 0.5 * window.dt * double(window.frames - 1);
+  const Sighting still{line.position + half * line.velocity, Vector2d::Zero(), line.ray, 0, 0, 0};
   const Vector2d& pace = line.velocity;
-  return mean_of_worst_third(scores_along(score, line, pace, frames, 1, dt)) >
-         std::max(0.0, mean_of_worst_third(scores_along(score, still, pace, frames, 1, dt)));
+  return mean_of_worst_third(scores_along(window, line, pace, 1)) >
+         std::max(0.0, mean_of_worst_third(scores_along(window, still, pace, 1)));
 }
 
 // Lines through a candidate of an early and one of a late frame, at a walking speed.
@@ -136,59 +140,93 @@ std::vector<Shift> shifts(const Shift& rays) {
   return out;
 }
 
-// Climbs by a shrinking pattern, down to a centimetre.
-Walk refined(Walk walk, const WindowScore& score, size_t frames, double dt, const Vector2d& eye) {
-  const double time = dt * double(frames - 1);
-  const size_t stride = std::max<size_t>(1, frames / kScored);
-  walk.score = line_score(score, walk.line, frames, stride, dt);
-  const Vector2d end = walk.line.position + time * walk.line.velocity;
-  const std::vector<Shift> pattern =
-      shifts({(walk.line.position - eye).normalized(), (end - eye).normalized()});
-  for (double step = 0.24; step > 0.01; step *= 0.5) {
-    for (bool better = true; better;) {
-      better = false;
-      for (const Shift& shift : pattern) {
-        const Sighting line{walk.line.position + step * shift.begin,
-                            walk.line.velocity + step / time * (shift.end - shift.begin),
-                            walk.line.ray,
-                            0,
-                            0,
-                            0};
-        const double value = line_score(score, line, frames, stride, dt);
-        if (value <= walk.score) continue;
-        walk = {line, value};
-        better = true;
-      }
+// The steps of a climb's shrinking pattern, m.
+constexpr double kSteps[] = {0.24, 0.12, 0.06, 0.03, 0.015};
+
+Vector2d end_of(const Sighting& line, double time) { return line.position + time * line.velocity; }
+
+// A walk whose score is that of a climb, which looks at some of the frames.
+Walk looked_at(const Window& window, const Sighting& line) {
+  return {line, line_score(window, line, std::max<size_t>(1, window.frames / kScored))};
+}
+
+// Climbs as far as a pattern of this step leads.
+Walk climbed(Walk walk, const Window& window, const std::vector<Shift>& pattern, double step) {
+  const double time = window.dt * double(window.frames - 1);
+  for (bool better = true; better;) {
+    better = false;
+    for (const Shift& shift : pattern) {
+      Sighting line{walk.line.position + step * shift.begin,
+                    walk.line.velocity + step / time * (shift.end - shift.begin),
+                    walk.line.ray,
+                    0,
+                    0,
+                    0};
+      const Walk tried = looked_at(window, line);
+      if (tried.score <= walk.score) continue;
+      walk = tried;
+      better = true;
     }
   }
   return walk;
 }
 
+// Of walks that have come so close that they climb to the same top, the best.
+void drop_doubles(double apart, double time, std::vector<Walk>& walks) {
+  std::stable_sort(walks.begin(), walks.end(),
+                   [](const Walk& a, const Walk& b) { return a.score > b.score; });
+  std::vector<Walk> kept;
+  for (const Walk& walk : walks) {
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Walk& other) {
+      return (walk.line.position - other.line.position).norm() < apart &&
+             (end_of(walk.line, time) - end_of(other.line, time)).norm() < apart;
+    });
+    if (!known) kept.push_back(walk);
+  }
+  walks = std::move(kept);
+}
+
+// Climbs from each of them, down to a centimetre.
+void refine(const Window& window, const Vector2d& eye, std::vector<Walk>& walks) {
+  const double time = window.dt * double(window.frames - 1);
+  for (const double step : kSteps) {
+    // One of them is climbed with by all threads, several by one each.
+    Window own = window;
+    if (walks.size() > 1) own.threads = 1;
+    parallel_for(walks.size(), window.threads, [&](size_t i) {
+      const Sighting& line = walks[i].line;
+      walks[i] = climbed(
+          walks[i], own,
+          shifts({(line.position - eye).normalized(), (end_of(line, time) - eye).normalized()}),
+          step);
+    });
+    drop_doubles(2 * step, time, walks);
+  }
+}
+
 // Standard deviation of a shift of the line's ends, of which `shift` is one step, in its own size:
 // from the curvature of the log-posterior over two steps.
-double spread_of(const Shift& shift, const Walk& walk, const WindowScore& score, size_t frames,
-                 double dt) {
-  const double time = dt * double(frames - 1);
+double spread_of(const Shift& shift, const Walk& walk, const Window& window) {
+  const double time = window.dt * double(window.frames - 1);
   double bent = -2 * walk.score;
   for (const double sign : {1.0, -1.0}) {
     Sighting line = walk.line;
     line.position += sign * shift.begin;
     line.velocity += sign / time * (shift.end - shift.begin);
-    bent += line_score(score, line, frames, 1, dt);
+    bent += line_score(window, line);
   }
   constexpr double kFlat = 0.05;  // nats: no less curved than this
-  return kStrangeFigure / std::sqrt(independent_looks(frames - 1, dt) * std::max(kFlat, -bent));
+  return kStrangeFigure /
+         std::sqrt(independent_looks(window.frames - 1, window.dt) * std::max(kFlat, -bent));
 }
 
 // How uncertain a walk is along the ray.
-void measure_spread(const Vector2d& ray, const WindowScore& score, size_t frames, double dt,
-                    Walk& walk) {
+void measure_spread(const Vector2d& ray, const Window& window, Walk& walk) {
   constexpr double kStep = 0.2;  // m
-  const double time = dt * double(frames - 1);
+  const double time = window.dt * double(window.frames - 1);
   walk.line.ray = ray;
-  walk.line.position_sd = kStep * spread_of({kStep * ray, kStep * ray}, walk, score, frames, dt);
-  walk.line.velocity_sd =
-      2 * kStep / time * spread_of({-kStep * ray, kStep * ray}, walk, score, frames, dt);
+  walk.line.position_sd = kStep * spread_of({kStep * ray, kStep * ray}, walk, window);
+  walk.line.velocity_sd = 2 * kStep / time * spread_of({-kStep * ray, kStep * ray}, walk, window);
 }
 
 // The least mean of `span` consecutive numbers.
@@ -203,21 +241,19 @@ double least_mean(std::span<const double> values, size_t span) {
 
 // Nobody hidden or cut off: the score does not stay far below its median. For a moment it may: a
 // person's long step has poses that no figure resembles.
-bool seen_throughout(const Walk& walk, const WindowScore& score, size_t frames, double dt,
-                     const SightingConfig& config) {
+bool seen_throughout(const Walk& walk, const Window& window, const SightingConfig& config) {
   constexpr double kMoment = 0.15;  // s
-  std::vector<double> scores = scores_along(score, walk.line, walk.line.velocity, frames, 1, dt);
-  const auto moment = static_cast<size_t>(std::max(1L, std::lround(kMoment / dt)));
+  std::vector<double> scores = scores_along(window, walk.line, walk.line.velocity, 1);
+  const auto moment = static_cast<size_t>(std::max(1L, std::lround(kMoment / window.dt)));
   const double least = least_mean(scores, std::min(moment, scores.size()));
   std::nth_element(scores.begin(), scores.begin() + long(scores.size() / 2), scores.end());
   return least >= config.least_score && least >= config.complete * scores[scores.size() / 2];
 }
 
-bool walks_on(const Walk& walk, const WindowScore& score, size_t frames, double dt,
-              const SightingConfig& config) {
+bool walks_on(const Walk& walk, const Window& window, const SightingConfig& config) {
   const double speed = walk.line.velocity.norm();
-  return speed >= config.slowest && speed <= config.fastest &&
-         moves(score, walk.line, frames, dt) && seen_throughout(walk, score, frames, dt, config);
+  return speed >= config.slowest && speed <= config.fastest && moves(window, walk.line) &&
+         seen_throughout(walk, window, config);
 }
 
 }  // namespace
@@ -266,38 +302,40 @@ WindowEnds window_ends(size_t frames) {
   return {early, frames - 1 - early};
 }
 
-std::optional<Sighting> find_walk(const WindowCandidates& window, const WindowScore& score,
+std::optional<Sighting> find_walk(const WindowCandidates& candidates, const WindowScore& score,
                                   double dt, const Vector2d& eye, const SightingConfig& config,
                                   int threads) {
   constexpr size_t kRefined = 4, kStride = 3;
-  const size_t frames = window.frames;
-  std::vector<Walk> walks = proposed_walks(window, dt, config);
+  const Window window{score, candidates.frames, dt, threads};
+  std::vector<Walk> walks = proposed_walks(candidates, dt, config);
   if (walks.empty()) return std::nullopt;
   parallel_for(walks.size(), threads, [&](size_t i) {
-    walks[i].score = line_score(score, walks[i].line, frames, kStride, dt);
+    walks[i].score = line_score({score, candidates.frames, dt, 1}, walks[i].line, kStride);
   });
   std::erase_if(walks, [&](const Walk& walk) { return walk.score < config.least_score; });
   std::stable_sort(walks.begin(), walks.end(),
                    [](const Walk& a, const Walk& b) { return a.score > b.score; });
   walks.resize(std::min(walks.size(), kRefined));
-  parallel_for(walks.size(), threads,
-               [&](size_t i) { walks[i] = refined(walks[i], score, frames, dt, eye); });
-  std::erase_if(walks,
-                [&](const Walk& walk) { return !walks_on(walk, score, frames, dt, config); });
+  for (Walk& walk : walks) walk = looked_at(window, walk.line);
+  refine(window, eye, walks);
+  std::erase_if(walks, [&](const Walk& walk) { return !walks_on(walk, window, config); });
   if (walks.empty()) return std::nullopt;
   Walk& best = *std::max_element(walks.begin(), walks.end(),
                                  [](const Walk& a, const Walk& b) { return a.score < b.score; });
-  best.score = line_score(score, best.line, frames, 1, dt);
-  measure_spread((best.line.position - eye).normalized(), score, frames, dt, best);
+  best.score = line_score(window, best.line);
+  measure_spread((best.line.position - eye).normalized(), window, best);
   best.line.score = best.score;
   return best.line;
 }
 
 Sighting nearest_walk(const Sighting& walk, size_t frames, const WindowScore& score, double dt,
                       const Vector2d& eye) {
-  Walk found = refined({walk, 0}, score, frames, dt, eye);
-  found.line.score = line_score(score, found.line, frames, 1, dt);
-  return found.line;
+  const Window window{score, frames, dt, 1};
+  std::vector<Walk> walks{looked_at(window, walk)};
+  refine(window, eye, walks);
+  Sighting found = walks[0].line;
+  found.score = line_score(window, found);
+  return found;
 }
 
 double independent_looks(size_t frames, double dt) {

@@ -75,7 +75,7 @@ struct WindowCandidates {
 // The walk through a window's frames, dt apart; nullopt when nobody walks there, is cut
 // off by an edge or hidden in part of the frames. `eye`: where the camera stands that sees the
 // distance least (any, if several do).
-std::optional<Sighting> find_walk(const WindowCandidates& window, const WindowScore& score,
+std::optional<Sighting> find_walk(const WindowCandidates& candidates, const WindowScore& score,
                                   double dt, const Eigen::Vector2d& eye,
                                   const SightingConfig& config, int threads);
 
