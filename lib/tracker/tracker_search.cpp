@@ -16,8 +16,8 @@ namespace walktrack {
 namespace {
 
 constexpr double kUsualSpeed = 1.25;  // m/s
-// Log-odds at which the pictures agree with the names of the legs, and at which they exchange them.
-// Of 80 made walks (README.md) four were exchanged rightly and one wrongly, others not at all.
+// Log-odds at which the pictures agree with the names of the legs, and at which they exchange them:
+// set on 80 made walks, four of which were exchanged rightly and one wrongly (README.md).
 constexpr double kAgreed = 1.5, kExchanged = 0.75;
 
 // A probability after evidence against it, nats.
