@@ -114,6 +114,20 @@ TEST(LegOrder, DoesNotAskWhatIsHiddenOrLooksLikeTheEmptyScene) {
   EXPECT_EQ(log_ratio(cloth(0), cloth(kStep), shanks(4, 60 - kStep), shanks(4), everywhere(-1)), 0);
 }
 
+// A shoe, a hem, the edge of a shadow: however bright, a pixel says no more than 2 ln(12 / 3) nats.
+TEST(LegOrder, StrangePixelsDoNotDecide) {
+  GreyImage dark{kSize, kSize, std::vector<uint8_t>(kSize * kSize, 20)}, bright = dark;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 58; x < kSize; ++x) {
+      dark.pixels[static_cast<size_t>(y * kSize + x)] = 250;
+      bright.pixels[static_cast<size_t>(y * kSize + x)] = 250;
+    }
+  const double said = log_ratio(dark, bright, shanks(4, 60 - kStep), shanks(4));
+  const PixelRect area = leg_overlap(parts(), shanks(4));
+  EXPECT_LT(said, -50) << "nothing moves";
+  EXPECT_GT(said, -2 * std::log(12.0 / 3) * (kStep + 2) * area.height());
+}
+
 // Hands swing past the upper thighs.
 TEST(LegOrder, AsksOnlyTheLowerEndsOfThighs) {
   const auto thighs = [](double left_x) {

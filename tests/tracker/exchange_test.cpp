@@ -63,6 +63,25 @@ TEST_P(ExchangedLegs, AreAsBeforeWhenExchangedAgain) {
   }
 }
 
+// What the one leg was about to do, the other one is.
+TEST_P(ExchangedLegs, GoOnAsTheyMoved) {
+  const auto rate = [](const WalkerParticle& p, int k) {
+    return p.extra[size_t(k)] - p.extra_before[size_t(k)];
+  };
+  for (const WalkerParticle& particle : set) {
+    const WalkerParticle other_way = exchanged(particle);
+    for (const int left : {kRotation, kAnkle, kThigh, kShank}) {
+      EXPECT_NEAR(rate(other_way, left), rate(particle, left + 1), 1e-12);
+      EXPECT_NEAR(rate(other_way, left + 1), rate(particle, left), 1e-12);
+    }
+    EXPECT_NEAR(rate(other_way, kAbduction), -rate(particle, kAbductionRight), 1e-12);
+    const Pose &was = particle.pose_before, &is = other_way.pose_before;
+    EXPECT_EQ(is.root, was.root);
+    EXPECT_EQ(is.legs[0].hip_flexion, was.legs[1].hip_flexion);
+    EXPECT_EQ(is.legs[1].knee_flexion, was.legs[0].knee_flexion);
+  }
+}
+
 // Whoever goes on from there walks as anybody.
 TEST_P(ExchangedLegs, WalkOn) {
   int alive = 0;
