@@ -67,6 +67,8 @@ Observer make_observer(const Scene& scene, const SceneCamera& camera, const Conf
   input.camera = camera.camera;
   input.shrink = working_scale(scene, camera.camera, config).shrink;
   input.appearances = appearances_of(body);
+  // Several cameras share the threads among themselves.
+  input.threads = scene.cameras.size() == 1 ? thread_count(config.threads) : 1;
   input.occluders = occluders_at(camera, 0);
   if (learned) {
     input.background = learned->background;

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/errors.h"
+#include "core/parallel_for.h"
 #include "observation/shrink.h"
 #include "observation/silhouette.h"
 
@@ -17,6 +18,8 @@ namespace {
 
 // Rows of the background that follow the light in one frame: every eighth, in turn.
 constexpr int kDriftRows = 8;
+// Rows that are worked on together.
+constexpr int kBand = 32;
 // Colours are learned from the inner part of each silhouette, where the body is surely.
 constexpr double kInner = 0.75;
 
@@ -67,6 +70,7 @@ struct Observer::State {
         full_camera(input.camera),
         shrink(input.shrink),
         background(std::move(input.background)),
+        threads(input.threads),
         occluded(!input.occluders.empty()),
         mask(occluder_mask(camera, input.occluders, input.shrink)),
         appearance(settings.foreground, input.appearances),
@@ -74,7 +78,7 @@ struct Observer::State {
 
   void fill_planes(const cv::Mat& bgr, const PixelRect& area, LogRatioPlanes& planes);
   int planes_wanted() const;
-  void fill_row(int y, double gain, LogRatioPlanes& planes);
+  void fill_rows(int begin, int end, double gain, LogRatioPlanes& planes) const;
   void measure_flow(const cv::Mat& grey, const PixelRect& area, FlowField& flow);
   void block_flow(FlowField& flow) const;
 
@@ -82,6 +86,7 @@ struct Observer::State {
   Camera camera, full_camera;
   int shrink;
   std::optional<BackgroundModel> background;
+  int threads;
   bool occluded;
   cv::Mat mask;  // 255 where an occluder stands
   AppearanceModel appearance;
@@ -90,10 +95,7 @@ struct Observer::State {
   ColourTable broad;
   cv::Mat grey_before;
   int64_t frames = 0;
-  // Of the frame observed last:
-  ColourPatch patch;
-  std::vector<uint16_t> row_bins;
-  std::vector<float> row_background, row_ratio;
+  ColourPatch patch;  // of the frame observed last
 };
 
 Region whole_image(const Camera& camera, double metres_per_px) {
@@ -228,33 +230,38 @@ void Observer::State::fill_planes(const cv::Mat& bgr, const PixelRect& area,
   resize(planes, area, planes_wanted());
   if (planes.count == 0 || area.empty()) return;
   const double gain = config.background.enabled ? light_gain(*background, bgr) : 1;
-  const auto width = static_cast<size_t>(area.width());
-  row_bins.resize(width);
-  row_background.resize(width);
-  row_ratio.resize(width);
-  for (int y = area.y0; y < area.y1; ++y) fill_row(y, gain, planes);
+  const size_t bands = (static_cast<size_t>(area.height()) + kBand - 1) / kBand;
+  parallel_for(bands, threads, [&](size_t band) {
+    const int begin = area.y0 + static_cast<int>(band) * kBand;
+    fill_rows(begin, std::min(begin + kBand, area.y1), gain, planes);
+  });
   if (config.background.enabled && config.background.drift_rate > 0)
     follow_drift(*background, config.background, bgr, gain, static_cast<int>(frames % kDriftRows),
                  kDriftRows);
 }
 
-void Observer::State::fill_row(int y, double gain, LogRatioPlanes& planes) {
+void Observer::State::fill_rows(int begin, int end, double gain, LogRatioPlanes& planes) const {
   const PixelRect& area = planes.area;
-  const size_t at = patch.index(area.x0, y), width = row_bins.size();
-  for (size_t i = 0; i < width; ++i)
-    row_bins[i] = bins.bin(patch.luma[at + i], patch.orange[at + i], patch.green[at + i]);
-  if (config.background.enabled) {
-    background_log_density(*background, config.background, patch, area, y, gain, row_background);
-  } else {
-    for (size_t i = 0; i < width; ++i) row_background[i] = scene[row_bins[i]];
-  }
-  const uint8_t* const blocked = occluded ? mask.ptr<uint8_t>(y) + area.x0 : nullptr;
-  for (int plane = 0; plane < planes.count; ++plane) {
-    const ColourTable& table = config.foreground.enabled ? appearance.table(plane) : broad;
-    for (size_t i = 0; i < width; ++i) row_ratio[i] = table[row_bins[i]] - row_background[i];
-    for (size_t i = 0; blocked && i < width; ++i)
-      if (blocked[i]) row_ratio[i] = 0;
-    set_row(planes, plane, y, row_ratio, config.clip);
+  const auto width = static_cast<size_t>(area.width());
+  std::vector<uint16_t> colours(width);
+  std::vector<float> behind(width), ratio(width);
+  for (int y = begin; y < end; ++y) {
+    const size_t at = patch.index(area.x0, y);
+    for (size_t i = 0; i < width; ++i)
+      colours[i] = bins.bin(patch.luma[at + i], patch.orange[at + i], patch.green[at + i]);
+    if (config.background.enabled) {
+      background_log_density(*background, config.background, patch, area, y, gain, behind);
+    } else {
+      for (size_t i = 0; i < width; ++i) behind[i] = scene[colours[i]];
+    }
+    const uint8_t* const blocked = occluded ? mask.ptr<uint8_t>(y) + area.x0 : nullptr;
+    for (int plane = 0; plane < planes.count; ++plane) {
+      const ColourTable& table = config.foreground.enabled ? appearance.table(plane) : broad;
+      for (size_t i = 0; i < width; ++i) ratio[i] = table[colours[i]] - behind[i];
+      for (size_t i = 0; blocked && i < width; ++i)
+        if (blocked[i]) ratio[i] = 0;
+      set_row(planes, plane, y, ratio, config.clip);
+    }
   }
 }
 

@@ -54,6 +54,7 @@ struct ObserverInput {
   std::array<bool, kAppearanceCount> appearances{};  // in use; see appearances_of
   std::optional<BackgroundModel> background;  // of shrunk frames; needed if that term is enabled
   std::vector<Polygon> occluders;
+  int threads = 1;  // that share the rows of a frame; the evidence is the same for any number
 };
 
 // Which appearances a body's parts have.

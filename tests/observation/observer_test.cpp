@@ -74,10 +74,10 @@ struct World {
     draw_body(image, capsules(p));
     return image;
   }
-  Observer observer(const ObservationConfig& config) const {
+  Observer observer(const ObservationConfig& config, int threads = 1) const {
     BackgroundSampler sampler(config.background, 1);
     sampler.add(empty);
-    return Observer(config, {camera, 1, appearances_of(body), sampler.model(), {}});
+    return Observer(config, {camera, 1, appearances_of(body), sampler.model(), {}, threads});
   }
 };
 
@@ -145,6 +145,34 @@ TEST(Observer, RegionLimitsWhatIsComputed) {
   EXPECT_TRUE(nowhere.area.empty());
   part.observe(world.frame(world.pose(0)), nowhere, b);
   EXPECT_EQ(log_likelihood(config, b, now, &now), 0);
+}
+
+TEST(Observer, ThreadsDoNotMatter) {
+  const World world;
+  Observer one = world.observer(every_term()), four = world.observer(every_term(), 4);
+  CameraEvidence a, b;
+  for (const double x : {0.0, 0.02}) {
+    const cv::Mat frame = world.frame(world.pose(x));
+    one.observe(frame, whole_image(one.camera(), 0.01), a);
+    four.observe(frame, whole_image(four.camera(), 0.01), b);
+    EXPECT_EQ(a.planes.prefix, b.planes.prefix);
+    one.learn(a, world.capsules(world.pose(x)));
+    four.learn(b, world.capsules(world.pose(x)));
+  }
+}
+
+TEST(Observer, HoldsThePictureWhereItIsWanted) {
+  const World world;
+  Observer observer = world.observer({});
+  CameraEvidence evidence;
+  Region region = whole_image(observer.camera(), 0.01);
+  region.picture = true;
+  observer.observe(world.empty, region, evidence);
+  ASSERT_EQ(evidence.picture.pixels.size(), size_t{320 * 240});
+  EXPECT_EQ(evidence.picture.width, 320);
+  region.picture = false;
+  observer.observe(world.empty, region, evidence);
+  EXPECT_TRUE(evidence.picture.pixels.empty());
 }
 
 TEST(Observer, PersonRegionHoldsTheBody) {
