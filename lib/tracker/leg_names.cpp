@@ -10,7 +10,7 @@ namespace walktrack {
 namespace {
 
 // Pixels of successive frames err together: so many nats of theirs count as one. Windows of made
-// walks whose legs bear the right names have -2 to +18 nats (README.md).
+// walks whose legs bear the right names have -4 to +18 nats.
 constexpr double kNatsForOne = 3;
 
 CapsuleList seen_from(const TrackerScene& scene, const Pose& pose) {

@@ -80,9 +80,11 @@ class Tracker {
   // to their weights.
   void use_particles(int count);
 
-  // Whether the next frame's evidence is to hold its picture: a start in front of one camera looks
-  // at it to tell the legs apart.
-  bool wants_picture() const { return !tracking() && scene_.cameras.size() == 1; }
+  // Whether the next frame's evidence is to hold its picture: a walk that is looked for in front of
+  // one camera has its legs told apart by it.
+  bool wants_picture() const {
+    return mode_ == Mode::kSearching && !scene_.initial && scene_.cameras.size() == 1;
+  }
   // Whether the newest frame has been tracked, so that its particles say where the person is.
   bool tracking() const { return mode_ == Mode::kTracking; }
   const ParticleSet<WalkerParticle>& particles() const { return filter_.particles(); }

@@ -190,7 +190,6 @@ Tracker::Trial Tracker::with_legs_exchanged(const Trial& trial) {
   for (FrameRecord& record : other.records) exchange_legs(body(), record);
   for (WalkerParticle& each : other.settled->filter.set.states)
     exchange_legs(context(false).motion, each);
-  other.settled->doubt = 1 - other.settled->doubt;
   resume(*other.settled);
   follow_rest(other);
   return other;

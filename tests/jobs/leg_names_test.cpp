@@ -4,16 +4,14 @@
 #include <filesystem>
 
 #include <gtest/gtest.h>
-#include <opencv2/core.hpp>
 
 #include "body/kinematics.h"
 #include "body/pose_from_joints.h"
-#include "core/conventions.h"
 #include "io/motion_file.h"
 #include "jobs/track.h"
 #include "synth/made_walk.h"
-#include "synth/sensor.h"
 #include "synth/stage.h"
+#include "tests/synth/filmed.h"
 #include "tracker/exchange.h"
 
 namespace walktrack {
@@ -33,16 +31,8 @@ struct Film {
     walk.start = {-1, 0};
     FilmedWalker walker;
     walker.motion = made_walk(make_body(Subject{}, {.head = true, .arms = true}), walk);
-    RenderCamera filming;
-    filming.name = "side";
-    filming.width_px = 480;
-    filming.height_px = 360;
-    filming.azimuth = rad_from_deg(azimuth_deg);
-    filming.height = 1.4;
-    filming.distance = 4;
-    filming.focal_px = 520;
     RenderOptions options;
-    options.cameras = {filming};
+    options.cameras = {small_camera(azimuth_deg, 2)};
     const Stage stage = make_stage(walker, options, {});
     scene.cameras = stage.cameras;
     scene.model.body = make_body(Subject{}, {});
@@ -57,13 +47,9 @@ struct Film {
   }
 
   static CameraEvidence evidence(const Stage& stage, const View& view, uint32_t frame) {
-    const Picture picture = render(view, stage.world, actors_at(stage, frame * kFrame));
-    const std::vector<uint8_t> bgr = developed(picture.colour, Sensor{}, 3, 0, frame);
     CameraEvidence out;
-    out.picture = {view.camera.width_px, view.camera.height_px, {}};
-    for (size_t i = 0; i < bgr.size(); i += 3)
-      out.picture.pixels.push_back(
-          static_cast<uint8_t>((bgr[i] + 2 * bgr[i + 1] + bgr[i + 2]) / 4));
+    out.picture = {view.camera.width_px, view.camera.height_px,
+                   grey_picture(stage, view, frame, frame * kFrame)};
     resize(out.planes, {0, 0, view.camera.width_px, view.camera.height_px}, 1);
     for (int y = 0; y < view.camera.height_px; ++y)
       set_row(out.planes, 0, y, std::vector<float>(size_t(view.camera.width_px), 1.0F), 4);

@@ -10,16 +10,14 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <opencv2/core.hpp>
 
 #include "body/kinematics.h"
 #include "body/pose_from_joints.h"
-#include "core/conventions.h"
 #include "observation/capsules.h"
 #include "observation/flow.h"
 #include "synth/made_walk.h"
-#include "synth/sensor.h"
 #include "synth/stage.h"
+#include "tests/synth/filmed.h"
 
 namespace walktrack {
 namespace {
@@ -72,17 +70,8 @@ class Pairs {
  private:
   static RenderOptions options() {
     RenderOptions options;
-    for (const double azimuth_deg : {-90.0, -25.0}) {
-      RenderCamera camera;
-      camera.name = "camera";
-      camera.width_px = 240;
-      camera.height_px = 180;
-      camera.azimuth = rad_from_deg(azimuth_deg);
-      camera.height = 1.4;
-      camera.distance = 4;
-      camera.focal_px = 260;
-      options.cameras.push_back(camera);
-    }
+    for (const double azimuth_deg : {-90.0, -25.0})
+      options.cameras.push_back(small_camera(azimuth_deg));
     return options;
   }
   Pose pose(const Motion& motion, size_t row) const {
@@ -91,15 +80,9 @@ class Pairs {
   CapsuleList capsules(const Camera& camera, const Pose& pose) const {
     return project_parts(camera, pose_parts(body_, forward_kinematics(body_, pose)));
   }
-  static cv::Mat grey(const Stage& stage, const View& view, uint32_t frame) {
-    const Picture picture = render(view, stage.world, actors_at(stage, frame * kFrame));
-    std::vector<uint8_t> bytes = developed(picture.colour, Sensor{}, 3, 0, frame);
-    cv::Mat out(view.camera.height_px, view.camera.width_px, CV_8U);
-    for (int i = 0; i < int(out.total()); ++i) {
-      const uint8_t* const bgr = &bytes[3 * static_cast<size_t>(i)];
-      out.data[i] = static_cast<uint8_t>((bgr[0] + 2 * bgr[1] + bgr[2]) / 4);
-    }
-    return out;
+  static GreyImage grey(const Stage& stage, const View& view, uint32_t frame) {
+    return {view.camera.width_px, view.camera.height_px,
+            grey_picture(stage, view, frame, frame * kFrame)};
   }
 
   Body body_ = make_body(Subject{}, {});
