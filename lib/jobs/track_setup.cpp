@@ -9,7 +9,7 @@
 #include "core/errors.h"
 #include "core/parallel_for.h"
 #include "io/video.h"
-#include "observation/background.h"
+#include "observation/background_sampler.h"
 #include "observation/shrink.h"
 #include "tracker/planar_body.h"
 

@@ -28,31 +28,14 @@ struct BackgroundModel {
   std::vector<float> luma_precision, chroma_precision;  // 1 / variance
 };
 
-// Collects frames in bounded memory and makes the model of them. Frames may show people: each pixel
-// takes the colour it shows most often, so a place must be free in the largest share of the frames,
-// not in all.
-class BackgroundSampler {
- public:
-  // Frames are shrunk by the whole factor `shrink` by area averaging.
-  BackgroundSampler(const BackgroundConfig& config, int shrink);
-
-  // Frames are spread evenly over all that were added, whatever their number.
-  void add(const cv::Mat& frame_bgr);
-
-  int frames() const { return static_cast<int>(kept_.size()); }
-
-  // The same for any number of threads. Throws InputError when no frame was added.
-  BackgroundModel model(int threads = 1) const;
-
- private:
-  BackgroundConfig config_;
-  int shrink_;
-  int64_t seen_ = 0, stride_ = 1;
-  std::vector<std::vector<uint8_t>> kept_;  // BGR
-  int width_ = 0, height_ = 0;
+// Where the light is measured: points of a grid over the image.
+struct LightPoint {
+  int x, y;
+  size_t pixel;  // in row order
 };
+std::vector<LightPoint> light_points(int width, int height);
 
-// Strength of the light in `bgr` relative to the model: the median ratio of luma over a grid.
+// Strength of the light in `bgr` relative to the model: the median ratio of luma over those points.
 double light_gain(const BackgroundModel& model, const cv::Mat& bgr);
 
 // Logs of densities of one row of pixels, area.x0 <= x < area.x1, per cubed grey level. The

@@ -1,4 +1,4 @@
-#include "observation/background.h"
+#include "observation/background_sampler.h"
 
 #include <cmath>
 
@@ -151,6 +151,50 @@ TEST(Background, MemoryIsBounded) {
   }
   EXPECT_EQ(sampler.model().width, kWidth / 2);
   EXPECT_THROW(BackgroundSampler(config, 1).model(), InputError);
+}
+
+// Pixels that hold still are summed in rows, others are sorted one by one: both are the plain mean
+// where every sample counts.
+TEST(Background, StillPixelsHaveTheMeanAndVarianceOfTheirSamples) {
+  constexpr int kFrames = 30;
+  BackgroundConfig config;
+  config.noise = 0.1;
+  config.jitter_px = 0;
+  for (const double noise : {2.0, 4.0}) {  // hardly a pixel is sorted; nearly all are
+    Rng rng(1, Purpose::kTest);
+    std::vector<cv::Mat> frames;
+    for (int i = 0; i < kFrames; ++i) frames.push_back(scene(rng, noise));
+    const BackgroundModel model = model_of(frames, config);
+    double squares = 0, variance = 0, stated = 0;
+    for (size_t i = 0; i < model.luma.size(); ++i) {
+      double sum = 0, square = 0;
+      for (const cv::Mat& frame : frames) {
+        const uint8_t* p = frame.data + 3 * i;
+        const double luma = 0.25 * (p[0] + 2 * p[1] + p[2]);
+        sum += luma;
+        square += luma * luma;
+      }
+      squares += std::pow(static_cast<double>(model.luma[i]) - sum / kFrames, 2);
+      variance += (square - sum * sum / kFrames) / (kFrames - 1);
+      stated += 1 / static_cast<double>(model.luma_precision[i]);
+    }
+    const auto n = static_cast<double>(model.luma.size());
+    EXPECT_LT(std::sqrt(squares / n), 0.05 * noise) << noise;  // the light is measured, too
+    EXPECT_NEAR(stated / variance, 1, 0.05) << noise;
+  }
+}
+
+TEST(Background, IsFoundBehindAWalkerWhoDiffersInColourAlone) {
+  Rng rng(1, Purpose::kTest);
+  const BackgroundModel empty = model_of({scene(rng, 0)});
+  std::vector<cv::Mat> frames;
+  for (int i = 0; i < 12; ++i) {
+    frames.push_back(scene(rng, 1));
+    if (i % 3 == 0) frames.back()(kBox) += cv::Scalar(-30, 0, 30);
+  }
+  const BackgroundModel model = model_of(frames);
+  for (size_t i = 0; i < model.orange.size(); ++i)
+    ASSERT_NEAR(model.orange[i], empty.orange[i], 3) << i;
 }
 
 TEST(Background, ThreadsDoNotMatter) {

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "core/parallel_for.h"
+#include "observation/background_sampler.h"
 #include "observation/likelihood.h"
 #include "tests/observation/rendered.h"
 #include "tests/observation/scenes.h"

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "observation/background_sampler.h"
 #include "observation/likelihood.h"
 #include "observation/shrink.h"
 #include "tests/observation/perturbed.h"

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "observation/background_sampler.h"
 #include "observation/likelihood.h"
 #include "tests/observation/perturbed.h"
 #include "tests/observation/rendered.h"

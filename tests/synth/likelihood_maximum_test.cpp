@@ -13,6 +13,7 @@
 
 #include "body/kinematics.h"
 #include "core/conventions.h"
+#include "observation/background_sampler.h"
 #include "observation/capsules.h"
 #include "observation/likelihood.h"
 #include "synth/sensor.h"
