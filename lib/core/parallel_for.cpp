@@ -1,11 +1,13 @@
 #include "core/parallel_for.h"
 
 #include <algorithm>
+#include <exception>
 #include <thread>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
@@ -30,6 +32,15 @@ void tell_range_ends() {}
 void tell_end() {}
 #endif
 
+// With all threads of the machine, those that are there already: to ask for fewer costs the time of
+// gathering them. Who waits takes up nothing but what it waits for, as its own scratch is in use.
+template <typename F>
+void in_arena(int threads, const F& f) {
+  if (threads >= hardware_threads()) return tbb::this_task_arena::isolate(f);
+  tbb::task_arena arena(threads);
+  arena.execute(f);
+}
+
 }  // namespace
 
 int hardware_threads() {
@@ -46,10 +57,8 @@ void parallel_ranges(size_t n, int threads, void (*body)(void*, size_t, size_t),
   // Small ranges balance uneven work (a particle in mid-air costs less than one at a strike);
   // 8 a thread keep the hand-over cost far below the work.
   const size_t grain = std::max<size_t>(1, n / (static_cast<size_t>(threads) * 8));
-  // More threads than the machine has would only be asked for in vain.
   tell_begin();
-  tbb::task_arena arena(std::min(threads, hardware_threads()));
-  arena.execute([&] {
+  in_arena(threads, [&] {
     tbb::parallel_for(
         tbb::blocked_range<size_t>(0, n, grain),
         [&](const tbb::blocked_range<size_t>& range) {
@@ -60,6 +69,35 @@ void parallel_ranges(size_t n, int threads, void (*body)(void*, size_t, size_t),
         tbb::simple_partitioner());
   });
   tell_end();
+}
+
+void run_beside(int threads, const std::function<void()>& here,
+                const std::function<void()>& beside) {
+  if (threads <= 1) {
+    here();
+    beside();
+    return;
+  }
+  tell_begin();
+  tbb::task_group group;
+  group.run([&] {
+    tell_range_begins();
+    beside();
+    tell_range_ends();
+  });
+  std::exception_ptr thrown;
+  const auto attempt = [&](const std::function<void()>& f) {
+    try {
+      f();
+    } catch (...) {
+      if (!thrown) thrown = std::current_exception();
+    }
+  };
+  attempt(here);
+  // Done here if no other thread was free.
+  attempt([&] { group.wait(); });
+  tell_end();
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 }  // namespace walktrack

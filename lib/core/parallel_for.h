@@ -1,9 +1,15 @@
-// The one threading primitive: f(i) for every i in [0, n), each index exactly once. A call must
-// write only what belongs to its index; sums are taken in index order afterwards, so results never
-// depend on the number of threads. Exceptions of f reach the caller.
+// The two threading primitives, neither of which lets results depend on the number of threads.
+// Exceptions of what is called reach the caller.
+//
+// parallel_for: f(i) for every i in [0, n), each index exactly once. A call must write only what
+// belongs to its index; sums are taken in index order afterwards.
+//
+// run_beside: here() and beside(), both once; neither may read what the other one writes. Threads
+// that are done with one help with the parallel_for of the other.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <type_traits>
 
@@ -27,5 +33,8 @@ void parallel_for(size_t n, int threads, F&& f) {
   };
   parallel_ranges(n, threads, body, const_cast<void*>(static_cast<const void*>(std::addressof(f))));
 }
+
+void run_beside(int threads, const std::function<void()>& here,
+                const std::function<void()>& beside);
 
 }  // namespace walktrack

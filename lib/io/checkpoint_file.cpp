@@ -12,13 +12,13 @@ namespace walktrack {
 
 namespace {
 
-constexpr std::string_view kFormat = "walktrack checkpoint 1\n";
+constexpr std::string_view kFormat = "walktrack checkpoint 2\n";
 constexpr size_t kDigestBytes = 64;
 
 template <typename Archive, ArchivedAs<Checkpoint> T>
 void state_fields(Archive& archive, T& value) {
-  auto& [origin, frames_read, records, record_bytes, observers, tracker] = value;
-  archive(frames_read, records, record_bytes, observers, tracker);
+  auto& [origin, frames_read, records, record_bytes, observers, regions, tracker] = value;
+  archive(frames_read, records, record_bytes, observers, regions, tracker);
 }
 
 // What the two differ in; "" = nothing.

@@ -2,7 +2,7 @@
 // there to the same bytes. It holds what the next frame depends on and how many frames came before
 // it; their records are in a FrameFile.
 //
-// "walktrack checkpoint 1", the SHA-256 of what follows, and the bytes of io/archive.h: what it was
+// "walktrack checkpoint 2", the SHA-256 of what follows, and the bytes of io/archive.h: what it was
 // made of, then the state. The file is only fit for the program that wrote it, on a machine of the
 // same kind; results of machines whose vector instructions differ may differ in the last digits.
 #pragma once
@@ -28,6 +28,7 @@ struct Checkpoint {
   uint64_t records = 0;                  // of finished frames
   uint64_t record_bytes = 0;             // of them in the FrameFile
   std::vector<ObserverState> observers;  // by camera
+  std::vector<Region> regions;           // of the next frame, by camera; none = not chosen yet
   TrackerState tracker;
 };
 

@@ -108,6 +108,18 @@ void fields(Archive& archive, T& value) {
   archive(frames, anchor, recent, anchor_pixels, log_density);
 }
 
+template <typename Archive, ArchivedAs<PixelRect> T>
+void fields(Archive& archive, T& value) {
+  auto& [x0, y0, x1, y1] = value;
+  archive(x0, y0, x1, y1);
+}
+
+template <typename Archive, ArchivedAs<Region> T>
+void fields(Archive& archive, T& value) {
+  auto& [area, metres_per_px, picture] = value;
+  archive(area, metres_per_px, picture);
+}
+
 template <typename Archive, ArchivedAs<ObserverState> T>
 void fields(Archive& archive, T& value) {
   auto& [background, appearance, scene, grey_width, grey_height, grey_before, frames] = value;

@@ -172,20 +172,14 @@ std::optional<Checkpoint> checkpoint_for(const TrackJob& job, const Origin& orig
 }
 
 // Frame by frame to the film's end; whether it was told to stop before.
-bool follow_film(TrackRun& run, SceneVideo& video, const JobControl& control,
+bool follow_film(TrackRun& run, const SceneVideo& video, const JobControl& control,
                  TrackOutcome& outcome) {
   const auto total = static_cast<size_t>(std::max(0, video.frame_count()));
-  run.skip(video, control);
+  run.skip(control);
   const auto start = Clock::now();
-  SceneFrames images;
   bool stopped = false;
-  while (!(stopped = control.stopping())) {
-    const Moment decode;
-    if (!video.read(images)) break;
-    run.watch().add("decode", decode);
-    run.step(images, decode);
+  while (!(stopped = control.stopping()) && run.step())
     control.progress("tracking", static_cast<size_t>(run.frames_read()), total);
-  }
   outcome.resumable = run.finish(stopped);
   outcome.frames = run.frames_read();
   outcome.frames_per_second = (outcome.frames - run.first_frame()) / seconds_since(start);
@@ -202,7 +196,7 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   std::optional<Checkpoint> checkpoint = checkpoint_for(job, origin, control);
   const ResultFolder folder(job.output, job.overwrite,
                             checkpoint ? kFilesOfWork : std::span<const std::string_view>{});
-  TrackRun run(job, video.frame_rate(), folder, origin, std::move(checkpoint), control);
+  TrackRun run(job, video, folder, origin, std::move(checkpoint), control);
   TrackOutcome outcome;
   const bool interrupted = follow_film(run, video, control, outcome);
   const Moment writing;
@@ -224,7 +218,7 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   const WrittenTables tables = write_tables(analysed, uncertainty, forces, folder);
   std::vector<ReportClip> clips;
   if (job.overlay && outcome.frames > 0) clips = write_overlays(job, frames, folder, control);
-  run.watch().add("output", writing);
+  run.watch().add("output", spent_since(writing));
   const double seconds = seconds_since(start);
   const std::string record =
       run_json(record_of(job, run, frames, outcome, quality, tables, seconds));

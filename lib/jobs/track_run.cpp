@@ -26,38 +26,11 @@ TrackSetup timed_set_up(const TrackJob& job, double frame_rate,
                         Stopwatch& watch) {
   const Moment start;
   TrackSetup setup = set_up(job.scene, job.config.values, frame_rate, learned, control);
-  if (job.config.values.observation.background.enabled) watch.add("background", start);
+  if (job.config.values.observation.background.enabled) watch.add("background", spent_since(start));
   return setup;
 }
 
-// Whether anything stands in front of the walker for a while only.
-bool comes_or_goes(const SceneCamera& camera) {
-  return std::any_of(camera.occluders.begin(), camera.occluders.end(), [](const Occluder& each) {
-    return std::isfinite(each.from) || std::isfinite(each.to);
-  });
-}
-
-void grow(Stopwatch::Stages& stages, std::string_view stage, double seconds) {
-  for (auto& [name, sum] : stages) {
-    if (name != stage) continue;
-    sum += seconds;
-    return;
-  }
-  stages.emplace_back(stage, seconds);
-}
-
 }  // namespace
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double Stopwatch::add(std::string_view stage, const Moment& since) {
-  const double seconds = seconds_since(since.clock);
-  grow(stages_, stage, seconds);
-  grow(cpu_stages_, stage, static_cast<double>(std::clock() - since.cpu) / CLOCKS_PER_SEC);
-  return seconds;
-}
 
 bool CheckpointTimer::due() const {
   constexpr double kMostShare = 0.01;  // of the time that checkpoints may take
@@ -69,21 +42,24 @@ void CheckpointTimer::wrote(Clock::time_point since) {
   last_ = Clock::now();
 }
 
-TrackRun::TrackRun(const TrackJob& job, double frame_rate, const ResultFolder& folder,
+TrackRun::TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& folder,
                    Origin origin, std::optional<Checkpoint> checkpoint, const JobControl& control)
     : job_(job),
       checkpoint_file_(folder.file(std::string(kCheckpointFile))),
       origin_(std::move(origin)),
       threads_(threads_of(job)),
-      setup_(timed_set_up(job, frame_rate,
+      setup_(timed_set_up(job, video.frame_rate(),
                           checkpoint ? checkpoint->observers : std::vector<ObserverState>{},
                           control, watch_)),
       prior_(load_gait_prior()),
       budget_(job.config.values.budget),
       tracker_(setup_.scene, prior_, job.config.values.tracker, job.config.values.seed, threads_),
+      video_(video),
+      next_(job.scene, video, setup_.observers),
+      regions_(checkpoint ? checkpoint->regions : std::vector<Region>{}),
       evidence_(setup_.observers.size()),
-      frames_{frame_rate, FrameFile(folder.file(std::string(kFramesFile)),
-                                    checkpoint ? checkpoint->records : 0)},
+      frames_{video.frame_rate(), FrameFile(folder.file(std::string(kFramesFile)),
+                                            checkpoint ? checkpoint->records : 0)},
       first_frame_(checkpoint ? checkpoint->frames_read : 0),
       frames_read_(first_frame_),
       timer_(job.config.values.checkpoint.seconds) {
@@ -97,10 +73,10 @@ TrackRun::TrackRun(const TrackJob& job, double frame_rate, const ResultFolder& f
                                                      : job.config.values.tracker.filter.particles));
 }
 
-void TrackRun::skip(SceneVideo& video, const JobControl& control) const {
+void TrackRun::skip(const JobControl& control) {
   SceneFrames images;
   for (uint64_t i = 0; i < first_frame_ && !control.stopping(); ++i) {
-    if (!video.read(images)) {
+    if (!video_.read(images)) {
       throw InputError(fmt::format("{}: the film ends at frame {}, before the checkpoint's {}",
                                    job_.scene.file.string(), i, first_frame_));
     }
@@ -108,13 +84,17 @@ void TrackRun::skip(SceneVideo& video, const JobControl& control) const {
   }
 }
 
-void TrackRun::step(const SceneFrames& images, const Moment& since) {
-  observe(images);
-  follow();
+bool TrackRun::step() {
+  const Moment start;
+  if (!next_.fetched()) fetch();
+  if (!next_.there()) return false;
+  complete();
+  tracker_.tracking() ? follow_while_fetching() : follow();
   learn();
-  pace(since);
+  pace(start);
   ++frames_read_;
   if (tracker_.tracking() && timer_.due()) write_checkpoint();
+  return true;
 }
 
 bool TrackRun::finish(bool resumable) {
@@ -124,38 +104,79 @@ bool TrackRun::finish(bool resumable) {
   return noted || (resumable && std::filesystem::exists(checkpoint_file_));
 }
 
-Region TrackRun::region(size_t camera) const {
+Region TrackRun::region(size_t camera, int frames_ahead) const {
   if (!tracker_.tracking()) {
     Region region = everywhere_[camera];
     region.picture = tracker_.wants_picture();
     return region;
   }
-  constexpr double kReach = 0.5;  // m around the last pose: limbs, and the way of one frame
+  constexpr double kReach = 0.5;  // m around the last pose, for the limbs
+  constexpr double kHasty = 0.5;  // m/s by which the speed may be wrong
   const FrameEstimate& last = frames_.records.back().estimate;
   return person_region(setup_.scene.cameras[camera], last.pose.root.head<2>(),
-                       tracker_.body().subject.height, kReach + last.speed * setup_.scene.dt);
+                       tracker_.body().subject.height,
+                       kReach + frames_ahead * setup_.scene.dt * (last.speed + kHasty));
 }
 
-void TrackRun::observe(const SceneFrames& images) {
+std::vector<Region> TrackRun::regions(int frames_ahead) const {
+  std::vector<Region> out;
+  for (size_t c = 0; c < setup_.observers.size(); ++c) out.push_back(region(c, frames_ahead));
+  return out;
+}
+
+// With all threads: nothing else is to be done.
+void TrackRun::fetch() {
   const Moment start;
-  const double time = static_cast<double>(frames_read_) / frames_.frame_rate;
-  parallel_for(setup_.observers.size(), threads_, [&](size_t c) {
-    const SceneCamera& camera = job_.scene.cameras[c];
-    if (comes_or_goes(camera)) setup_.observers[c].hide(occluders_at(camera, time));
-    if (!images.fresh[c]) {
-      evidence_[c] = CameraEvidence{};  // a repeated frame says nothing new
-      setup_.observers[c].forget_previous_frame();
-      return;
-    }
-    setup_.observers[c].observe(images.images[c], region(c), evidence_[c]);
-  });
-  watch_.add("evidence", start);
+  const NextFrame::Cost cost =
+      next_.fetch(regions_.empty() ? regions(1) : regions_, threads_, row_threads());
+  const Spent all = spent_since(start);
+  watch_.add("decode", cost.decode);
+  watch_.add("evidence",
+             {all.seconds - cost.decode.seconds, std::max(0.0, all.cpu - cost.decode.cpu)});
+}
+
+void TrackRun::complete() {
+  const Moment start;
+  next_.complete(static_cast<double>(frames_read_) / frames_.frame_rate, threads_, evidence_);
+  regions_.clear();
+  watch_.add("evidence", spent_since(start));
+}
+
+void TrackRun::push() {
+  for (const FrameRecord& record : tracker_.push(evidence_)) frames_.records.append(record);
 }
 
 void TrackRun::follow() {
   const Moment start;
-  for (const FrameRecord& record : tracker_.push(evidence_)) frames_.records.append(record);
-  filter_seconds_ = watch_.add("filter", start);
+  push();
+  const Spent spent = spent_since(start);
+  filter_seconds_ = spent.seconds;
+  watch_.add("filter", spent);
+}
+
+// The clock of decoding and evidence is what the particles had to wait for them.
+void TrackRun::follow_while_fetching() {
+  regions_ = regions(2);
+  const Moment start;
+  NextFrame::Cost cost;
+  run_beside(
+      threads_,
+      [&] {
+        push();
+        filter_seconds_ = seconds_since(start.clock);
+      },
+      [&] { cost = next_.fetch(regions_, threads_, 1); });
+  const Spent all = spent_since(start);
+  const double waited = all.seconds - filter_seconds_;
+  const double decode = std::min(waited, cost.decode.seconds);
+  watch_.add("decode", {decode, cost.decode.cpu});
+  watch_.add("evidence", {waited - decode, cost.prepare.cpu});
+  watch_.add("filter",
+             {filter_seconds_, std::max(0.0, all.cpu - cost.decode.cpu - cost.prepare.cpu)});
+  if (tracker_.tracking() || !next_.there()) return;
+  const Moment lost;
+  next_.prepare(regions(1), threads_, row_threads());
+  watch_.add("evidence", spent_since(lost));
 }
 
 // Under a budget, as many particles for the next frame as there is time for. Frames of searching
@@ -182,19 +203,19 @@ void TrackRun::learn() {
   parallel_for(setup_.observers.size(), threads_, [&](size_t c) {
     setup_.observers[c].learn(evidence_[c], project_parts(setup_.scene.cameras[c], parts));
   });
-  watch_.add("appearance", start);
+  watch_.add("appearance", spent_since(start));
 }
 
 void TrackRun::write_checkpoint() {
   const Moment start;
-  Checkpoint checkpoint{origin_, frames_read_,    frames_.records.size(), frames_.records.bytes(),
-                        {},      tracker_.state()};
+  Checkpoint checkpoint{origin_, frames_read_, frames_.records.size(), frames_.records.bytes(),
+                        {},      regions_,     tracker_.state()};
   for (const Observer& observer : setup_.observers)
     checkpoint.observers.push_back(observer.state());
   frames_.records.flush();
   walktrack::write_checkpoint(checkpoint_file_, checkpoint);
   timer_.wrote(start.clock);
-  watch_.add("checkpoints", start);
+  watch_.add("checkpoints", spent_since(start));
 }
 
 }  // namespace walktrack

@@ -1,19 +1,20 @@
 // One scene being tracked, frame by frame: observers, tracker, the records so far, and the
 // checkpoints from which another process could go on.
+//
+// While a walker is tracked, the next frame is decoded and prepared beside the particles of this
+// one. Where to look in it is therefore known from the frame before this one; a walker who has just
+// been lost is looked for in the whole of it.
 #pragma once
 
 #include <array>
-#include <chrono>
-#include <ctime>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "io/checkpoint_file.h"
 #include "io/result_folder.h"
-#include "io/scene_video.h"
+#include "jobs/next_frame.h"
 #include "jobs/particle_budget.h"
+#include "jobs/stopwatch.h"
 #include "jobs/track.h"
 #include "jobs/track_results.h"
 #include "jobs/track_setup.h"
@@ -24,28 +25,6 @@ namespace walktrack {
 inline constexpr std::string_view kCheckpointFile = "checkpoint.bin", kFramesFile = "frames.bin";
 inline constexpr std::string_view kSmoothedFile = "smoothed_frames.bin";
 inline constexpr std::array kFilesOfWork{kCheckpointFile, kFramesFile};
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start);
-
-// A point in time, and of the work of all threads.
-struct Moment {
-  Clock::time_point clock = Clock::now();
-  std::clock_t cpu = std::clock();
-};
-
-// Seconds by stage, in the order of first use: passed on the clock, and worked by all threads.
-class Stopwatch {
- public:
-  using Stages = std::vector<std::pair<std::string, double>>;
-  // Returns the seconds passed.
-  double add(std::string_view stage, const Moment& since);
-  const Stages& stages() const { return stages_; }
-  const Stages& cpu_stages() const { return cpu_stages_; }
-
- private:
-  Stages stages_, cpu_stages_;
-};
 
 // When a checkpoint is worth its time.
 class CheckpointTimer {
@@ -62,14 +41,14 @@ class CheckpointTimer {
 class TrackRun {
  public:
   // From the first frame or, in a folder that has kept kFilesOfWork, from the checkpoint.
-  TrackRun(const TrackJob& job, double frame_rate, const ResultFolder& folder, Origin origin,
+  TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& folder, Origin origin,
            std::optional<Checkpoint> checkpoint, const JobControl& control);
 
   // Takes the frames that came before the checkpoint from the video. InputError if it ends there.
-  void skip(SceneVideo& video, const JobControl& control) const;
-  // The next frame, `since` it began to be decoded: evidence, tracking, learning, and a checkpoint
-  // if one is due.
-  void step(const SceneFrames& images, const Moment& since);
+  void skip(const JobControl& control);
+  // The next frame: evidence, tracking, learning, and a checkpoint if one is due. False if there is
+  // none.
+  bool step();
   // After the last frame. `resumable`: another process may go on here; false if it could not.
   bool finish(bool resumable);
 
@@ -85,9 +64,15 @@ class TrackRun {
   const Stopwatch& watch() const { return watch_; }
 
  private:
-  Region region(size_t camera) const;
-  void observe(const SceneFrames& images);
+  Region region(size_t camera, int frames_ahead) const;
+  std::vector<Region> regions(int frames_ahead) const;
+  // Several cameras share the threads among themselves.
+  int row_threads() const { return setup_.observers.size() == 1 ? threads_ : 1; }
+  void fetch();
+  void complete();
+  void push();
   void follow();
+  void follow_while_fetching();
   void learn();
   void pace(const Moment& since);
   void write_checkpoint();
@@ -102,6 +87,10 @@ class TrackRun {
   ParticleBudget budget_;
   Tracker tracker_;
   std::vector<Region> everywhere_;
+  SceneVideo& video_;
+  NextFrame next_;
+  // Of the next frame, if it is prepared beside particles; a checkpoint holds them.
+  std::vector<Region> regions_;
   SceneEvidence evidence_;
   TrackedFrames frames_;
   uint64_t first_frame_, frames_read_;  // of the film

@@ -63,7 +63,24 @@ ColourTable scene_table(const ColourBins& bins, const cv::Mat& bgr) {
 
 }  // namespace
 
+struct PreparedFrame::Content {
+  Region region;
+  cv::Mat bgr;                // shrunk
+  ColourPatch colours;        // of the region and a border
+  double gain = 1;            // strength of the light; 1 without a background
+  std::vector<float> behind;  // log densities under the background, row by row of the area
+  cv::Mat grey;               // empty unless flow or the picture needs it
+  FlowField flow;
+};
+
+PreparedFrame::PreparedFrame() : content_(std::make_unique<Content>()) {}
+PreparedFrame::PreparedFrame(PreparedFrame&&) noexcept = default;
+PreparedFrame& PreparedFrame::operator=(PreparedFrame&&) noexcept = default;
+PreparedFrame::~PreparedFrame() = default;
+
 struct Observer::State {
+  using Content = PreparedFrame::Content;
+
   State(const ObservationConfig& settings, ObserverInput input)
       : config(settings),
         camera(scaled_down(input.camera, input.shrink)),
@@ -76,10 +93,11 @@ struct Observer::State {
         appearance(settings.foreground, input.appearances),
         broad(broad_table(bins)) {}
 
-  void fill_planes(const cv::Mat& bgr, const PixelRect& area, LogRatioPlanes& planes);
+  bool uses_colours() const { return config.background.enabled || config.foreground.enabled; }
+  void read_background(int sharing, Content& frame) const;
+  void fill_planes(const Content& frame, LogRatioPlanes& planes);
   int planes_wanted() const;
-  void fill_rows(int begin, int end, double gain, LogRatioPlanes& planes) const;
-  void measure_flow(const cv::Mat& grey, const PixelRect& area, FlowField& flow);
+  void fill_rows(const Content& frame, int begin, int end, LogRatioPlanes& planes) const;
   void block_flow(FlowField& flow) const;
 
   ObservationConfig config;
@@ -194,7 +212,15 @@ void Observer::resume(ObserverState state) {
 }
 
 void Observer::observe(const cv::Mat& frame_bgr, const Region& region, CameraEvidence& out) {
-  State& s = *state_;
+  PreparedFrame frame;
+  prepare(frame_bgr, region, state_->threads, frame);
+  complete(frame, out);
+}
+
+void Observer::prepare(const cv::Mat& frame_bgr, const Region& region, int threads,
+                       PreparedFrame& prepared) const {
+  const State& s = *state_;
+  PreparedFrame::Content& out = *prepared.content_;
   if (frame_bgr.type() != CV_8UC3 || frame_bgr.cols != s.full_camera.width_px ||
       frame_bgr.rows != s.full_camera.height_px) {
     throw InputError(describe(
@@ -202,15 +228,33 @@ void Observer::observe(const cv::Mat& frame_bgr, const Region& region, CameraEvi
         "8-bit BGR of " + std::to_string(s.full_camera.width_px) + " x " +
             std::to_string(s.full_camera.height_px) + " px, as calibrated"));
   }
-  const cv::Mat bgr = shrunk(frame_bgr, s.shrink);
-  const PixelRect area = intersection(region.area, image_area(s.camera));
-  s.fill_planes(bgr, area, out.planes);
-  cv::Mat grey;
-  if (s.config.flow.enabled || region.picture) cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
-  if (s.config.flow.enabled) s.measure_flow(grey, area, out.flow);
+  out.bgr = shrunk(frame_bgr, s.shrink);
+  out.region = region;
+  out.region.area = intersection(region.area, image_area(s.camera));
+  if (s.uses_colours()) read_colours(out.bgr, with_border(out.region.area, s.camera), out.colours);
+  if (s.config.background.enabled) s.read_background(threads, out);
+  out.grey.release();
+  if (s.config.flow.enabled || region.picture) cv::cvtColor(out.bgr, out.grey, cv::COLOR_BGR2GRAY);
+  out.flow.pixels.clear();
+  if (s.config.flow.enabled && !s.grey_before.empty())
+    pair_frames(s.config.flow, s.grey_before, out.grey, out.region.area, out.flow);
+}
+
+void Observer::complete(PreparedFrame& prepared, CameraEvidence& out) {
+  State& s = *state_;
+  PreparedFrame::Content& frame = *prepared.content_;
+  if (s.uses_colours()) s.fill_planes(frame, out.planes);
+  if (s.config.background.enabled && s.config.background.drift_rate > 0)
+    follow_drift(*s.background, s.config.background, frame.bgr, frame.gain,
+                 static_cast<int>(s.frames % kDriftRows), kDriftRows);
+  std::swap(s.patch, frame.colours);
+  std::swap(out.flow, frame.flow);
+  if (s.occluded) s.block_flow(out.flow);
+  if (s.config.flow.enabled) s.grey_before = frame.grey;
   out.picture = {};
-  if (region.picture) out.picture = {grey.cols, grey.rows, {grey.datastart, grey.dataend}};
-  out.pixel_weight = independent_share(s.config, region.metres_per_px);
+  if (frame.region.picture)
+    out.picture = {frame.grey.cols, frame.grey.rows, {frame.grey.datastart, frame.grey.dataend}};
+  out.pixel_weight = independent_share(s.config, frame.region.metres_per_px);
   ++s.frames;
 }
 
@@ -220,39 +264,54 @@ int Observer::State::planes_wanted() const {
   return config.background.enabled ? 1 : 0;
 }
 
-void Observer::State::fill_planes(const cv::Mat& bgr, const PixelRect& area,
-                                  LogRatioPlanes& planes) {
-  if (!config.background.enabled && !config.foreground.enabled) return;
-  read_colours(bgr, with_border(area, camera), patch);
-  if (!config.background.enabled && scene.empty()) scene = scene_table(bins, bgr);
+// f(begin, end) for bands of rows that make up the area.
+template <typename F>
+void for_bands(const PixelRect& area, int threads, const F& f) {
+  const size_t bands = (static_cast<size_t>(area.height()) + kBand - 1) / kBand;
+  parallel_for(bands, threads, [&](size_t band) {
+    const int begin = area.y0 + static_cast<int>(band) * kBand;
+    f(begin, std::min(begin + kBand, area.y1));
+  });
+}
+
+void Observer::State::read_background(int sharing, Content& frame) const {
+  const PixelRect& area = frame.region.area;
+  frame.gain = light_gain(*background, frame.bgr);
+  const auto width = static_cast<size_t>(area.width());
+  frame.behind.resize(width * static_cast<size_t>(area.height()));
+  for_bands(area, sharing, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      background_log_density(
+          *background, config.background, frame.colours, area, y, frame.gain,
+          {frame.behind.data() + width * static_cast<size_t>(y - area.y0), width});
+  });
+}
+
+void Observer::State::fill_planes(const Content& frame, LogRatioPlanes& planes) {
+  const PixelRect& area = frame.region.area;
+  if (!config.background.enabled && scene.empty()) scene = scene_table(bins, frame.bgr);
   const bool learned = config.foreground.enabled && appearance.any_learned();
   planes.plane_of = learned ? appearance.class_of() : std::array<int, kAppearanceCount>{};
   resize(planes, area, planes_wanted());
   if (planes.count == 0 || area.empty()) return;
-  const double gain = config.background.enabled ? light_gain(*background, bgr) : 1;
-  const size_t bands = (static_cast<size_t>(area.height()) + kBand - 1) / kBand;
-  parallel_for(bands, threads, [&](size_t band) {
-    const int begin = area.y0 + static_cast<int>(band) * kBand;
-    fill_rows(begin, std::min(begin + kBand, area.y1), gain, planes);
-  });
-  if (config.background.enabled && config.background.drift_rate > 0)
-    follow_drift(*background, config.background, bgr, gain, static_cast<int>(frames % kDriftRows),
-                 kDriftRows);
+  for_bands(area, threads, [&](int begin, int end) { fill_rows(frame, begin, end, planes); });
 }
 
-void Observer::State::fill_rows(int begin, int end, double gain, LogRatioPlanes& planes) const {
+void Observer::State::fill_rows(const Content& frame, int begin, int end,
+                                LogRatioPlanes& planes) const {
   const PixelRect& area = planes.area;
+  const ColourPatch& seen = frame.colours;
   const auto width = static_cast<size_t>(area.width());
   std::vector<uint16_t> colours(width);
-  std::vector<float> behind(width), ratio(width);
+  std::vector<float> of_scene(width), ratio(width);
   for (int y = begin; y < end; ++y) {
-    const size_t at = patch.index(area.x0, y);
+    const size_t at = seen.index(area.x0, y);
     for (size_t i = 0; i < width; ++i)
-      colours[i] = bins.bin(patch.luma[at + i], patch.orange[at + i], patch.green[at + i]);
-    if (config.background.enabled) {
-      background_log_density(*background, config.background, patch, area, y, gain, behind);
-    } else {
-      for (size_t i = 0; i < width; ++i) behind[i] = scene[colours[i]];
+      colours[i] = bins.bin(seen.luma[at + i], seen.orange[at + i], seen.green[at + i]);
+    const float* behind = frame.behind.data() + width * static_cast<size_t>(y - area.y0);
+    if (!config.background.enabled) {
+      for (size_t i = 0; i < width; ++i) of_scene[i] = scene[colours[i]];
+      behind = of_scene.data();
     }
     const uint8_t* const blocked = occluded ? mask.ptr<uint8_t>(y) + area.x0 : nullptr;
     for (int plane = 0; plane < planes.count; ++plane) {
@@ -263,16 +322,6 @@ void Observer::State::fill_rows(int begin, int end, double gain, LogRatioPlanes&
       set_row(planes, plane, y, ratio, config.clip);
     }
   }
-}
-
-void Observer::State::measure_flow(const cv::Mat& grey, const PixelRect& area, FlowField& flow) {
-  if (grey_before.empty()) {
-    flow = {};
-  } else {
-    pair_frames(config.flow, grey_before, grey, area, flow);
-    if (occluded) block_flow(flow);
-  }
-  grey_before = grey;
 }
 
 // Pixels that smoothing mixes with an occluder's say nothing.

@@ -4,8 +4,12 @@
 // walker, the frame before - and turns each frame into CameraEvidence, which any number of threads
 // may then ask about any number of poses. All pixels of evidence, regions and capsules are those of
 // camera(), the camera of the shrunk image.
+//
+// It does so in two steps: most of the work can be done while poses of the frame before are still
+// weighed (prepare); what depends on them, the walker's colours, comes last (complete).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -40,6 +44,20 @@ struct CameraEvidence {
   FlowField flow;           // no samples when flow is off or there is no frame before
   double pixel_weight = 1;  // independent pixels in a pixel: the temper of all sums over pixels
   GreyImage picture;        // the whole image; empty unless Region::picture
+};
+
+// What a frame shows, whatever the walker looks like. Keeps its memory from frame to frame.
+class PreparedFrame {
+ public:
+  PreparedFrame();
+  PreparedFrame(PreparedFrame&&) noexcept;
+  PreparedFrame& operator=(PreparedFrame&&) noexcept;
+  ~PreparedFrame();
+
+ private:
+  friend class Observer;
+  struct Content;
+  std::unique_ptr<Content> content_;
 };
 
 // Independent pixels in a pixel that shows so much of the walker.
@@ -83,6 +101,12 @@ class Observer {
   // The evidence of the next frame (8-bit BGR, of the size of the calibrated camera). Flow is
   // measured against the frame of the last call. `out` keeps its memory from frame to frame.
   void observe(const cv::Mat& frame_bgr, const Region& region, CameraEvidence& out);
+
+  // The same in two steps. `frame_bgr` has to stay as it is until the second, and the rows of the
+  // first are shared by `threads`. Between them only learn() may be called.
+  void prepare(const cv::Mat& frame_bgr, const Region& region, int threads,
+               PreparedFrame& out) const;
+  void complete(PreparedFrame& frame, CameraEvidence& out);
 
   // From the next frame on, these stand in front of the walker instead of ObserverInput::occluders.
   void hide(const std::vector<Polygon>& occluders);

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 const Origin kOrigin{{"version", "1"}, {"scene", "abc"}};
 
 Checkpoint checkpoint() {
-  Checkpoint out{kOrigin, 7, 5, 1234, {}, {}};
+  Checkpoint out{kOrigin, 7, 5, 1234, {}, {{{1, 2, 3, 4}, .01, true}}, {}};
   ObserverState observer;
   observer.background = BackgroundModel{2, 1, {.1f, .2f}, {}, {}, {}, {}};
   observer.grey_before = {1, 2, 3};
@@ -40,6 +40,7 @@ TEST_F(CheckpointFile, ComesBack) {
   ASSERT_TRUE(found.checkpoint);
   EXPECT_EQ(found.checkpoint->frames_read, 7u);
   EXPECT_EQ(found.checkpoint->record_bytes, 1234u);
+  EXPECT_EQ(found.checkpoint->regions.at(0).area.y1, 4);
   EXPECT_EQ(found.checkpoint->observers.at(0).grey_before, (std::vector<uint8_t>{1, 2, 3}));
   EXPECT_EQ(found.checkpoint->observers[0].background->luma[1], .2f);
   EXPECT_EQ(found.checkpoint->tracker.filter.set.states.at(2).pose.heading, 0.5);

@@ -9,8 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.h"
+#include "io/checkpoint_file.h"
 #include "io/frame_file.h"
 #include "jobs/track.h"
+#include "jobs/track_origin.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -158,6 +160,11 @@ TEST_F(Resume, WhoIsToldToStopLeavesACheckpointOfThatFrame) {
   EXPECT_EQ(outcome.status, TrackStatus::kInterrupted);
   EXPECT_TRUE(outcome.resumable);
   EXPECT_TRUE(fs::exists(folder_ / "stopped/run.partial.json"));
+  // Where to look in frame 15 was chosen beside the particles of frame 14, from the pose in 13.
+  const auto found_there =
+      read_checkpoint(folder_ / "stopped/checkpoint.bin", origin_of(stopped)).checkpoint;
+  ASSERT_TRUE(found_there);
+  EXPECT_EQ(found_there->regions.size(), stopped.scene.cameras.size());
   resume(stopped);
   EXPECT_EQ(resumed_at("stopped"), 15);
   auto found = result("stopped"), whole = result("whole");

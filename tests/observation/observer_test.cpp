@@ -148,6 +148,38 @@ TEST(Observer, RegionLimitsWhatIsComputed) {
   EXPECT_EQ(log_likelihood(config, b, now, &now), 0);
 }
 
+// The next frame may be prepared, and prepared again elsewhere, before this one has been learned
+// from.
+TEST(Observer, PreparingTheNextFrameEarlyChangesNothing) {
+  const World world;
+  Observer plain = world.observer(every_term()), early = world.observer(every_term());
+  Region region = person_region(plain.camera(), {0, 0}, 1.75, 0.7);
+  region.picture = true;
+  const cv::Mat frames[] = {world.frame(world.pose(0)), world.frame(world.pose(0.02)),
+                            world.frame(world.pose(0.04))};
+  CameraEvidence a, b;
+  PreparedFrame next;
+  early.prepare(frames[0], region, 1, next);
+  for (int f = 0; f < 3; ++f) {
+    plain.observe(frames[f], region, a);
+    early.complete(next, b);
+    ASSERT_EQ(a.planes.prefix, b.planes.prefix) << f;
+    ASSERT_EQ(a.planes.count, b.planes.count);
+    ASSERT_EQ(a.flow.pixels.size(), b.flow.pixels.size());
+    for (size_t i = 0; i < a.flow.pixels.size(); ++i)
+      ASSERT_EQ(a.flow.pixels[i].before, b.flow.pixels[i].before);
+    ASSERT_EQ(a.picture.pixels, b.picture.pixels);
+    if (f < 2) {
+      early.prepare(frames[f + 1], person_region(plain.camera(), {1, 0}, 1.75, 0.3), 1, next);
+      early.prepare(frames[f + 1], region, 2, next);
+    }
+    const CapsuleList capsules = world.capsules(world.pose(0.02 * f));
+    plain.learn(a, capsules);
+    early.learn(b, capsules);
+  }
+  EXPECT_EQ(plain.state().background->luma, early.state().background->luma);
+}
+
 TEST(Observer, ThreadsDoNotMatter) {
   const World world;
   Observer one = world.observer(every_term()), four = world.observer(every_term(), 4);

@@ -1,0 +1,42 @@
+// What time went into: the clock's, and that of all threads that worked.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace walktrack {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start);
+
+// CPU seconds so far, of this process and of this thread.
+double process_cpu_seconds();
+double thread_cpu_seconds();
+
+struct Spent {
+  double seconds = 0, cpu = 0;
+};
+
+// A point in time, and of the work of all threads.
+struct Moment {
+  Clock::time_point clock = Clock::now();
+  double cpu = process_cpu_seconds();
+};
+Spent spent_since(const Moment& moment);
+
+// Seconds by stage, in the order of first use.
+class Stopwatch {
+ public:
+  using Stages = std::vector<std::pair<std::string, double>>;
+  void add(std::string_view stage, const Spent& spent);
+  const Stages& stages() const { return stages_; }
+  const Stages& cpu_stages() const { return cpu_stages_; }
+
+ private:
+  Stages stages_, cpu_stages_;
+};
+
+}  // namespace walktrack
