@@ -141,13 +141,17 @@ std::vector<Shift> shifts(const Shift& rays) {
 }
 
 // The steps of a climb's shrinking pattern, m.
-constexpr double kSteps[] = {0.24, 0.12, 0.06, 0.03, 0.015};
+constexpr double kCoarseSteps[] = {0.24, 0.12}, kFineSteps[] = {0.06, 0.03, 0.015};
 
 Vector2d end_of(const Sighting& line, double time) { return line.position + time * line.velocity; }
 
+size_t stride_of_climb(const Window& window) {
+  return std::max<size_t>(1, window.frames / kScored);
+}
+
 // A walk whose score is that of a climb, which looks at some of the frames.
 Walk looked_at(const Window& window, const Sighting& line) {
-  return {line, line_score(window, line, std::max<size_t>(1, window.frames / kScored))};
+  return {line, line_score(window, line, stride_of_climb(window))};
 }
 
 // Climbs as far as a pattern of this step leads.
@@ -186,10 +190,11 @@ void drop_doubles(double apart, double time, std::vector<Walk>& walks) {
   walks = std::move(kept);
 }
 
-// Climbs from each of them, down to a centimetre.
-void refine(const Window& window, const Vector2d& eye, std::vector<Walk>& walks) {
+// Climbs from each of them.
+void refine(const Window& window, const Vector2d& eye, std::span<const double> steps,
+            std::vector<Walk>& walks) {
   const double time = window.dt * double(window.frames - 1);
-  for (const double step : kSteps) {
+  for (const double step : steps) {
     // One of them is climbed with by all threads, several by one each.
     Window own = window;
     if (walks.size() > 1) own.threads = 1;
@@ -239,15 +244,29 @@ double least_mean(std::span<const double> values, size_t span) {
   return least;
 }
 
-// Nobody hidden or cut off: the score does not stay far below its median. For a moment it may: a
-// person's long step has poses that no figure resembles.
-bool seen_throughout(const Walk& walk, const Window& window, const SightingConfig& config) {
+// The least score that a line has for a moment, nats, looking at every `stride`-th frame: for less
+// than that it may fail, as a person's long step has poses that no figure resembles.
+double worst_moment(std::span<const double> scores, double dt, size_t stride) {
   constexpr double kMoment = 0.15;  // s
+  const auto moment =
+      static_cast<size_t>(std::max(1L, std::lround(kMoment / (dt * double(stride)))));
+  return least_mean(scores, std::min(moment, scores.size()));
+}
+
+// Nobody hidden or cut off: the score does not stay far below its median.
+bool seen_throughout(const Walk& walk, const Window& window, const SightingConfig& config) {
   std::vector<double> scores = scores_along(window, walk.line, walk.line.velocity, 1);
-  const auto moment = static_cast<size_t>(std::max(1L, std::lround(kMoment / window.dt)));
-  const double least = least_mean(scores, std::min(moment, scores.size()));
+  const double least = worst_moment(scores, window.dt, 1);
   std::nth_element(scores.begin(), scores.begin() + long(scores.size() / 2), scores.end());
   return least >= config.least_score && least >= config.complete * scores[scores.size() / 2];
+}
+
+// What fits worse than an empty scene for a moment, half-way up, is of somebody who is hidden then:
+// the last steps do not change that.
+bool worth_refining(const Walk& walk, const Window& window) {
+  const size_t stride = stride_of_climb(window);
+  return worst_moment(scores_along(window, walk.line, walk.line.velocity, stride), window.dt,
+                      stride) >= 0;
 }
 
 bool walks_on(const Walk& walk, const Window& window, const SightingConfig& config) {
@@ -317,7 +336,9 @@ std::optional<Sighting> find_walk(const WindowCandidates& candidates, const Wind
                    [](const Walk& a, const Walk& b) { return a.score > b.score; });
   walks.resize(std::min(walks.size(), kRefined));
   for (Walk& walk : walks) walk = looked_at(window, walk.line);
-  refine(window, eye, walks);
+  refine(window, eye, kCoarseSteps, walks);
+  std::erase_if(walks, [&](const Walk& walk) { return !worth_refining(walk, window); });
+  refine(window, eye, kFineSteps, walks);
   std::erase_if(walks, [&](const Walk& walk) { return !walks_on(walk, window, config); });
   if (walks.empty()) return std::nullopt;
   Walk& best = *std::max_element(walks.begin(), walks.end(),
@@ -332,7 +353,8 @@ Sighting nearest_walk(const Sighting& walk, size_t frames, const WindowScore& sc
                       const Vector2d& eye) {
   const Window window{score, frames, dt, 1};
   std::vector<Walk> walks{looked_at(window, walk)};
-  refine(window, eye, walks);
+  refine(window, eye, kCoarseSteps, walks);
+  refine(window, eye, kFineSteps, walks);
   Sighting found = walks[0].line;
   found.score = line_score(window, found);
   return found;

@@ -75,6 +75,26 @@ TEST(FindWalk, FindsAWalkerBetweenThingsThatStandStill) {
   EXPECT_NEAR(walk->velocity.y(), 0.0, 0.06);
 }
 
+// Who is hidden in part of the window is not followed down to the last centimetre.
+TEST(FindWalk, SparesItselfTheFineStepsWhereNobodyIsSeenForAMoment) {
+  const auto scores_asked = [](size_t hidden_until) {
+    int asked = 0;
+    Film f = film([=](size_t frame, const Eigen::Vector2d& p) {
+      return frame < hidden_until ? -5 : bell(p, walker_at(frame), 100);
+    });
+    // The early candidates of somebody who is seen throughout: both propose the same lines.
+    f.early = {{walker_at(window_ends(kFrames).early), 100}};
+    f.score = [&asked, score = f.score](size_t frame, const Eigen::Vector2d& p,
+                                        const Eigen::Vector2d& velocity) {
+      ++asked;
+      return score(frame, p, velocity);
+    };
+    EXPECT_EQ(f.walk().has_value(), hidden_until == 0);
+    return asked;
+  };
+  EXPECT_LT(scores_asked(6), 0.6 * scores_asked(0));
+}
+
 // What one camera scores: a ridge along the viewing ray, forty times as long as it is wide.
 double ridge(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double height) {
   const Eigen::Vector2d eye(0, -6), from_eye = place - eye, true_ray = truth - eye;
