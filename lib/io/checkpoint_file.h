@@ -28,7 +28,7 @@ struct Checkpoint {
   uint64_t records = 0;                  // of finished frames
   uint64_t record_bytes = 0;             // of them in the FrameFile
   std::vector<ObserverState> observers;  // by camera
-  std::vector<Region> regions;           // of the next frame, by camera; none = not chosen yet
+  std::vector<Region> regions;           // of the next frame, by camera
   TrackerState tracker;
 };
 

@@ -89,7 +89,7 @@ bool TrackRun::step() {
   if (!next_.fetched()) fetch();
   if (!next_.there()) return false;
   complete();
-  tracker_.tracking() ? follow_while_fetching() : follow();
+  follow();
   learn();
   pace(start);
   ++frames_read_;
@@ -104,7 +104,7 @@ bool TrackRun::finish(bool resumable) {
   return noted || (resumable && std::filesystem::exists(checkpoint_file_));
 }
 
-Region TrackRun::region(size_t camera, int frames_ahead) const {
+Region TrackRun::region(size_t camera) const {
   if (!tracker_.tracking()) {
     Region region = everywhere_[camera];
     region.picture = tracker_.wants_picture();
@@ -115,20 +115,20 @@ Region TrackRun::region(size_t camera, int frames_ahead) const {
   const FrameEstimate& last = frames_.records.back().estimate;
   return person_region(setup_.scene.cameras[camera], last.pose.root.head<2>(),
                        tracker_.body().subject.height,
-                       kReach + frames_ahead * setup_.scene.dt * (last.speed + kHasty));
+                       kReach + 2 * setup_.scene.dt * (last.speed + kHasty));
 }
 
-std::vector<Region> TrackRun::regions(int frames_ahead) const {
+std::vector<Region> TrackRun::regions() const {
   std::vector<Region> out;
-  for (size_t c = 0; c < setup_.observers.size(); ++c) out.push_back(region(c, frames_ahead));
+  for (size_t c = 0; c < setup_.observers.size(); ++c) out.push_back(region(c));
   return out;
 }
 
-// With all threads: nothing else is to be done.
+// The first frame, of the film or from a checkpoint on.
 void TrackRun::fetch() {
   const Moment start;
   const NextFrame::Cost cost =
-      next_.fetch(regions_.empty() ? regions(1) : regions_, threads_, row_threads());
+      next_.fetch(regions_.empty() ? regions() : regions_, threads_, row_threads());
   const Spent all = spent_since(start);
   watch_.add("decode", cost.decode);
   watch_.add("evidence",
@@ -138,7 +138,6 @@ void TrackRun::fetch() {
 void TrackRun::complete() {
   const Moment start;
   next_.complete(static_cast<double>(frames_read_) / frames_.frame_rate, threads_, evidence_);
-  regions_.clear();
   watch_.add("evidence", spent_since(start));
 }
 
@@ -146,17 +145,11 @@ void TrackRun::push() {
   for (const FrameRecord& record : tracker_.push(evidence_)) frames_.records.append(record);
 }
 
+// Works on this frame while the next one is fetched. The clock of decoding and evidence is what
+// this one had to wait for them.
 void TrackRun::follow() {
-  const Moment start;
-  push();
-  const Spent spent = spent_since(start);
-  filter_seconds_ = spent.seconds;
-  watch_.add("filter", spent);
-}
-
-// The clock of decoding and evidence is what the particles had to wait for them.
-void TrackRun::follow_while_fetching() {
-  regions_ = regions(2);
+  const bool tracked = tracker_.tracking();
+  regions_ = regions();
   const Moment start;
   NextFrame::Cost cost;
   run_beside(
@@ -165,7 +158,7 @@ void TrackRun::follow_while_fetching() {
         push();
         filter_seconds_ = seconds_since(start.clock);
       },
-      [&] { cost = next_.fetch(regions_, threads_, 1); });
+      [&] { cost = next_.fetch(regions_, threads_, tracked ? 1 : row_threads()); });
   const Spent all = spent_since(start);
   const double waited = all.seconds - filter_seconds_;
   const double decode = std::min(waited, cost.decode.seconds);
@@ -173,9 +166,9 @@ void TrackRun::follow_while_fetching() {
   watch_.add("evidence", {waited - decode, cost.prepare.cpu});
   watch_.add("filter",
              {filter_seconds_, std::max(0.0, all.cpu - cost.decode.cpu - cost.prepare.cpu)});
-  if (tracker_.tracking() || !next_.there()) return;
+  if (!tracked || tracker_.tracking() || !next_.there()) return;
   const Moment lost;
-  next_.prepare(regions(1), threads_, row_threads());
+  next_.prepare(regions(), threads_, row_threads());
   watch_.add("evidence", spent_since(lost));
 }
 

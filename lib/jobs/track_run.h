@@ -1,9 +1,9 @@
 // One scene being tracked, frame by frame: observers, tracker, the records so far, and the
 // checkpoints from which another process could go on.
 //
-// While a walker is tracked, the next frame is decoded and prepared beside the particles of this
-// one. Where to look in it is therefore known from the frame before this one; a walker who has just
-// been lost is looked for in the whole of it.
+// The next frame is decoded and prepared beside the particles of this one. Where to look in it is
+// therefore known from the frame before this one; a walker who has just been lost is looked for in
+// the whole of it.
 #pragma once
 
 #include <array>
@@ -64,15 +64,14 @@ class TrackRun {
   const Stopwatch& watch() const { return watch_; }
 
  private:
-  Region region(size_t camera, int frames_ahead) const;
-  std::vector<Region> regions(int frames_ahead) const;
+  Region region(size_t camera) const;
+  std::vector<Region> regions() const;
   // Several cameras share the threads among themselves.
   int row_threads() const { return setup_.observers.size() == 1 ? threads_ : 1; }
   void fetch();
   void complete();
   void push();
   void follow();
-  void follow_while_fetching();
   void learn();
   void pace(const Moment& since);
   void write_checkpoint();
@@ -89,7 +88,7 @@ class TrackRun {
   std::vector<Region> everywhere_;
   SceneVideo& video_;
   NextFrame next_;
-  // Of the next frame, if it is prepared beside particles; a checkpoint holds them.
+  // Of the next frame; a checkpoint holds them.
   std::vector<Region> regions_;
   SceneEvidence evidence_;
   TrackedFrames frames_;
