@@ -56,7 +56,7 @@ std::vector<Crossing> crossings(std::span<const Part> parts, const CapsuleList& 
   std::vector<Crossing> out;
   for (size_t near = 0; near < now.size(); ++near) {
     for (size_t far = near + 1; side(near) && far < now.size(); ++far) {
-      if (!side(far) || side(far) == side(near) || !meet(box(near), box(far))) continue;
+      if (!side(far) || side(far) == side(near)) continue;
       const PixelRect area = pixels_in_both(box(near), box(far));
       if (!area.empty()) out.push_back({near, far, area});
     }

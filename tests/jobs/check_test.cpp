@@ -166,9 +166,18 @@ TEST_F(CheckTest, FindsAFloorBelowTheCalibrationsOrigin) {
   }
   EXPECT_FALSE(check("ground: {offset: -2.6}\n").failed());  // the cure cures
 
-  cameras_.resize(1);  // alone, a camera may as well be misplaced in another way
-  const std::string cure = only_failure(check()).cure;
-  EXPECT_THAT(cure, HasSubstr("the floor lies below z = 0"));
+  cameras_.resize(1);
+  EXPECT_THAT(only_failure(check()).cure, testing::StartsWith("the floor lies below z = 0"));
+}
+
+TEST_F(CheckTest, OneCameraUndergroundMayBeMisplacedOrStandOnALowerFloor) {
+  cameras_.resize(1);
+  cameras_[0].translation = camera_centre(cameras_[0]);
+  write_camera(0, cameras_[0]);
+  const Finding finding = only_failure(check());
+  EXPECT_THAT(finding.what, HasSubstr("underground"));
+  EXPECT_THAT(finding.cure, HasSubstr("the camera's place C; store -R C"));
+  EXPECT_THAT(finding.cure, HasSubstr("; or the floor lies below z = 0"));
 }
 
 TEST_F(CheckTest, TheFloorIsNotToBlameForOneCameraAlone) {
