@@ -72,6 +72,12 @@ void exchange_legs(const MotionContext& context, WalkerParticle& particle) {
   particle.pose_before = exchanged_legs(body, particle.pose_before);
 }
 
+void exchange_legs(const MotionContext& context, WalkerFilter& filter) {
+  FilterState<WalkerParticle> state = filter.state();
+  for (WalkerParticle& particle : state.set.states) exchange_legs(context, particle);
+  filter.resume(std::move(state));
+}
+
 void exchange_legs(const Body& body, FrameRecord& record) {
   FrameEstimate& estimate = record.estimate;
   estimate.pose = exchanged_legs(body, estimate.pose);

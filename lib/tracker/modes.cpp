@@ -58,4 +58,18 @@ StrideModes stride_modes(std::span<const WalkerParticle> particles,
   return {phase, mass_apart(phase, phases, weights)};
 }
 
+double phase_ahead(std::span<const WalkerParticle> particles, std::span<const double> weights,
+                   double dt) {
+  double steps = 0;  // per second
+  for (size_t i = 0; i < particles.size(); ++i) steps += weights[i] / particles[i].aim.duration();
+  return whole_turns_off(stride_modes(particles, weights).phase + 0.5 * steps * dt);
+}
+
+bool leapt(double expected, double phase) {
+  constexpr double kNear = 0.125;
+  const auto legs_pass = [](double at) { return std::abs(std::remainder(at - 0.25, 0.5)) < kNear; };
+  return legs_pass(expected) && legs_pass(phase) &&
+         std::abs(strides_between(expected, phase)) > 0.5 - kNear;
+}
+
 }  // namespace walktrack

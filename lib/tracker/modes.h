@@ -35,4 +35,13 @@ double mass_apart(double phase, std::span<const double> phases, std::span<const 
 StrideModes stride_modes(std::span<const WalkerParticle> particles,
                          std::span<const double> weights);
 
+// Where in the stride those who are reported will be `dt` s later, if they go on.
+double phase_ahead(std::span<const WalkerParticle> particles, std::span<const double> weights,
+                   double dt);
+
+// Whether a set, while the legs pass each other at about a quarter and three quarters of the
+// stride, is half a stride from where it was expected, each give or take an eighth. Nobody walks
+// so: its particles have taken one leg for the other.
+bool leapt(double expected, double phase);
+
 }  // namespace walktrack

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/conventions.h"
+#include "core/log_weights.h"
+#include "tracker/exchange.h"
 
 namespace walktrack {
 
@@ -134,8 +136,28 @@ void Tracker::settle(std::vector<FrameRecord>& out) {
   frames_below_ = frames_beaten_ = 0;
 }
 
+// Whether a set that takes one leg for the other goes unnoticed: several cameras see it, and only
+// the kneed walker reads poses anew (tracker/rephase.h).
+bool Tracker::may_leap() const {
+  return scene_.cameras.size() == 1 && config_.motion.model == MotionKind::kKneed;
+}
+
+// Takes the particles through a frame. Those that leap have the legs' names exchanged, and get them
+// back.
+FrameRecord Tracker::follow(const SceneEvidence& evidence) {
+  const WalkerFilterContext now = context(false);
+  const auto& set = filter_.particles();
+  const double expected = phase_ahead(set.states, normalised_weights(set.log_weights), scene_.dt);
+  FrameRecord record = advance(now, evidence, frame_, seed_, false, filter_);
+  if (may_leap() && record.tracked && leapt(expected, record.modes.phase)) {
+    exchange_legs(now.motion, filter_);
+    exchange_legs(body(), record);
+  }
+  return record;
+}
+
 void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
-  FrameRecord record = advance(context(false), evidence, frame_, seed_, false, filter_);
+  FrameRecord record = follow(evidence);
   ++frame_;
   // Whoever lost the start is not followed any more: nothing can tell what it would say now.
   record.modes.exchanged += doubt_ * (1 - 2 * record.modes.exchanged);

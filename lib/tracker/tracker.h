@@ -128,6 +128,8 @@ class Tracker {
   void compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   void settle(std::vector<FrameRecord>& out);
   void track(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
+  bool may_leap() const;
+  FrameRecord follow(const SceneEvidence& evidence);
   WalkerFilterContext context(bool first) const;
   bool within_reach(const Eigen::Vector2d& place, uint32_t frame) const;
   void see(const FrameEstimate& estimate);

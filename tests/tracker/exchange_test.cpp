@@ -120,6 +120,20 @@ TEST_P(ExchangedLegs, OfARecordAreThoseOfItsParticles) {
   EXPECT_NEAR(std::remainder(record.modes.phase - modes.phase, 1.0), 0, 1e-9);
 }
 
+TEST_P(ExchangedLegs, OfAFilterAreThoseOfItsParticles) {
+  WalkerFilter filter({}, 3, 1);
+  filter.start(set);
+  exchange_legs(context, filter);
+  const auto& states = filter.particles().states;
+  ASSERT_EQ(states.size(), set.size());
+  for (size_t i = 0; i < set.size(); ++i) {
+    const Pose wanted = exchanged(set[i]).pose;
+    EXPECT_EQ(states[i].stance, other(set[i].stance));
+    EXPECT_EQ(states[i].pose.root, wanted.root);
+    EXPECT_EQ(states[i].pose.legs[0].hip_abduction, wanted.legs[0].hip_abduction);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Models, ExchangedLegs,
                          testing::Values(MotionKind::kKneed, MotionKind::kAnthropomorphic,
                                          MotionKind::kMarkov));

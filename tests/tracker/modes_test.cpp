@@ -1,10 +1,12 @@
 #include "tracker/modes.h"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "fixture.h"
+#include "tracker/exchange.h"
 
 namespace walktrack {
 namespace {
@@ -53,6 +55,42 @@ TEST(Modes, AreWeighedWhereverTheyLie) {
 TEST(Modes, OfEqualMassAreHalfEach) {
   const std::vector<double> phases{0.2, 0.7}, weights{0.5, 0.5};
   EXPECT_NEAR(mass_apart(leading_phase(phases, weights), phases, weights), 0.5, 1e-12);
+}
+
+TEST(Leaps, AreHalfAStrideWhileTheLegsPass) {
+  EXPECT_TRUE(leapt(0.24, 0.77));
+  EXPECT_TRUE(leapt(0.74, 0.29));
+  EXPECT_TRUE(leapt(0.70, 0.15));
+  EXPECT_FALSE(leapt(0.02, 0.51)) << "both feet are on the ground";
+  EXPECT_FALSE(leapt(0.24, 0.98)) << "out of a passing";
+  for (double phase = 0; phase < 1; phase += 0.01)
+    for (double on = -0.37; on < 0.375; on += 0.01) EXPECT_FALSE(leapt(phase, around(phase + on)));
+}
+
+// Nobody walks so, at any moment and frame rate; whoever has their legs exchanged while they pass
+// seems to.
+TEST(Leaps, AreNotOfWalkersButOfTheirLegs) {
+  const Walking walking;
+  for (const double rate : {30.0, 7.0}) {
+    MotionConfig config;
+    config.rephasing = 0;  // which is how sets leap
+    const MotionContext context = walking.context(1 / rate, config);
+    int frames = 0, told = 0;
+    for (WalkerParticle& particle : walkers_on_their_way(context, 20)) {
+      for (uint32_t frame = 0; frame < 3 * rate; ++frame) {
+        const double expected = phase_ahead({&particle, 1}, std::array{1.0}, context.dt);
+        Rng rng(5, Purpose::kTest, frame);
+        if (propagate(context, particle, rng) != Outcome::kAlive) break;
+        ++frames;
+        ASSERT_FALSE(leapt(expected, stride_phase(particle))) << expected;
+        WalkerParticle exchanged = particle;
+        exchange_legs(context, exchanged);
+        told += leapt(expected, stride_phase(exchanged)) ? 1 : 0;
+      }
+    }
+    EXPECT_GT(frames, 100) << "unseen walkers fall sooner or later";
+    EXPECT_NEAR(double(told) / frames, 0.5, 0.15) << "legs pass in half of the time";
+  }
 }
 
 }  // namespace
