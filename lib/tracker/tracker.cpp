@@ -146,10 +146,13 @@ bool Tracker::may_leap() const {
 // back.
 FrameRecord Tracker::follow(const SceneEvidence& evidence) {
   const WalkerFilterContext now = context(false);
-  const auto& set = filter_.particles();
-  const double expected = phase_ahead(set.states, normalised_weights(set.log_weights), scene_.dt);
+  std::optional<double> expected;  // place in the stride
+  if (may_leap()) {
+    const auto& set = filter_.particles();
+    expected = phase_ahead(set.states, normalised_weights(set.log_weights), scene_.dt);
+  }
   FrameRecord record = advance(now, evidence, frame_, seed_, false, filter_);
-  if (may_leap() && record.tracked && leapt(expected, record.modes.phase)) {
+  if (expected && record.tracked && leapt(*expected, record.modes.phase)) {
     exchange_legs(now.motion, filter_);
     exchange_legs(body(), record);
   }
