@@ -32,11 +32,12 @@ void tell_range_ends() {}
 void tell_end() {}
 #endif
 
-// With all threads of the machine, those that are there already: to ask for fewer costs the time of
-// gathering them. Who waits takes up nothing but what it waits for, as its own scratch is in use.
+// Calls f where no more than so many threads help: among those around if they are few enough, for
+// to gather others costs time. Who waits takes up nothing but what it waits for, as its own scratch
+// is in use.
 template <typename F>
 void in_arena(int threads, const F& f) {
-  if (threads >= hardware_threads()) return tbb::this_task_arena::isolate(f);
+  if (tbb::this_task_arena::max_concurrency() <= threads) return tbb::this_task_arena::isolate(f);
   tbb::task_arena arena(threads);
   arena.execute(f);
 }
@@ -78,13 +79,6 @@ void run_beside(int threads, const std::function<void()>& here,
     beside();
     return;
   }
-  tell_begin();
-  tbb::task_group group;
-  group.run([&] {
-    tell_range_begins();
-    beside();
-    tell_range_ends();
-  });
   std::exception_ptr thrown;
   const auto attempt = [&](const std::function<void()>& f) {
     try {
@@ -93,9 +87,18 @@ void run_beside(int threads, const std::function<void()>& here,
       if (!thrown) thrown = std::current_exception();
     }
   };
-  attempt(here);
-  // Done here if no other thread was free.
-  attempt([&] { group.wait(); });
+  tell_begin();
+  in_arena(threads, [&] {
+    tbb::task_group group;
+    group.run([&] {
+      tell_range_begins();
+      beside();
+      tell_range_ends();
+    });
+    attempt(here);
+    // Done here if no other thread was free.
+    attempt([&] { group.wait(); });
+  });
   tell_end();
   if (thrown) std::rethrow_exception(thrown);
 }

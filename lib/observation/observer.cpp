@@ -235,6 +235,7 @@ void Observer::prepare(const cv::Mat& frame_bgr, const Region& region, int threa
   if (s.config.background.enabled) s.read_background(threads, out);
   out.grey.release();
   if (s.config.flow.enabled || region.picture) cv::cvtColor(out.bgr, out.grey, cv::COLOR_BGR2GRAY);
+  out.flow.area = {};  // none, but for its memory, where there is no frame before
   out.flow.pixels.clear();
   if (s.config.flow.enabled && !s.grey_before.empty())
     pair_frames(s.config.flow, s.grey_before, out.grey, out.region.area, out.flow);

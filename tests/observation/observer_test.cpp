@@ -244,6 +244,23 @@ TEST(Observer, OccludersSayNothing) {
   EXPECT_GT(evidence.flow.at(170, 120).precision, 0);
 }
 
+// A prepared frame keeps its memory, but nothing of the flow before frames were dropped.
+TEST(Observer, AfterDroppedFramesThereIsNoFlowForAnOccluderToBlock) {
+  const World world;
+  Observer observer = world.observer(every_term());
+  observer.hide({{{-1, -1}, {160, -1}, {160, 240}, {-1, 240}}});
+  CameraEvidence evidence;
+  PreparedFrame frame;
+  for (int i = 0; i < 4; ++i) {
+    if (i == 3) observer.forget_previous_frame();
+    observer.prepare(world.frame(world.pose(0.02 * i)), whole_image(observer.camera(), 0.01), 1,
+                     frame);
+    observer.complete(frame, evidence);
+    EXPECT_EQ(evidence.flow.area.empty(), i == 0 || i == 3) << i;
+    EXPECT_EQ(evidence.flow.pixels.empty(), i == 0 || i == 3) << i;
+  }
+}
+
 TEST(Observer, WhatStandsInFrontMayComeAndGo) {
   const World world;
   Observer observer = world.observer({});
