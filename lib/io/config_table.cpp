@@ -79,6 +79,8 @@ void add_motion(ParameterTable& table) {
             {"anthropomorphic", MotionKind::kAnthropomorphic},
             {"markov", MotionKind::kMarkov}},
            "what moves particles: the kneed walker, one of straight legs, or none");
+  m.choice("path", &M::path, {{"spatial", Path::kSpatial}, {"sagittal", Path::kSagittal}},
+           "where it goes: anywhere, or along a line in whose upright plane all moves");
   m.number("unrest", &M::unrest, 0, 100, "multiplies the noise of model markov");
   m.number("torso_torque", &M::torso_torque, 0, 10, "torque noise, M g L per sqrt(s)");
   m.number("hip_torque", &M::hip_torque, 0, 10, "torque noise, M g L per sqrt(s)");

@@ -123,8 +123,11 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
   const ObservationConfig& images = values.observation;
   Items items(scene, config);
   add_walker(values, items);
-  items.fact("legs, trunk", true, "9 angles of legs and feet, list and heading of the pelvis",
+  items.fact("legs, trunk", true, "tilt, hips, knees and ankles in the walk's upright planes",
              "always: the walker's body");
+  items.fact("sideways", values.tracker.motion.path == Path::kSpatial,
+             "turning, the pelvis's list, hips sideways, 6 angles more",
+             items.origin("motion.path"));
   items.flag("head", "body.head", values.body.head, "head and neck");
   items.flag("arms", "body.arms", values.body.arms, "both arms, 6 angles more");
   items.flag("background", "observation.background.enabled", images.background.enabled,
@@ -154,19 +157,6 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
                    : "particles that follow the clock",
              items.origin("budget.frame_ms"));
   return items.take();
-}
-
-PlanState state_of(const Body& body) {
-  PlanState state;
-  const int extras = extra_count(body);
-  state.walker = static_cast<int>(KneedState{}.q.size() + KneedState{}.qd.size());
-  state.place = 2 + 2;      // of the standing foot; the way that the root goes
-  state.pose = 2 * extras;  // with their rates, as values of two frames
-  state.controls = 13 + 2;  // four springs with dampers and rest angles, a push-off; the step's aim
-  state.noise = kExtraNoise + extras;
-  // Two copies of each state, three weights, a parent and flags.
-  state.bytes_per_particle = 2.0 * sizeof(WalkerParticle) + 6.0 * sizeof(double);
-  return state;
 }
 
 std::vector<std::pair<std::string, double>> memory_of(const Scene& scene, const Config& config,
@@ -210,16 +200,13 @@ std::string saving(double without, double all) {
 
 // The camera that sees the walk most from the side, if the scene says where it goes.
 std::optional<size_t> side_camera(const Scene& scene) {
-  if (!scene.initial) return std::nullopt;
-  size_t best = 0;
-  double least = 2;
+  std::optional<size_t> best;
+  double most = -1;
   for (size_t c = 0; c < scene.cameras.size(); ++c) {
-    const Eigen::Vector2d ray =
-        (scene.initial->position - camera_centre(scene.cameras[c].camera).head<2>()).normalized();
-    const double along = std::abs(ray.dot(
-        Eigen::Vector2d(std::cos(scene.initial->heading), std::sin(scene.initial->heading))));
-    if (along < least) best = c;
-    least = std::min(least, along);
+    const auto view = side_view(scene, scene.cameras[c].camera);
+    if (!view || view->off_sight <= most) continue;
+    best = c;
+    most = view->off_sight;
   }
   return best;
 }
@@ -274,7 +261,7 @@ std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& c
 
 Plan plan_scene(const Scene& scene, const ConfigWithOrigin& config) {
   Plan plan;
-  plan.scene = scene.file.filename().string();
+  plan.scene = scene.file;
   plan.frame_rate = SceneVideo(scene).frame_rate();
   plan.work = frame_work(scene, config.values);
   plan.cost = frame_cost(plan.work);
@@ -286,7 +273,8 @@ Plan plan_scene(const Scene& scene, const ConfigWithOrigin& config) {
                             plan.cost.cameras[c].sum()});
   }
   plan.items = items_of(scene, config);
-  plan.state = state_of(make_body(scene.subject, config.values.body));
+  plan.state = state_of(scene, config.values);
+  plan.levels = plan_levels(scene, config);
   plan.memory = memory_of(scene, config.values, plan);
   plan.advice = advice_of(scene, config, plan.cost.sum());
   return plan;

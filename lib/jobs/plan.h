@@ -2,6 +2,7 @@
 // scene does not need. Nothing is tracked: costs are those of cost_model.h.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "io/config.h"
 #include "io/scene.h"
 #include "jobs/cost_model.h"
+#include "jobs/plan_levels.h"
 
 namespace walktrack {
 
@@ -27,19 +29,13 @@ struct PlanCamera {
   double ms = 0;         // all that this camera alone costs
 };
 
-struct PlanState {
-  int walker = 0, place = 0, pose = 0, controls = 0;  // numbers that a particle carries
-  int noise = 0;                                      // numbers drawn for it in each frame
-  double bytes_per_particle = 0;                      // all copies and weights of the filter
-  int dimension() const { return walker + place + pose + controls; }
-};
-
 struct Plan {
-  std::string scene;
+  std::filesystem::path scene;  // its file
   double frame_rate = 0;
   std::vector<PlanCamera> cameras;
   std::vector<PlanItem> items;
   PlanState state;
+  PlanLevels levels;
   FrameWork work;
   FrameCost cost;
   std::vector<std::pair<std::string, double>> memory;  // what it is for, bytes

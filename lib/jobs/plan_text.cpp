@@ -40,6 +40,22 @@ std::string items_text(const Plan& plan) {
   return out;
 }
 
+const char* mark(const PlanLevel& level) {
+  return level.on ? (level.lowest ? "  <- on, and suffices" : "  <- on")
+                  : (level.lowest ? "  <- suffices" : "");
+}
+
+std::string levels_text(const Plan& plan) {
+  std::string out = "\nLevels of the model: numbers a particle carries, drawn anew in a frame\n";
+  for (const PlanLevel& level : plan.levels.levels)
+    out += fmt::format("  {:<14} {:3} {:3}  {}{}\n", level.name, level.state.dimension(),
+                       level.state.noise, fmt::join(level.settings, " "), mark(level));
+  return out + fmt::format(
+                   "Lowest that suffices, by the scene: {}. A proof by measurement:\n"
+                   "  walktrack sweep {} -o out/levels --over path=sagittal:spatial\n",
+                   plan.levels.why, plan.scene.string());
+}
+
 std::string cost_text(const Plan& plan) {
   const double all = plan.cost.sum();
   std::string out = fmt::format(
@@ -58,8 +74,9 @@ std::string cost_text(const Plan& plan) {
 }  // namespace
 
 std::string plan_text(const Plan& plan) {
-  std::string out = fmt::format("{}: {} camera{} at {:g} Hz\n", plan.scene, plan.cameras.size(),
-                                plan.cameras.size() == 1 ? "" : "s", plan.frame_rate);
+  std::string out =
+      fmt::format("{}: {} camera{} at {:g} Hz\n", plan.scene.filename().string(),
+                  plan.cameras.size(), plan.cameras.size() == 1 ? "" : "s", plan.frame_rate);
   for (const PlanCamera& camera : plan.cameras)
     out += fmt::format(
         "  {}: {}x{} px, worked on at 1/{} of it, where a person is {:.0f} px high; "
@@ -74,6 +91,7 @@ std::string plan_text(const Plan& plan) {
       "{}, controls {}),\n{} drawn anew in a frame; "
       "{:.0f} bytes with its copies, most of them fixed\n",
       s.dimension(), s.walker, s.place, s.pose, s.controls, s.noise, s.bytes_per_particle);
+  out += levels_text(plan);
   out += cost_text(plan);
   out += "\nMemory, besides the program's own\n";
   for (const auto& [what, bytes] : plan.memory)
@@ -85,7 +103,7 @@ std::string plan_text(const Plan& plan) {
 }
 
 std::string plan_json(const Plan& plan) {
-  Json root = {{"scene", plan.scene}, {"frame_rate_hz", plan.frame_rate}};
+  Json root = {{"scene", plan.scene.filename().string()}, {"frame_rate_hz", plan.frame_rate}};
   for (size_t c = 0; c < plan.cameras.size(); ++c) {
     const PlanCamera& camera = plan.cameras[c];
     const CameraWork& work = plan.work.cameras[c];
@@ -107,6 +125,14 @@ std::string plan_json(const Plan& plan) {
   root["state"] = {{"dimension", s.dimension()},
                    {"noise", s.noise},
                    {"bytes_per_particle", s.bytes_per_particle}};
+  for (const PlanLevel& level : plan.levels.levels)
+    root["levels"].push_back({{"name", level.name},
+                              {"settings", level.settings},
+                              {"dimension", level.state.dimension()},
+                              {"noise", level.state.noise},
+                              {"on", level.on},
+                              {"lowest_sufficient", level.lowest}});
+  root["lowest_level_why"] = plan.levels.why;
   root["work"] = {{"particles", plan.work.particles},
                   {"poses", plan.work.poses},
                   {"parts", plan.work.parts},

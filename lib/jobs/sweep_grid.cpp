@@ -18,8 +18,9 @@ constexpr const char* kOrigin = "--over";
 constexpr std::string_view kCameras = "cameras", kTerms = "terms", kAllTerms = "all",
                            kConfig = "config";
 constexpr std::array<std::string_view, 3> kTermNames{"background", "foreground", "flow"};
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kShortNames{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kShortNames{
     {{"model", "motion.model"},
+     {"path", "motion.path"},
      {"particles", "filter.particles"},
      {"scale", "observation.person_px"},
      {"moves", "filter.moves"},

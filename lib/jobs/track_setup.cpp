@@ -107,6 +107,7 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
   out.model.body = make_body(scene.subject, config.body);
   out.model.walker = kneed_model(kneed_parameters(scene.subject, gravity));
   out.model.downhill = scene.gravity.head<2>();
+  out.model.path = config.tracker.motion.path;
   if (!out.model.downhill.isZero()) out.model.walker.gravity.y() = scene.gravity.z();
   out.observation = config.observation;
   out.dt = 1.0 / frame_rate;

@@ -19,6 +19,8 @@ constexpr std::array<int, 3> kTorques{kTorqueNoise + kHipTorque, kTorqueNoise + 
                                       noise_of(kPace)};
 constexpr std::array<NoiseGroup, 6> kGroups{kTrunkNoise, kLeftLegNoise, kRightLegNoise,
                                             kTorques,    kLeftArmNoise, kRightArmNoise};
+constexpr std::array<NoiseGroup, 6> kGroupsInPlane{
+    kTrunkInPlane, kLeftLegInPlane, kRightLegInPlane, kTorques, kLeftArmInPlane, kRightArmInPlane};
 
 StraightState straight(const KneedState& walker) {
   return {{walker.q[kStanceThigh], walker.q[kSwingThigh]},
@@ -197,6 +199,8 @@ void AnthropomorphicMotion::realise(const MotionContext& context, WalkerParticle
                    particle.walker.q[kStanceShank], particle.stance, particle.ball, particle.extra);
 }
 
-std::span<const NoiseGroup> AnthropomorphicMotion::noise_groups() const { return kGroups; }
+std::span<const NoiseGroup> AnthropomorphicMotion::noise_groups(Path path) const {
+  return path == Path::kSpatial ? kGroups : kGroupsInPlane;
+}
 
 }  // namespace walktrack

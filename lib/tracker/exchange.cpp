@@ -12,11 +12,13 @@ namespace {
 // the negative of the other leg's, rad (to first order).
 double reach(const Body& body) { return body.lengths.hip_width / leg_length(body.lengths); }
 
-void exchange_extras(int count, double reach, Extras& extra) {
+void exchange_extras(Extras& extra) {
   for (const Extra left :
-       {kAbduction, kRotation, kAnkle, kThigh, kShank, kShoulder, kShoulderAbduction, kElbow}) {
-    if (left < count) std::swap(extra[size_t(left)], extra[size_t(left) + 1]);
-  }
+       {kAbduction, kRotation, kAnkle, kThigh, kShank, kShoulder, kShoulderAbduction, kElbow})
+    std::swap(extra[size_t(left)], extra[size_t(left) + 1]);
+}
+
+void reach_across(double reach, Extras& extra) {
   for (const size_t i : {size_t{kAbduction}, size_t{kAbductionRight}}) extra[i] = -extra[i] - reach;
 }
 
@@ -47,27 +49,44 @@ void exchange_angles(const JointAngles& middle, std::array<Spread, kJointAngleCo
   }
 }
 
-}  // namespace
-
-Pose exchanged_legs(const Body& body, const Pose& pose) {
+Pose swapped_limbs(const Pose& pose) {
   Pose out = pose;
   std::swap(out.legs[0], out.legs[1]);
   std::swap(out.arms[0], out.arms[1]);
+  return out;
+}
+
+// Legs that do not reach sideways: the pelvis stays where it is, and the feet change their places.
+void exchange_feet(const MotionContext& context, WalkerParticle& particle) {
+  const Eigen::Vector2d root = particle.pose.root.head<2>();
+  context.moves.realise(context, particle);
+  particle.predicted_ball += root - particle.pose.root.head<2>();
+  context.moves.realise(context, particle);
+  particle.pose_before = swapped_limbs(particle.pose_before);
+}
+
+}  // namespace
+
+Pose exchanged_legs(const Body& body, const Pose& pose) {
+  Pose out = swapped_limbs(pose);
   for (LegPose& leg : out.legs) leg.hip_abduction = -leg.hip_abduction - reach(body);
   return out;
 }
 
 void exchange_legs(const MotionContext& context, WalkerParticle& particle) {
   const Body& body = context.model.body;
-  const int count = extra_count(body);
+  const bool reaches = context.model.path == Path::kSpatial;
   particle.stance = other(particle.stance);
-  exchange_extras(count, reach(body), particle.predicted_extra);
-  exchange_extras(count, reach(body), particle.extra_before);
-  exchange_extras(count, reach(body), particle.extra);
+  for (Extras* extra : {&particle.predicted_extra, &particle.extra_before, &particle.extra}) {
+    exchange_extras(*extra);
+    if (reaches) reach_across(reach(body), *extra);
+  }
   Extras noise;
   std::copy_n(particle.noise.begin() + kExtraNoise, kExtraCount, noise.begin());
-  exchange_extras(count, 0, noise);
+  exchange_extras(noise);
+  if (reaches) reach_across(0, noise);
   std::copy_n(noise.begin(), kExtraCount, particle.noise.begin() + kExtraNoise);
+  if (!reaches) return exchange_feet(context, particle);
   context.moves.realise(context, particle);
   particle.pose_before = exchanged_legs(body, particle.pose_before);
 }

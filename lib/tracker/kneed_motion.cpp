@@ -59,6 +59,9 @@ void walk_to(const KneedModel& model, std::span<const double> times,
 
 constexpr std::array<NoiseGroup, 6> kGroups{kTrunkNoise,  kLeftLegNoise, kRightLegNoise,
                                             kWalkerNoise, kLeftArmNoise, kRightArmNoise};
+constexpr std::array<NoiseGroup, 6> kGroupsInPlane{kTrunkInPlane,    kLeftLegInPlane,
+                                                   kRightLegInPlane, kWalkerNoise,
+                                                   kLeftArmInPlane,  kRightArmInPlane};
 
 }  // namespace
 
@@ -106,7 +109,7 @@ MarkovConstants markov_constants(Extra extra) {
 
 Pose pose_in_gait(const BodyModel& model, const PriorGait& gait, Side stance, double phase) {
   Extras extra{};
-  for (int k = 0; k < extra_count(model.body); ++k)
+  for (int k = 0; k < kExtraCount; ++k)
     extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).rest;
   Pose pose = pose_of(model, state_at_phase(model.walker, gait, phase), stance,
                       {gait.speed, gait.step_length}, Eigen::Vector2d::Zero(), extra);
@@ -150,6 +153,8 @@ void KneedMotion::realise(const MotionContext& context, WalkerParticle& particle
   walktrack::realise(context.model, context.scale, particle);
 }
 
-std::span<const NoiseGroup> KneedMotion::noise_groups() const { return kGroups; }
+std::span<const NoiseGroup> KneedMotion::noise_groups(Path path) const {
+  return path == Path::kSpatial ? kGroups : kGroupsInPlane;
+}
 
 }  // namespace walktrack

@@ -27,7 +27,7 @@ class KneedMotion : public MotionModel {
             std::span<Outcome> outcomes) const override;
   bool expect(const MotionContext& context, WalkerParticle& particle) const override;
   void realise(const MotionContext& context, WalkerParticle& particle) const override;
-  std::span<const NoiseGroup> noise_groups() const override;
+  std::span<const NoiseGroup> noise_groups(Path path) const override;
 
  private:
   StepBook steps_;  // what rephasing reads poses as

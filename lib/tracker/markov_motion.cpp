@@ -19,6 +19,8 @@ constexpr double kAlong = 0.5, kAcross = 0.3;
 
 constexpr std::array<NoiseGroup, 5> kGroups{kTrunkNoise, kLeftLegNoise, kRightLegNoise,
                                             kLeftArmNoise, kRightArmNoise};
+constexpr std::array<NoiseGroup, 5> kGroupsInPlane{kTrunkInPlane, kLeftLegInPlane, kRightLegInPlane,
+                                                   kLeftArmInPlane, kRightArmInPlane};
 
 Pose pose_at(const Body& body, const Extras& extra, const Eigen::Vector2d& root) {
   Pose pose;
@@ -153,6 +155,8 @@ void MarkovMotion::realise(const MotionContext& context, WalkerParticle& particl
   particle.pose_before = pose_at(body, particle.extra_before, particle.ball - way);
 }
 
-std::span<const NoiseGroup> MarkovMotion::noise_groups() const { return kGroups; }
+std::span<const NoiseGroup> MarkovMotion::noise_groups(Path path) const {
+  return path == Path::kSpatial ? kGroups : kGroupsInPlane;
+}
 
 }  // namespace walktrack

@@ -41,7 +41,7 @@ class MarkovMotion : public MotionModel {
             std::span<Outcome> outcomes) const override;
   bool expect(const MotionContext& context, WalkerParticle& particle) const override;
   void realise(const MotionContext& context, WalkerParticle& particle) const override;
-  std::span<const NoiseGroup> noise_groups() const override;
+  std::span<const NoiseGroup> noise_groups(Path path) const override;
 
  private:
   double leg_;  // m

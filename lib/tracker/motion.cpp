@@ -24,7 +24,8 @@ double rest_of(Extra extra, const MarkovStep& step, const WalkerParticle& partic
 }
 
 void predict_extras(const MotionContext& context, WalkerParticle& particle) {
-  for (int k = 0; k < extra_count(context.model.body); ++k) {
+  const ExtraRange free = free_extras(context.model);
+  for (int k = free.first; k < free.end; ++k) {
     const auto extra = static_cast<Extra>(k);
     const size_t i = static_cast<size_t>(k);
     const MarkovStep& step = context.markov[i];
@@ -59,8 +60,12 @@ void face_the_way(const MotionContext& context, WalkerParticle& particle) {
 }
 
 void draw_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  const int count = kExtraNoise + extra_count(context.model.body);
-  for (int k = 0; k < count; ++k) particle.noise[static_cast<size_t>(k)] = rng.truncated_normal(4);
+  const ExtraRange free = free_extras(context.model);
+  const auto draw = [&](int k) {
+    particle.noise[static_cast<size_t>(k)] = rng.truncated_normal(4);
+  };
+  for (int k = 0; k < kExtraNoise; ++k) draw(k);
+  for (int k = free.first; k < free.end; ++k) draw(kExtraNoise + k);
 }
 
 // The walker as it is becomes the frame's prediction, and its noise is drawn.
@@ -147,12 +152,14 @@ Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng)
 
 void propagate(const MotionContext& context, std::span<WalkerParticle> particles,
                std::span<Rng> rngs, std::span<Outcome> outcomes) {
+  const bool turn = turns(context.model);
   for (size_t i = 0; i < particles.size(); ++i) {
     WalkerParticle& p = particles[i];
-    if (!std::exchange(p.arriving, false)) remember_way(context, p);
+    const bool came = std::exchange(p.arriving, false);
+    if (turn && !came) remember_way(context, p);
     context.moves.reconsider(context, p, rngs[i]);
     predict_extras(context, p);
-    face_the_way(context, p);
+    if (turn) face_the_way(context, p);
   }
   context.moves.walk(context, particles, rngs, outcomes);
   for (size_t i = 0; i < particles.size(); ++i) {
@@ -170,15 +177,18 @@ Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& r
 void perturb(const MotionContext& context, double boldness, WalkerParticle& particle, Rng& rng) {
   // A quarter of the proposals changes everything a little, the others one part of the body.
   const double keep = std::sqrt(1 - boldness * boldness);
+  const ExtraRange free = free_extras(context.model);
   const auto change = [&](int k) {
     double& z = particle.noise[static_cast<size_t>(k)];
     z = keep * z + boldness * rng.normal();
   };
   if (rng.uniform() < 0.25) {
-    const int count = kExtraNoise + extra_count(context.model.body);
-    for (int k = 0; k < count; ++k) change(k);
+    for (int k = 0; k < kExtraNoise + free.end; ++k) {
+      if (k == kExtraNoise) k += free.first;
+      change(k);
+    }
   } else {
-    const std::span<const NoiseGroup> groups = context.moves.noise_groups();
+    const std::span<const NoiseGroup> groups = context.moves.noise_groups(context.model.path);
     constexpr size_t kArms = 2;
     const size_t count = groups.size() - (context.model.body.groups.arms ? 0 : kArms);
     const size_t chosen = static_cast<size_t>(rng.uniform() * static_cast<double>(count));

@@ -8,7 +8,7 @@
 // so that the process does not depend on the frame rate; truncated at anatomical limits. Without a
 // period w = 0: critically damped. The heading has no rest: b = 0, and its rate has the standard
 // deviation s; but people face the way that they go: it comes back to that of about the last step
-// within MotionConfig::facing.
+// within MotionConfig::facing. On a sagittal path it stays what it is.
 #pragma once
 
 #include <array>
@@ -22,6 +22,7 @@ namespace walktrack {
 // For an adult of kAdultHeight.
 struct MotionConfig {
   MotionKind model = MotionKind::kKneed;
+  Path path = Path::kSpatial;  // BodyModel::path
   // Torque noise as shares of M g L per sqrt(s), L the leg's length: torso, hip, knees and, for the
   // ground under the stance foot, ankle.
   double torso_torque = 0.010;

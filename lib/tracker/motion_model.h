@@ -64,7 +64,7 @@ class MotionModel {
   virtual void realise(const MotionContext& context, WalkerParticle& particle) const = 0;
 
   // Noise that moves one part of the body; those of the arms, two, come last.
-  virtual std::span<const NoiseGroup> noise_groups() const = 0;
+  virtual std::span<const NoiseGroup> noise_groups(Path path) const = 0;
 };
 
 // Of that body, with the prior's gaits where the model walks like them.

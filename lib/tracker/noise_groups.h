@@ -24,4 +24,13 @@ inline constexpr std::array kLeftArmNoise{noise_of(kShoulder), noise_of(kShoulde
 inline constexpr std::array kRightArmNoise{
     noise_of(kShoulderRight), noise_of(kShoulderAbductionRight), noise_of(kElbowRight)};
 
+// The same on a sagittal path.
+inline constexpr std::array kTrunkInPlane{int{kBallNoise}, kBallNoise + 1, noise_of(kCrouch),
+                                          noise_of(kTilt)};
+inline constexpr std::array kLeftLegInPlane{noise_of(kAnkle), noise_of(kThigh), noise_of(kShank)};
+inline constexpr std::array kRightLegInPlane{noise_of(kAnkleRight), noise_of(kThighRight),
+                                             noise_of(kShankRight)};
+inline constexpr std::array kLeftArmInPlane{noise_of(kShoulder), noise_of(kElbow)};
+inline constexpr std::array kRightArmInPlane{noise_of(kShoulderRight), noise_of(kElbowRight)};
+
 }  // namespace walktrack

@@ -87,7 +87,9 @@ void realise_walker(const BodyModel& model, const NoiseScale& scale, WalkerParti
   walker.qd += kick;
   walker.q += 0.5 * scale.elapsed * kick;
   keep_knees(walker);
-  for (int k = 0; k < extra_count(model.body); ++k) {
+  particle.extra[kHeading] = particle.predicted_extra[kHeading];
+  const ExtraRange free = free_extras(model);
+  for (int k = free.first; k < free.end; ++k) {
     const size_t i = size_t(k);
     const double noise = z[size_t(kExtraNoise) + i];
     particle.extra[i] = particle.predicted_extra[i] +

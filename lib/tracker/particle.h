@@ -19,8 +19,8 @@ namespace walktrack {
 
 // The coordinates that follow a damped second-order Markov process, in this order: those that the
 // walker does not drive, and how far those that it drives stray from it. The walker itself never
-// feels them: its gait stays the stable one that the prior knows. The arms come last, so that a
-// body without arms carries and pays for kExtraWithoutArms of them.
+// feels them: its gait stays the stable one that the prior knows. What
+// is sideways comes first and last, the arms last, so that a scene's own are a range (free_extras).
 enum Extra {
   kHeading,
   kList,
@@ -39,18 +39,20 @@ enum Extra {
   kShankRight,
   kShoulder,  // flexion
   kShoulderRight,
-  kShoulderAbduction,
-  kShoulderAbductionRight,
   kElbow,
   kElbowRight,
+  kShoulderAbduction,
+  kShoulderAbductionRight,
   kExtraCount
 };
-inline constexpr int kExtraWithoutArms = kShoulder;
 using Extras = std::array<double, kExtraCount>;  // rad
 
-inline constexpr int extra_count(const Body& body) {
-  return body.groups.arms ? int{kExtraCount} : kExtraWithoutArms;
-}
+// Where walkers may go and what shows of them:
+//   spatial   anywhere over the ground, turning
+//   sagittal  straight on: everything moves in upright planes of one heading, found at the start,
+//             and only where feet come to stand may be off to the side; what one camera sees of a
+//             walk from the side
+enum class Path { kSpatial, kSagittal };
 
 // Where the noise of a frame acts.
 enum NoiseIndex {
@@ -104,7 +106,22 @@ struct BodyModel {
   Body body;
   KneedModel walker;                                   // on level ground
   Eigen::Vector2d downhill = Eigen::Vector2d::Zero();  // horizontal gravity, m/s^2; 0 on the level
+  Path path = Path::kSpatial;
 };
+
+// The coordinates that have a process in this model. One that has none keeps the value that it was
+// given at the start, and is neither predicted nor drawn.
+struct ExtraRange {
+  int first, end;
+};
+inline ExtraRange free_extras(const BodyModel& model) {
+  const bool arms = model.body.groups.arms;
+  if (model.path == Path::kSpatial) return {kHeading, arms ? kExtraCount : kShoulder};
+  return {kAnkle, arms ? kShoulderAbduction : kShoulder};
+}
+
+// Whether walkers may turn.
+inline bool turns(const BodyModel& model) { return model.path == Path::kSpatial; }
 
 // Sets the realised part (walker, ball, extra, pose) from the predicted part and the noise: of a
 // kneed walker, and of any walker but for the pose.

@@ -61,7 +61,7 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
         sighting.velocity + sighting.velocity_sd * rng.truncated_normal(2.5) * sighting.ray;
     p.aim = draw_aim(context, config, velocity.norm(), rng);
     p.stance = range.stance;
-    for (int k = 0; k < extra_count(context.model.body); ++k)
+    for (int k = 0; k < kExtraCount; ++k)
       p.extra[static_cast<size_t>(k)] = context.markov[static_cast<size_t>(k)].rest;
     p.extra[kHeading] = std::atan2(velocity.y(), velocity.x());
     p.extra_before = p.extra;

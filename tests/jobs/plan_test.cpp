@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/conventions.h"
 #include "tests/message_of.h"
 
 namespace walktrack {
@@ -107,6 +108,71 @@ TEST(Plan, CountsTheState) {
   EXPECT_EQ(with.state.dimension() - without.state.dimension(), 12);  // 6 angles and their rates
   EXPECT_EQ(with.state.noise - without.state.noise, 6);
   EXPECT_GE(without.state.bytes_per_particle, 8.0 * without.state.dimension());
+}
+
+// A state has the numbers that its level has, and each level all of the one before.
+TEST(PlanLevels, EachAddsToTheLast) {
+  const Plan plan = plan_with({});
+  const auto& levels = plan.levels.levels;
+  ASSERT_EQ(levels.size(), 3);
+  EXPECT_EQ(levels[1].state.noise - levels[0].state.noise, 6);
+  EXPECT_EQ(levels[1].state.dimension() - levels[0].state.dimension(), 13)
+      << "6 angles with their rates; the way instead of the heading";
+  EXPECT_EQ(levels[2].state.noise - levels[1].state.noise, 6);
+  EXPECT_FALSE(levels[0].on);
+  EXPECT_TRUE(levels[1].on);
+  EXPECT_EQ(levels[1].state.dimension(), plan.state.dimension());
+  const Plan low = plan_with({"motion.path=sagittal"});
+  EXPECT_TRUE(low.levels.levels[0].on);
+  EXPECT_EQ(low.state.dimension(), levels[0].state.dimension());
+  EXPECT_FALSE(item(low, "sideways").on);
+}
+
+struct SeenFrom {
+  const char* name;
+  Eigen::Vector2d position;  // of the walker, m; the demo's first camera sees it along +y, 6 m off
+  double heading_deg;
+  bool side_view;
+};
+
+Scene one_camera_at(const SeenFrom& seen) {
+  Scene scene = demo();
+  scene.cameras.resize(1);
+  scene.initial = InitialState{0, seen.position, rad_from_deg(seen.heading_deg), {}, {}};
+  return scene;
+}
+
+TEST(PlanLevels, ASideViewOfOneCameraNeedsTheSagittalPathAlone) {
+  for (const SeenFrom& seen :
+       {SeenFrom{"across", {0, 0}, 0, true}, SeenFrom{"back across", {0, 0}, 180, true},
+        SeenFrom{"a little oblique", {0, 0}, 20, true}, SeenFrom{"oblique", {0, 0}, 40, false},
+        SeenFrom{"away", {0, 0}, 90, false}}) {
+    const Plan plan = plan_with({}, one_camera_at(seen));
+    EXPECT_EQ(plan.levels.levels[0].lowest, seen.side_view) << seen.name << plan.levels.why;
+    EXPECT_EQ(plan.levels.levels[1].lowest, !seen.side_view) << seen.name;
+  }
+}
+
+TEST(PlanLevels, SayWhyTheSagittalPathIsNotEnough) {
+  Scene scene = demo();
+  scene.initial = InitialState{0, {0, 0}, 0, {}, {}};
+  EXPECT_THAT(plan_with({}, scene).levels.why, HasSubstr("several cameras"));
+  scene.cameras.resize(1);
+  scene.initial.reset();
+  EXPECT_THAT(plan_with({}, scene).levels.why, HasSubstr("no `initial`"));
+  scene.initial = InitialState{0, {0, 0}, 0.5 * kPi, {}, {}};
+  EXPECT_THAT(plan_with({}, scene).levels.why, HasSubstr("0 degrees off the camera's line"));
+  scene.initial = InitialState{0, {0, 0}, 0, {}, {}};
+  Camera& camera = scene.cameras[0].camera;
+  camera.translation -= camera.rotation * Eigen::Vector3d(0, 0, 4);
+  EXPECT_THAT(plan_with({}, scene).levels.why, HasSubstr("degrees above the horizon"));
+}
+
+TEST(PlanLevels, NameTheirProof) {
+  const std::string text = plan_text(plan_with({}));
+  EXPECT_THAT(text, HasSubstr("walktrack sweep"));
+  EXPECT_THAT(text, HasSubstr("--over path=sagittal:spatial"));
+  EXPECT_THAT(text, HasSubstr("<- on, and suffices"));
 }
 
 TEST(Plan, AdvisesWhatASceneDoesNotNeed) {

@@ -10,8 +10,9 @@
 
 namespace walktrack {
 
-inline BodyModel test_model() {
+inline BodyModel test_model(Path path = Path::kSpatial) {
   BodyModel model;
+  model.path = path;
   model.body = make_body(Subject{}, {.head = true, .arms = false});
   model.walker = kneed_model(kneed_parameters(Subject{}, kStandardGravity));
   return model;
@@ -19,9 +20,9 @@ inline BodyModel test_model() {
 
 // What a context refers to, kept together.
 struct Walking {
-  explicit Walking(MotionKind kind = MotionKind::kKneed)
-      : moves(make_motion_model(kind, model, prior)) {}
-  BodyModel model = test_model();
+  explicit Walking(MotionKind kind = MotionKind::kKneed, Path path = Path::kSpatial)
+      : model(test_model(path)), moves(make_motion_model(kind, model, prior)) {}
+  BodyModel model;
   GaitPrior prior = load_gait_prior();
   std::unique_ptr<const MotionModel> moves;
   MotionContext context(double dt, const MotionConfig& config = {}) const {

@@ -56,7 +56,7 @@ TEST(MarkovMotion, ProcessesKeepTheirSpreadAtAnyFrameRate) {
   const Walking walking(MotionKind::kMarkov);
   for (const double dt : {1.0 / 7, 1.0 / 30, 1.0 / 240}) {
     const MotionContext context = walking.context(dt);
-    for (size_t k = kList; k < kExtraWithoutArms; ++k) {
+    for (size_t k = kList; k < kShoulder; ++k) {
       const MarkovConstants c = context.moves.constants({}, static_cast<Extra>(k));
       EXPECT_NEAR(context.scale.extra[k] * std::sqrt(variance(context.markov[k])), c.spread,
                   1e-9 * c.spread)

@@ -1,0 +1,113 @@
+// The path `sagittal`: straight on, whatever the model of motion and the noise.
+#include <gtest/gtest.h>
+
+#include "fixture.h"
+#include "tracker/course.h"
+#include "tracker/exchange.h"
+#include "tracker/walker_filter.h"
+
+namespace walktrack {
+namespace {
+
+constexpr double kFrame = 1.0 / 30;
+
+class SagittalPath : public testing::TestWithParam<MotionKind> {
+ protected:
+  std::vector<WalkerParticle> after(int frames) const {
+    std::vector<WalkerParticle> set = walkers(context, 1.3, 20);
+    for (size_t i = 0; i < set.size(); ++i) {
+      Rng rng(3, Purpose::kTest, 0, static_cast<uint32_t>(i));
+      arrive(context, set[i], rng);
+      for (int frame = 0; frame < frames; ++frame) {
+        propagate(context, set[i], rng);
+        perturb(context, 0.5, set[i], rng);
+      }
+    }
+    return set;
+  }
+
+  Walking walking{GetParam(), Path::kSagittal};
+  MotionContext context = walking.context(kFrame);
+};
+
+constexpr std::array kSideways{kHeading,        kList,     kAbduction,
+                               kAbductionRight, kRotation, kRotationRight};
+
+TEST_P(SagittalPath, NothingTurnsOrGoesSideways) {
+  const std::vector<WalkerParticle> start = after(0), set = after(45);
+  int moved = 0;
+  for (size_t i = 0; i < set.size(); ++i) {
+    for (const Extra k : kSideways) {
+      EXPECT_EQ(set[i].extra[k], start[i].extra[k]) << k;
+      EXPECT_EQ(set[i].noise[size_t(kExtraNoise) + k], 0) << "is not drawn";
+    }
+    EXPECT_EQ(set[i].pose.heading, 0);
+    EXPECT_EQ(set[i].pose.list, start[i].pose.list);
+    moved += set[i].extra[kTilt] != start[i].extra[kTilt];
+  }
+  EXPECT_EQ(moved, set.size()) << "the upright plane is as free as ever";
+}
+
+TEST_P(SagittalPath, WalksOnAsFar) {
+  double way = 0;
+  const std::vector<WalkerParticle> start = after(0), set = after(30);
+  for (size_t i = 0; i < set.size(); ++i)
+    way += (set[i].pose.root - start[i].pose.root).x() / double(set.size());
+  EXPECT_NEAR(way, 1.3, 0.3);
+}
+
+// Legs that do not reach sideways cannot reach across the pelvis to each other's feet.
+TEST_P(SagittalPath, ExchangedLegsKeepThePelvis) {
+  for (const WalkerParticle& particle : after(10)) {
+    WalkerParticle exchanged = particle;
+    exchange_legs(context, exchanged);
+    EXPECT_EQ(exchanged.stance, other(particle.stance));
+    EXPECT_LT((exchanged.pose.root - particle.pose.root).norm(), 1e-9);
+    EXPECT_EQ(exchanged.extra[kAbduction], particle.extra[kAbductionRight]);
+    EXPECT_EQ(exchanged.pose.legs[0].knee_flexion, particle.pose.legs[1].knee_flexion);
+    EXPECT_EQ(exchanged.pose_before.legs[0].hip_abduction,
+              particle.pose_before.legs[1].hip_abduction);
+    EXPECT_EQ(exchanged.pose_before.root, particle.pose_before.root);
+    exchange_legs(context, exchanged);
+    EXPECT_LT((exchanged.ball - particle.ball).norm(), 1e-9);
+    EXPECT_LT((exchanged.pose.root - particle.pose.root).norm(), 1e-9);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, SagittalPath,
+                         testing::Values(MotionKind::kKneed, MotionKind::kAnthropomorphic,
+                                         MotionKind::kMarkov));
+
+// Without noise the feet come down left and right of one line.
+TEST(SagittalWalk, GoesAlongALine) {
+  const Walking walking(MotionKind::kKneed, Path::kSagittal);
+  const MotionContext context = walking.context(kFrame);
+  WalkerParticle p = walkers(context, 1.2, 1)[0];
+  const double line = p.pose.root.y();
+  const double x = p.pose.root.x();
+  Rng rng(1, Purpose::kTest);
+  for (int frame = 0; frame < 150; ++frame) {
+    ASSERT_EQ(propagate(context, p, rng), Outcome::kAlive) << frame;
+    p.noise.fill(0);
+    context.moves.realise(context, p);
+    EXPECT_NEAR(p.pose.root.y(), line, 0.02) << frame;
+  }
+  EXPECT_GT(p.pose.root.x(), x + 4);
+}
+
+// A course may still be proposed as a whole: with the line go the place and the heading.
+TEST(SagittalWalk, ASetCanTakeAnotherCourse) {
+  const Walking walking(MotionKind::kKneed, Path::kSagittal);
+  const MotionContext context = walking.context(kFrame);
+  WalkerParticle p = walkers_on_their_way(context, 1)[0];
+  CourseSpread spread;
+  spread.mean << p.pose.root.head<2>(), 0.1, p.extra[kCrouch], p.extra[kTilt];
+  Rng rng(1, Purpose::kTest);
+  change_course(context, spread, 1, p, rng);
+  EXPECT_NEAR(p.pose.heading, 0.1, 1e-12);
+  propagate(context, p, rng);
+  EXPECT_NEAR(p.pose.heading, 0.1, 1e-12) << "and keeps it";
+}
+
+}  // namespace
+}  // namespace walktrack
