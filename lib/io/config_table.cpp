@@ -98,6 +98,7 @@ void add_motion(ParameterTable& table) {
   m.number("landing", &M::landing, 0, 1, "uncertainty of where a foot comes down, m");
   m.number("settling", &M::settling, 1e-3, 10, "in which that dies away, s");
   m.number("arrival", &M::arrival, 0, 10, "uncertainty of the first foot's place, m");
+  m.number("given", &M::given, 0, 10, "the same where the scene says it with `initial`, m");
   m.number("control_noise", &M::control_noise, 0, 1, "relative, per step");
   m.number("feedback", &M::feedback, 0, 1, "correction of controls at a support transfer");
   m.number("aim_drift", &M::aim_drift, 0, 1, "relative, per step, of speed and step length");

@@ -85,8 +85,10 @@ void set_beginning(const Scene& scene, double frame_rate, TrackerScene& out) {
   constexpr double kUsualSpeed = 1.25;  // m/s, where the scene does not say
   const InitialState& given = *scene.initial;
   const double speed = given.speed.value_or(kUsualSpeed);
-  out.initial = Sighting{given.position,
-                         speed * Eigen::Vector2d(std::cos(given.heading), std::sin(given.heading))};
+  out.initial = Sighting{
+      .position = given.position,
+      .velocity = speed * Eigen::Vector2d(std::cos(given.heading), std::sin(given.heading)),
+      .given = true};
   out.initial_frame = static_cast<int>(std::lround(given.time * frame_rate));
   out.initial_phase = given.phase;
 }

@@ -105,6 +105,7 @@ MotionConfig to_scale(const MotionConfig& config, double height) {
   scaled.landing *= length;
   scaled.settling *= time;
   scaled.arrival *= length;
+  scaled.given *= length;
   scaled.rephasing /= time;
   return scaled;
 }

@@ -38,7 +38,8 @@ struct MotionConfig {
   double ball_slip = 0.012;     // m per sqrt(s): nor does a standing foot quite keep its line
   double landing = 0.02;        // m, along and across: where a foot comes down
   double settling = 0.05;       // s after the strike in which that uncertainty dies away
-  double arrival = 0.15;        // m, the same when a walker is first seen
+  double arrival = 0.15;        // m, the same when a walker is first found
+  double given = 0.1;           // m, the same when the scene says where
   double control_noise = 0.05;  // relative, per step (gait/gait_prior.h)
   double feedback = 1;          // strength of the correction of controls at a support transfer
   double aim_drift = 0.06;      // relative, per step, of the speed and the step length aimed at

@@ -34,6 +34,7 @@ struct Sighting {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
   Eigen::Vector2d ray = Eigen::Vector2d::UnitX();  // over the ground, away from the first camera
   double position_sd = 0, velocity_sd = 0;         // along the ray
+  bool given = false;                              // by the scene, not found in a film
   double score = 0;  // nats a frame: how much better than an empty scene the walk explains it
 };
 

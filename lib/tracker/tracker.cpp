@@ -96,8 +96,10 @@ void Tracker::consume(const SceneEvidence& evidence, std::vector<FrameRecord>& o
 
 WalkerFilterContext Tracker::context(bool first) const {
   const NoiseScale scale = first ? start_scale(config_.start, kit_.frame_scale) : kit_.frame_scale;
+  MotionConfig motion = kit_.motion;
+  if (first && start_is_given_) motion.arrival = motion.given;
   return {scene_,
-          {scene_.model, prior_, *kit_.moves, kit_.motion, scale, kit_.markov, scene_.dt},
+          {scene_.model, prior_, *kit_.moves, motion, scale, kit_.markov, scene_.dt},
           config_.samples,
           threads_,
           config_.model_error};
@@ -105,6 +107,7 @@ WalkerFilterContext Tracker::context(bool first) const {
 
 void Tracker::begin(const Sighting& sighting, std::optional<double> stride_phase) {
   const uint64_t seed = seed_ + 0xD1B54A32D192ED03u * ++starts_;  // streams of its own
+  start_is_given_ = sighting.given;
   contest_.emplace(context(true).motion, config_.start, config_.filter, sighting, stride_phase,
                    seed, threads_);
   mode_ = Mode::kStarting;

@@ -149,7 +149,8 @@ class Tracker {
   std::deque<SceneEvidence> window_;
   std::deque<std::optional<std::vector<Place>>> candidates_;  // of frames that were asked
   std::optional<Contest> contest_;
-  uint32_t starts_ = 0;  // how often a search has ended: keys the random streams
+  uint32_t starts_ = 0;          // how often a search has ended: keys the random streams
+  bool start_is_given_ = false;  // the last one
   WalkerFilter filter_;
   std::optional<LastSeen> last_seen_;
   std::deque<double> supports_;
