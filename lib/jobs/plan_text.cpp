@@ -51,7 +51,7 @@ std::string levels_text(const Plan& plan) {
     out += fmt::format("  {:<14} {:3} {:3}  {}{}\n", level.name, level.state.dimension(),
                        level.state.noise, fmt::join(level.settings, " "), mark(level));
   return out + fmt::format(
-                   "Lowest that suffices, by the scene: {}. A proof by measurement:\n"
+                   "Lowest that suffices, by the scene:\n  {}.\nProved by measurement:\n"
                    "  walktrack sweep {} -o out/levels --over path=sagittal:spatial\n",
                    plan.levels.why, plan.scene.string());
 }
