@@ -28,8 +28,7 @@ std::string not_from_the_side(const Scene& scene) {
   if (scene.cameras.size() > 1) return "several cameras see turning and step width";
   const auto view = side_view(scene, scene.cameras[0].camera);
   if (!view)
-    return "the scene has no `initial` that says where the walk goes;\n"
-           "  straight across the picture the sagittal path suffices";
+    return "no `initial` says where the walk goes; straight across the picture: sagittal path";
   const double off = deg_from_rad(view->off_sight), below = deg_from_rad(view->below_horizon);
   if (off < kSideOn)
     return fmt::format("the walk goes {:.0f} degrees off the camera's line of sight", off);

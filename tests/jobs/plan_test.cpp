@@ -126,6 +126,9 @@ TEST(PlanLevels, EachAddsToTheLast) {
   EXPECT_TRUE(low.levels.levels[0].on);
   EXPECT_EQ(low.state.dimension(), levels[0].state.dimension());
   EXPECT_FALSE(item(low, "sideways").on);
+  const auto json = nlohmann::json::parse(plan_json(low));
+  EXPECT_EQ(json.at("levels").at(1).at("lowest_sufficient"), true);
+  EXPECT_EQ(json.at("lowest_level_why"), low.levels.why);
 }
 
 struct SeenFrom {
