@@ -13,7 +13,7 @@ namespace walktrack {
 namespace {
 
 // Within these a walk is seen from the side: the distance to the camera changes by less than 3 m in
-// 7, and a foot to the side shows by less than a quarter of its distance.
+// 7, and a foot to the side shows by no more than a quarter of its distance.
 constexpr double kSideOn = 65, kLevel = 15;  // degrees
 
 BodyModel model_of(const Scene& scene, const Config& config) {
@@ -55,10 +55,9 @@ PlanState state_of(const Scene& scene, const Config& config) {
   const int free = extras.end - extras.first;
   PlanState state;
   state.walker = static_cast<int>(KneedState{}.q.size() + KneedState{}.qd.size());
-  state.place =
-      2 +
-      (turns(model) ? 2 : 1);  // of the standing foot; the way that the root goes, or its heading
-  state.pose = 2 * free;       // with their rates, as values of two frames
+  // Of the standing foot; the way that the root goes, or the heading that it keeps.
+  state.place = 2 + (turns(model) ? 2 : 1);
+  state.pose = 2 * free;    // with their rates, as values of two frames
   state.controls = 13 + 2;  // four springs with dampers and rest angles, a push-off; the step's aim
   state.noise = kExtraNoise + free;
   // Two copies of each state, three weights, a parent and flags.
@@ -73,7 +72,7 @@ PlanLevels plan_levels(const Scene& scene, const ConfigWithOrigin& config) {
   };
   add("sagittal path", {"motion.path=sagittal", "body.arms=false"});
   add("spatial path", {"motion.path=spatial", "body.arms=false"});
-  add("+ arms", {"motion.path=spatial", "body.arms=true"});
+  add("+ arms", {"body.arms=true"});
   const std::string more = not_from_the_side(scene);
   out.levels[more.empty() ? 0 : 1].lowest = true;
   out.why = more.empty() ? "one camera sees the walk from the side" : more;

@@ -3,7 +3,7 @@
 //
 //   sagittal path  legs and trunk in upright planes of one heading, for a side view of one camera
 //   spatial path   turning, the pelvis's list, hips sideways: for everything else
-//   arms           on the spatial path; legs, pelvis and trunk are tracked without them
+//   arms           on the path that is set; legs, pelvis and trunk are tracked without them
 //
 // A slope is the scene's own (its gravity), and costs a walker of their own for all particles.
 #pragma once

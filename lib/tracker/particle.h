@@ -19,8 +19,8 @@ namespace walktrack {
 
 // The coordinates that follow a damped second-order Markov process, in this order: those that the
 // walker does not drive, and how far those that it drives stray from it. The walker itself never
-// feels them: its gait stays the stable one that the prior knows. What
-// is sideways comes first and last, the arms last, so that a scene's own are a range (free_extras).
+// feels them: its gait stays the stable one that the prior knows. What is sideways comes first and
+// last, the arms last, so that those that a scene has are a range (free_extras).
 enum Extra {
   kHeading,
   kList,

@@ -126,6 +126,9 @@ TEST(PlanLevels, EachAddsToTheLast) {
   EXPECT_TRUE(low.levels.levels[0].on);
   EXPECT_EQ(low.state.dimension(), levels[0].state.dimension());
   EXPECT_FALSE(item(low, "sideways").on);
+  const Plan low_arms = plan_with({"motion.path=sagittal", "body.arms=true"});
+  EXPECT_TRUE(low_arms.levels.levels[2].on);
+  EXPECT_EQ(low_arms.state.noise, low.state.noise + 4) << "arms swing, and do not spread";
   const auto json = nlohmann::json::parse(plan_json(low));
   EXPECT_EQ(json.at("levels").at(1).at("lowest_sufficient"), true);
   EXPECT_EQ(json.at("lowest_level_why"), low.levels.why);

@@ -48,6 +48,7 @@ TEST(SweepKnobs, MistakesAreNamed) {
       {{"particels=3"}, "found an unknown knob, did you mean 'particles'?"},
       {{"step=3"}, "--over: step: found an unknown knob"},
       {{"filter.particle=3"}, "did you mean 'filter.particles'?"},
+      {{"path=flat"}, "motion.path: found 'flat', allowed: spatial, sagittal"},
       {{"model=legs"}, "motion.model: found 'legs', allowed: kneed, anthropomorphic, markov"},
       {{"particles=0"}, "filter.particles: found '0', allowed: a whole number from 1"},
       {{"particles=10::20"}, "filter.particles: found ''"},
