@@ -26,7 +26,7 @@ struct GateConfig {
   double lost_share = 0.1;   // of the frames after the walker was found
   double least_steps = 1;    // foot changes seen; who makes none does not walk
   double leg_swaps = 60;     // a minute
-  double foot_slide = 0.15;  // m, mean over stances
+  double foot_slide = 0.15;  // m, mean over stances, before feet are planted
   double penetration = 0.1;  // m
   double jitter = 2500;      // m/s^3
 };

@@ -157,6 +157,7 @@ void add_track(ParameterTable& table) {
   using L = SmoothingConfig;
   ParameterGroup<L> l(table, "smoothing", "frames in the light of others", &Config::smoothing);
   l.number("lag", &L::lag, 0, 2, "of frames before and after one that count, s; 0 = off");
+  l.flag("plant", &L::plant, "feet stay where they stand, above the ground");
   using K = KineticsConfig;
   ParameterGroup<K> k(table, "kinetics", "the forces behind the motion", &Config::kinetics);
   k.number("cutoff_hz", &K::cutoff_hz, 0, 100, "joint centres are smoothed below it, Hz; 0: not");
@@ -166,7 +167,8 @@ void add_track(ParameterTable& table) {
   g.number("lost_share", &G::lost_share, 0, 1, "of the frames after the walker was found");
   g.number("least_steps", &G::least_steps, 0, 1000, "foot changes that make a walk");
   g.number("leg_swaps", &G::leg_swaps, 0, 1e5, "legs swapped between frames, a minute");
-  g.number("foot_slide", &G::foot_slide, 0, 10, "of a standing foot, mean over stances, m");
+  g.number("foot_slide", &G::foot_slide, 0, 10,
+           "of a standing foot, before it is planted, mean over stances, m");
   g.number("penetration", &G::penetration, 0, 10, "deepest foot in the ground, m");
   g.number("jitter", &G::jitter, 0, 1e9, "mean third derivative of the joints, m/s^3");
 }

@@ -10,6 +10,7 @@
 #include "io/run_record.h"
 #include "io/scene_video.h"
 #include "io/sha256.h"
+#include "jobs/planted_track.h"
 #include "jobs/report.h"
 #include "jobs/track_origin.h"
 #include "jobs/track_quality.h"
@@ -201,11 +202,13 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   const bool interrupted = follow_film(run, video, control, outcome);
   const Moment writing;
   const SmoothingConfig& smoothing = job.config.values.smoothing;
-  std::optional<TrackedFrames> light;
+  std::optional<TrackedFrames> light, still;
   if (smoothing.lag > 0)
     light.emplace(smoothed(run.frames(), smoothing, folder.file(std::string(kSmoothedFile))));
-  const TrackedFrames& frames = light ? *light : run.frames();
-  const Quality quality = quality_of(frames, job.config.values.gates);
+  const TrackedFrames& moving = light ? *light : run.frames();
+  if (smoothing.plant) still.emplace(planted(moving, folder.file(std::string(kPlantedFile))));
+  const TrackedFrames& frames = still ? *still : moving;
+  const Quality quality = quality_of(frames, moving, job.config.values.gates);
   outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
   outcome.tracked = count(frames).tracked;
   const Scene scene = with_stature(job.scene, run.stature());

@@ -51,6 +51,20 @@ double exchanged_percent(const TrackedFrames& frames) {
   return tracked > 0 ? 100 * sum / tracked : 0;
 }
 
+// What planting feet takes away, of the frames before it.
+Quality quality_before(const TrackedFrames& moving, const GateConfig& gates) {
+  const Motion motion = motion_of(moving);
+  const Plausibility p = plausibility(motion, gait_from_motion(motion));
+  return {
+      at_most(measure("tracked_foot_slide_mm", "Sliding of a standing foot before feet are planted",
+                      1000 * p.mean_foot_slide, "mm", 0),
+              1000 * gates.foot_slide),
+      at_most(
+          measure("tracked_penetration_mm", "Deepest foot in the ground before feet are planted",
+                  1000 * p.penetration, "mm", 0),
+          1000 * gates.penetration)};
+}
+
 }  // namespace
 
 Quality quality_of_motion(const Motion& motion, double rate) {
@@ -69,7 +83,8 @@ Quality quality_of_motion(const Motion& motion, double rate) {
   };
 }
 
-Quality quality_of(const TrackedFrames& frames, const GateConfig& gates) {
+Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
+                   const GateConfig& gates) {
   Quality out{
       at_most(
           measure("lost_percent", "Lost after the walker was found", lost_percent(frames), "%", 1),
@@ -79,13 +94,12 @@ Quality quality_of(const TrackedFrames& frames, const GateConfig& gates) {
       measure("legs_exchanged_percent", "Left and right may be exchanged, mean probability",
               exchanged_percent(frames), "%", 0)};
   const std::map<std::string, double> limits{{"leg_swaps_per_min", gates.leg_swaps},
-                                             {"foot_slide_mm", 1000 * gates.foot_slide},
-                                             {"penetration_mm", 1000 * gates.penetration},
                                              {"jitter_m_s3", gates.jitter}};
   for (QualityMeasure& m : quality_of_motion(motion_of(frames), frames.frame_rate)) {
     const auto limit = limits.find(m.name);
     out.push_back(limit == limits.end() ? std::move(m) : at_most(std::move(m), limit->second));
   }
+  for (QualityMeasure& m : quality_before(moving, gates)) out.push_back(std::move(m));
   return out;
 }
 

@@ -20,7 +20,10 @@ using Quality = std::vector<QualityMeasure>;
 Quality quality_of_motion(const Motion& motion, double rate);
 
 // The same of a track with its gates, after what was lost, in the order that they are shown in.
-Quality quality_of(const TrackedFrames& frames, const GateConfig& gates);
+// `moving`: the frames before their feet were planted; the gates on feet are for those, for planted
+// ones tell little of a track that fails.
+Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
+                   const GateConfig& gates);
 
 // What the first failed gate says against the result; empty if all passed.
 std::string first_failure(const Quality& quality);

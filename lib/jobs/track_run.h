@@ -23,7 +23,8 @@ namespace walktrack {
 
 // The files of unfinished work in a result folder.
 inline constexpr std::string_view kCheckpointFile = "checkpoint.bin", kFramesFile = "frames.bin";
-inline constexpr std::string_view kSmoothedFile = "smoothed_frames.bin";
+inline constexpr std::string_view kSmoothedFile = "smoothed_frames.bin",
+                                  kPlantedFile = "planted_frames.bin";
 inline constexpr std::array kFilesOfWork{kCheckpointFile, kFramesFile};
 
 // When a checkpoint is worth its time.

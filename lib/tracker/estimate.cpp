@@ -76,7 +76,24 @@ Spread since_transfer(std::span<const WalkerParticle> particles, std::span<const
   return weighted_spread(values, shares);
 }
 
+void shift(double by, Spread& spread) {
+  spread.mean += by;
+  spread.p05 += by;
+  spread.p95 += by;
+}
+
 }  // namespace
+
+void shift_bands(const FrameEstimate& from, FrameEstimate& to) {
+  for (size_t j = 0; j < to.joint_count; ++j) {
+    const Eigen::Vector3d by = to.joints.at[j] - from.joints.at[j];
+    for (size_t axis = 0; axis < 3; ++axis)
+      shift(by[static_cast<Eigen::Index>(axis)], to.spread[j][axis]);
+  }
+  const JointAngles before = joint_angles(from.pose), now = joint_angles(to.pose);
+  for (size_t k = 0; k < kJointAngleCount; ++k)
+    shift(std::remainder(now[k] - before[k], 2 * kPi), to.angles[k]);
+}
 
 Spread weighted_spread(std::span<const double> values, std::span<const double> weights) {
   ColumnScratch scratch;

@@ -32,6 +32,10 @@ struct FrameEstimate {
 FrameEstimate estimate_frame(const BodyModel& model, std::span<const WalkerParticle> particles,
                              std::span<const double> weights, double dt, int threads);
 
+// Bands go with what they are about: moves those of `to`, which are still those of `from`, by what
+// joints and pose have been moved.
+void shift_bands(const FrameEstimate& from, FrameEstimate& to);
+
 // Mean, standard deviation and weighted 5 % and 95 % quantiles of `values`.
 Spread weighted_spread(std::span<const double> values, std::span<const double> weights);
 

@@ -7,7 +7,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "body/joint_angles.h"
 #include "core/conventions.h"
 
 namespace walktrack {
@@ -23,12 +22,6 @@ double variance_of(const FrameEstimate& estimate) {
   for (size_t j = 0; j < estimate.joint_count; ++j)
     for (const Spread& axis : estimate.spread[j]) sum += axis.sd * axis.sd;
   return std::max(kLeastVariance, sum / (3 * static_cast<double>(estimate.joint_count)));
-}
-
-void shift(double by, Spread& spread) {
-  spread.mean += by;
-  spread.p05 += by;
-  spread.p95 += by;
 }
 
 // All numbers of a pose but the heading, which has a turn too many or too few at times.
@@ -75,18 +68,6 @@ void add(double weight, const FrameRecord& each, const FrameRecord& middle, Fram
   joints(each.estimate.joints, middle.estimate.joints, estimate.joints);
   for (size_t m = 0; m < sum.samples.size(); ++m)
     joints(each.samples.at(m), middle.samples[m], sum.samples[m]);
-}
-
-// Bands go with what they are about.
-void shift_bands(const FrameEstimate& from, FrameEstimate& to) {
-  for (size_t j = 0; j < to.joint_count; ++j) {
-    const Eigen::Vector3d by = to.joints.at[j] - from.joints.at[j];
-    for (size_t axis = 0; axis < 3; ++axis)
-      shift(by[static_cast<Eigen::Index>(axis)], to.spread[j][axis]);
-  }
-  const JointAngles before = joint_angles(from.pose), now = joint_angles(to.pose);
-  for (size_t k = 0; k < kJointAngleCount; ++k)
-    shift(std::remainder(now[k] - before[k], 2 * kPi), to.angles[k]);
 }
 
 }  // namespace

@@ -21,7 +21,8 @@
 namespace walktrack {
 
 struct SmoothingConfig {
-  double lag = 0.2;  // s of frames before and after a frame that count; 0 = off
+  double lag = 0.2;   // s of frames before and after a frame that count; 0 = off
+  bool plant = true;  // feet stay where they stand, above the ground (tracker/planting.h)
 };
 
 // The weights, summing to one, of values at `times` (s from the wanted one, in (-lag, lag)) with

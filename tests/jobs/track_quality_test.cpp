@@ -23,7 +23,7 @@ class QualityOf : public testing::Test {
   // Somebody who does what `record` says in every frame, tracked but in the frames named.
   TrackedFrames standing(int count, std::initializer_list<int> lost,
                          const FrameRecord& record = still()) const {
-    TrackedFrames frames{30, FrameFile(folder_ / "frames.bin")};
+    TrackedFrames frames{30, FrameFile(folder_ / ("frames" + std::to_string(files_++)))};
     for (int i = 0; i < count; ++i) {
       FrameRecord each = record;
       each.tracked = std::ranges::find(lost, i) == lost.end();
@@ -32,7 +32,13 @@ class QualityOf : public testing::Test {
     return frames;
   }
   TemporaryFolder folder_;
+  mutable int files_ = 0;
 };
+
+// Of a track whose feet were left where they were.
+Quality quality_of(const TrackedFrames& frames, const GateConfig& gates = {}) {
+  return walktrack::quality_of(frames, frames, gates);
+}
 
 const QualityMeasure& named(const Quality& quality, const std::string& name) {
   for (const QualityMeasure& m : quality)
@@ -41,14 +47,14 @@ const QualityMeasure& named(const Quality& quality, const std::string& name) {
 }
 
 TEST_F(QualityOf, CountsLostFramesFromTheFirstTrackedOneOn) {
-  const Quality quality = quality_of(standing(12, {0, 1, 5, 6}), GateConfig{});
+  const Quality quality = quality_of(standing(12, {0, 1, 5, 6}));
   EXPECT_DOUBLE_EQ(named(quality, "lost_percent").value, 20);
   EXPECT_FALSE(named(quality, "lost_percent").passed());
 }
 
 TEST_F(QualityOf, NobodyTrackedLosesNothing) {
-  EXPECT_EQ(named(quality_of(standing(2, {0, 1}), GateConfig{}), "lost_percent").value, 0);
-  EXPECT_EQ(named(quality_of(standing(0, {}), GateConfig{}), "leg_swaps_per_min").value, 0);
+  EXPECT_EQ(named(quality_of(standing(2, {0, 1})), "lost_percent").value, 0);
+  EXPECT_EQ(named(quality_of(standing(0, {})), "leg_swaps_per_min").value, 0);
 }
 
 TEST_F(QualityOf, FeetBelowTheGroundFailTheirGate) {
@@ -60,13 +66,28 @@ TEST_F(QualityOf, FeetBelowTheGroundFailTheirGate) {
   gates.penetration = 0.015;
   const Quality quality = quality_of(frames, gates);
   EXPECT_DOUBLE_EQ(named(quality, "penetration_mm").value, 20);
-  EXPECT_THAT(first_failure(quality), testing::HasSubstr("in the ground: 20 mm (gate at most 15)"));
+  EXPECT_THAT(first_failure(quality), testing::HasSubstr("planted: 20 mm (gate at most 15)"));
   gates.penetration = 0.025;
   EXPECT_EQ(first_failure(quality_of(frames, gates)), "");
 }
 
+// Feet that were planted tell little of a track that fails.
+TEST_F(QualityOf, GatesOnFeetAreForWhatWasTracked) {
+  FrameRecord sunken = still();
+  sunken.estimate.joints[Joint::kLeftToe].z() = -0.02;
+  const TrackedFrames moving = standing(12, {}, sunken), planted = standing(12, {}, still());
+  GateConfig gates;
+  gates.least_steps = 0;
+  gates.penetration = 0.015;
+  const Quality quality = walktrack::quality_of(planted, moving, gates);
+  EXPECT_EQ(named(quality, "penetration_mm").value, 0);
+  EXPECT_TRUE(named(quality, "penetration_mm").passed());
+  EXPECT_FALSE(named(quality, "tracked_penetration_mm").passed());
+  EXPECT_EQ(*named(quality, "tracked_foot_slide_mm").gate, 150);
+}
+
 TEST_F(QualityOf, WhoStandsDoesNotWalk) {
-  const Quality quality = quality_of(standing(12, {}), GateConfig{});
+  const Quality quality = quality_of(standing(12, {}));
   EXPECT_THAT(first_failure(quality), testing::HasSubstr("(gate at least 1)"));
 }
 

@@ -108,6 +108,26 @@ TEST_F(Track, FramesInTheLightOfOthersTrembleLessAndLeaveNoFileOfTheirOwn) {
   EXPECT_LT(jitter(0.2), 0.5 * jitter(0));
 }
 
+TEST_F(Track, FeetThatAreReportedStandStill) {
+  const auto slides = [&](bool plant) {
+    const std::string name = plant ? "planted" : "tracked";
+    TrackJob each = job(70, name);
+    each.config.values.smoothing.plant = plant;
+    track_scene(each, {});
+    EXPECT_FALSE(fs::exists(folder_ / name / "planted_frames.bin"));
+    std::map<std::string, double> out;
+    const nlohmann::json run = run_json(name);
+    for (const nlohmann::json& measure : run.at("quality"))
+      out[measure.at("name")] = measure.at("value");
+    return out;
+  };
+  auto planted = slides(true), tracked = slides(false);
+  EXPECT_LT(planted["foot_slide_mm"], 0.2 * planted["tracked_foot_slide_mm"]);
+  EXPECT_EQ(tracked["foot_slide_mm"], tracked["tracked_foot_slide_mm"]);
+  EXPECT_EQ(planted["tracked_foot_slide_mm"], tracked["foot_slide_mm"]);
+  EXPECT_GT(tracked["foot_slide_mm"], 5);
+}
+
 // No machine tracks a frame in a microsecond: the particles fall to the fewest allowed.
 TEST_F(Track, UnderABudgetTheParticlesFollowTheClockWithinBoundsAndTheRecordSaysSo) {
   TrackJob paced = job(60, "paced");
