@@ -151,6 +151,8 @@ void add_track(ParameterTable& table) {
            "time for which a lost walker is looked for only within reach, s");
   t.number("model_error", &T::model_error, 0, 100,
            "multiplies what bands hold beyond the particles' spread");
+  t.choice("estimate", &T::estimate, {{"mean", EstimateKind::kMean}, {"map", EstimateKind::kMap}},
+           "what is reported of a frame: the particles' mean, or the most probable pose near it");
   t.number("recall", &T::recall, 0.1, 100, "past that the median is taken over, s");
   t.integer("samples", &T::samples, 0, 1000,
             "particles of a frame kept: the overlay's, and for bands");

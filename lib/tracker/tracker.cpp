@@ -115,8 +115,10 @@ void Tracker::begin(const Sighting& sighting, std::optional<double> stride_phase
 
 void Tracker::compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
   const bool explained = contest_->step(context(contest_->frames() == 0), evidence, frame_);
+  if (config_.estimate == EstimateKind::kMap) contested_.push_back(evidence);
   ++frame_;
   if (!explained) {
+    contested_.clear();
     out.resize(out.size() + static_cast<size_t>(contest_->frames()));  // frames stay untracked
     contest_.reset();
     mode_ = Mode::kSearching;
@@ -132,8 +134,12 @@ void Tracker::settle(std::vector<FrameRecord>& out) {
   for (const FrameRecord& record : contest_->records()) {
     supports_.push_back(record.support);
     out.push_back(record);
+    if (contested_.empty()) continue;
+    refine(contested_.front(), out.back());
+    contested_.pop_front();
   }
   doubt_ = contest_->records().back().modes.exchanged;
+  mean_pose_ = contest_->records().back().estimate.pose;
   contest_.reset();
   mode_ = Mode::kTracking;
   frames_below_ = frames_beaten_ = 0;
@@ -162,6 +168,10 @@ FrameRecord Tracker::follow(const SceneEvidence& evidence) {
   return record;
 }
 
+void Tracker::refine(const SceneEvidence& evidence, FrameRecord& record) const {
+  if (config_.estimate == EstimateKind::kMap) walktrack::refine(scene_, evidence, threads_, record);
+}
+
 void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
   FrameRecord record = follow(evidence);
   ++frame_;
@@ -174,6 +184,8 @@ void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out
     mode_ = Mode::kSearching;
   }
   if (mode_ == Mode::kTracking && frames_below_ == 0) see(record.estimate);
+  mean_pose_ = record.estimate.pose;
+  refine(evidence, record);
   out.push_back(std::move(record));
 }
 

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "tracker/contest.h"
+#include "tracker/refinement.h"
 #include "tracker/stature.h"
 #include "tracker/walker_filter.h"
 
@@ -36,6 +37,7 @@ struct TrackerConfig {
   double recall = 1.5;        // s of past likelihoods that the median is taken over
   double seek = 4;            // s for which a lost walker is looked for only where they can be
   double model_error = 1;     // multiplies what bands hold beyond the particles' spread
+  EstimateKind estimate = EstimateKind::kMap;
 };
 
 // Where the walker was last surely seen, and how they went on.
@@ -88,6 +90,8 @@ class Tracker {
   // Whether the newest frame has been tracked, so that its particles say where the person is.
   bool tracking() const { return mode_ == Mode::kTracking; }
   const ParticleSet<WalkerParticle>& particles() const { return filter_.particles(); }
+  // Their mean in the newest frame, whatever is reported of it; after push() while tracking().
+  const Pose& mean_pose() const { return mean_pose_; }
   // Times that the track was lost after it had been found.
   int losses() const { return losses_; }
   // Who is tracked: the scene's model until they have been sized up, if it does not know their
@@ -130,6 +134,7 @@ class Tracker {
   void track(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   bool may_leap() const;
   FrameRecord follow(const SceneEvidence& evidence);
+  void refine(const SceneEvidence& evidence, FrameRecord& record) const;
   WalkerFilterContext context(bool first) const;
   bool within_reach(const Eigen::Vector2d& place, uint32_t frame) const;
   void see(const FrameEstimate& estimate);
@@ -149,9 +154,11 @@ class Tracker {
   std::deque<SceneEvidence> window_;
   std::deque<std::optional<std::vector<Place>>> candidates_;  // of frames that were asked
   std::optional<Contest> contest_;
-  uint32_t starts_ = 0;          // how often a search has ended: keys the random streams
-  bool start_is_given_ = false;  // the last one
+  std::deque<SceneEvidence> contested_;  // the contest's frames, to refine what it says of them
+  uint32_t starts_ = 0;                  // how often a search has ended: keys the random streams
+  bool start_is_given_ = false;          // the last one
   WalkerFilter filter_;
+  Pose mean_pose_;
   std::optional<LastSeen> last_seen_;
   std::deque<double> supports_;
   int frames_below_ = 0, frames_beaten_ = 0;

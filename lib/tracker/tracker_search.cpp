@@ -237,6 +237,7 @@ bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
   last_seen_ = seen_before;
   losses_ = losses_before;
   contest_.reset();
+  contested_.clear();
   return false;
 }
 
