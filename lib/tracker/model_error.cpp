@@ -25,22 +25,22 @@ struct JointError {
 JointError joint_error(size_t joint) {
   switch (static_cast<Joint>(joint)) {
     case Joint::kPelvis:
-      return {0.005, 0.013};
+      return {0, 0.005};
     case Joint::kNeck:
-      return {0.005, 0.038};
+      return {0.008, 0.038};
     case Joint::kHead:
-      return {0.005, 0.060};
+      return {0.009, 0.060};
     case Joint::kLeftHip:
     case Joint::kRightHip:
-      return {0.016, 0.014};
+      return {0.007, 0.006};
     case Joint::kLeftKnee:
     case Joint::kRightKnee:
-      return {0.019, 0.016};
+      return {0, 0.014};
     case Joint::kLeftAnkle:
     case Joint::kRightAnkle:
-      return {0.031, 0.016};
+      return {0.004, 0.008};
     default:
-      return {0.039, 0.016};
+      return {0.020, 0.007};
   }
 }
 
@@ -49,27 +49,27 @@ double angle_error(size_t angle) {
   switch (angle) {
     case kPelvisTilt:
     case kTrunkTilt:
-      return rad_from_deg(2);
+      return rad_from_deg(1);
     case kPelvisList:
     case kLumbarBending:
       return rad_from_deg(3);
     case kPelvisRotation:
-      return rad_from_deg(10);
+      return rad_from_deg(6.5);
     case kHipFlexionR:
     case kHipFlexionL:
-      return rad_from_deg(5.8);
+      return rad_from_deg(3.9);
     case kHipAdductionR:
     case kHipAdductionL:
-      return rad_from_deg(4);
+      return rad_from_deg(3.4);
     case kHipRotationR:
     case kHipRotationL:
-      return rad_from_deg(7);
+      return rad_from_deg(6.9);
     case kKneeAngleR:
     case kKneeAngleL:
-      return rad_from_deg(8.4);
+      return rad_from_deg(4.8);
     case kAnkleAngleR:
     case kAnkleAngleL:
-      return rad_from_deg(11.6);
+      return rad_from_deg(7.2);
     default:
       return 0;  // the lumbar angles that our body has not are exact zeros
   }

@@ -168,8 +168,11 @@ FrameRecord Tracker::follow(const SceneEvidence& evidence) {
   return record;
 }
 
+// While a window of frames is tried, what is tried is what the particles say: the window is refined
+// when it has been decided who walks there, and which leg is which.
 void Tracker::refine(const SceneEvidence& evidence, FrameRecord& record) const {
-  if (config_.estimate == EstimateKind::kMap) walktrack::refine(scene_, evidence, threads_, record);
+  if (config_.estimate == EstimateKind::kMap && window_.empty())
+    walktrack::refine(scene_, evidence, threads_, record);
 }
 
 void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
