@@ -49,7 +49,7 @@ AnalysedMotion analysed_motion(const TrackedFrames& frames, const Scene& scene, 
 WrittenTables write_tables(const AnalysedMotion& analysed, const JointUncertainty& uncertainty,
                            const KineticsConfig& config, const ResultFolder& folder);
 
-// Reads the film again and draws the mean pose and the particles' spread into it, one video a
+// Reads the film again and draws the pose and the particles' spread into it, one video a
 // camera; marks those that the report has room for.
 std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames& frames,
                                        const ResultFolder& folder, const JobControl& control);
