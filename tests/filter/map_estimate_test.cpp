@@ -71,6 +71,23 @@ TEST(MapEstimate, ClimbsToThePeakOfOtherOnes) {
   EXPECT_LT(off.dot(found.covariance.inverse() * off), 0.25) << "half a standard deviation";
 }
 
+// Between two peaks, where the likelihood is hollow.
+TEST(MapEstimate, LeavesAHollow) {
+  const auto f = [](const Vector& x) { return -30 * std::abs(std::abs(x[0]) - 1); };
+  const Vector mean = Vector::Constant(1, 0.15), sd = Vector::Constant(1, 1);
+  const auto found = map_estimate<kN>(mean, sd, 8, for_all(f));
+  EXPECT_GT(f(found.at), f(mean) + 20);
+}
+
+// An edge that is far sharper than the prior: its shape is that of no normal distribution.
+TEST(MapEstimate, ClimbsSharpEdges) {
+  const Vector edge = Eigen::Vector4d(0.8, -1.1, 0.5, 1.4);
+  const auto f = [&](const Vector& x) { return -200 * (x - edge).cwiseAbs().maxCoeff(); };
+  const Vector mean = Vector::Zero(4), sd = Vector::Ones(4);
+  const auto found = map_estimate<kN>(mean, sd, 8, for_all(f));
+  EXPECT_GT(found.gain, 0.6 * -f(mean));
+}
+
 TEST(MapEstimate, StaysWhereNothingIsSaid) {
   const Vector mean = Eigen::Vector3d(1, -2, 3), sd = Eigen::Vector3d(0.1, 2, 1);
   const auto found = map_estimate<kN>(mean, sd, 4, for_all([](const Vector&) { return -5.0; }));

@@ -168,6 +168,24 @@ TEST(PlantFeet, MoveJointsPoseBandsAndSamples) {
   EXPECT_EQ(estimate.pose.root, before.estimate.pose.root);
 }
 
+TEST(PlantFeet, LiftToesOutOfTheGround) {
+  const Body body = make_body({}, {});
+  FrameRecord record;
+  record.tracked = true;
+  FrameEstimate& estimate = record.estimate;
+  estimate.joint_count = kJointCountWithoutArms;
+  estimate.pose.root = {0, 0, 0.9};
+  estimate.pose.legs[0].ankle_dorsiflexion = -0.5;
+  estimate.joints = forward_kinematics(body, estimate.pose).joints;
+  ASSERT_LT(estimate.joints[Joint::kLeftToe].z(), 0);
+  ASSERT_GT(estimate.joints[Joint::kLeftAnkle].z(), 0);
+  record.samples.assign(1, estimate.joints);
+  plant_feet({Vector2d::Zero(), Vector2d::Zero()}, record);
+  EXPECT_EQ(estimate.joints[Joint::kLeftToe].z(), 0);
+  EXPECT_EQ(record.samples[0][Joint::kLeftToe].z(), 0);
+  EXPECT_GT(estimate.pose.legs[0].ankle_dorsiflexion, -0.5);
+}
+
 TEST(PlantFeet, LeaveFramesThatAreNotTracked) {
   FrameRecord record;
   for (Vector3d& joint : record.estimate.joints.at) joint.setConstant(-1);
