@@ -112,10 +112,10 @@ Region TrackRun::region(size_t camera) const {
   }
   constexpr double kReach = 0.5;  // m around the last pose, for the limbs
   constexpr double kHasty = 0.5;  // m/s by which the speed may be wrong
-  const FrameEstimate& last = frames_.records.back().estimate;
-  return person_region(setup_.scene.cameras[camera], last.pose.root.head<2>(),
+  const double speed = frames_.records.back().estimate.speed;
+  return person_region(setup_.scene.cameras[camera], tracker_.mean_place(),
                        tracker_.body().subject.height,
-                       kReach + 2 * setup_.scene.dt * (last.speed + kHasty));
+                       kReach + 2 * setup_.scene.dt * (speed + kHasty));
 }
 
 std::vector<Region> TrackRun::regions() const {

@@ -72,6 +72,14 @@ void Tracker::resume(TrackerState state) {
   if (stature_) set_height(stature_->height);
 }
 
+Eigen::Vector2d Tracker::mean_place() const {
+  const auto& set = filter_.particles();
+  const std::vector<double> weights = normalised_weights(set.log_weights);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (size_t i = 0; i < weights.size(); ++i) sum += weights[i] * set.states[i].pose.root.head<2>();
+  return sum;
+}
+
 void Tracker::use_particles(int count) {
   config_.filter.particles = count;
   const auto& set = filter_.particles();

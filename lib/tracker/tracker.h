@@ -92,6 +92,8 @@ class Tracker {
   const ParticleSet<WalkerParticle>& particles() const { return filter_.particles(); }
   // Their mean in the newest frame, whatever is reported of it; after push() while tracking().
   const Pose& mean_pose() const { return mean_pose_; }
+  // Where that is over the ground; after resume(), too.
+  Eigen::Vector2d mean_place() const;
   // Times that the track was lost after it had been found.
   int losses() const { return losses_; }
   // Who is tracked: the scene's model until they have been sized up, if it does not know their

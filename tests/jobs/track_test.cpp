@@ -132,6 +132,7 @@ TEST_F(Track, FeetThatAreReportedStandStill) {
 TEST_F(Track, EveryFrameIsRefined) {
   const Motion truth = read_motion(kDemo / "truth.csv");
   for (const bool given : {false, true}) {
+    nlohmann::json log_evidence;
     const auto joints = [&](EstimateKind kind) {
       const std::string name = kind == EstimateKind::kMap ? "map" : "mean";
       TrackJob each = job(45, name);
@@ -144,6 +145,10 @@ TEST_F(Track, EveryFrameIsRefined) {
       each.config.values.tracker.estimate = kind;
       each.config.values.smoothing = {.lag = 0, .plant = false};
       track_scene(each, {});
+      // What is reported changes nothing of what is tracked.
+      const nlohmann::json evidence = run_json(name).at("by_frame").at("log_evidence");
+      if (log_evidence.is_null()) log_evidence = evidence;
+      EXPECT_EQ(evidence, log_evidence);
       return read_motion(folder_ / name / "joints.csv");
     };
     const Motion mean = joints(EstimateKind::kMean), map = joints(EstimateKind::kMap);
