@@ -123,7 +123,7 @@ void Tracker::begin(const Sighting& sighting, std::optional<double> stride_phase
 
 void Tracker::compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
   const bool explained = contest_->step(context(contest_->frames() == 0), evidence, frame_);
-  if (config_.estimate == EstimateKind::kMap) contested_.push_back(evidence);
+  if (config_.estimate == EstimateKind::kMap && window_.empty()) contested_.push_back(evidence);
   ++frame_;
   if (!explained) {
     contested_.clear();

@@ -156,9 +156,10 @@ class Tracker {
   std::deque<SceneEvidence> window_;
   std::deque<std::optional<std::vector<Place>>> candidates_;  // of frames that were asked
   std::optional<Contest> contest_;
-  std::deque<SceneEvidence> contested_;  // the contest's frames, to refine what it says of them
-  uint32_t starts_ = 0;                  // how often a search has ended: keys the random streams
-  bool start_is_given_ = false;          // the last one
+  // The contest's frames that are not in the window, to refine what it says of them.
+  std::deque<SceneEvidence> contested_;
+  uint32_t starts_ = 0;          // how often a search has ended: keys the random streams
+  bool start_is_given_ = false;  // the last one
   WalkerFilter filter_;
   Pose mean_pose_;
   std::optional<LastSeen> last_seen_;

@@ -227,9 +227,11 @@ bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
   const double support =
       total_support(trial.records) + (contest_ ? total_support(contest_->records()) : 0);
   if (mode_ != Mode::kSearching && support >= sighting.score * double(window_.size())) {
-    const std::deque<SceneEvidence> frames = std::exchange(window_, {});
+    std::deque<SceneEvidence> frames = std::exchange(window_, {});
     candidates_.clear();
     for (size_t i = 0; i < trial.records.size(); ++i) refine(frames[i], trial.records[i]);
+    // A contest that goes on has all of the window's frames before it.
+    if (contest_ && config_.estimate == EstimateKind::kMap) contested_ = std::move(frames);
     std::move(trial.records.begin(), trial.records.end(), std::back_inserter(out));
     return true;
   }

@@ -128,16 +128,19 @@ TEST_F(Track, FeetThatAreReportedStandStill) {
   EXPECT_GT(tracked["foot_slide_mm"], 5);
 }
 
-// Those of the window that was searched or of a given start's contest, and later ones.
+// Those of the window that was searched, of a given start's contest and of one that outlasts the
+// window, and later ones.
 TEST_F(Track, EveryFrameIsRefined) {
   const Motion truth = read_motion(kDemo / "truth.csv");
-  for (const bool given : {false, true}) {
+  enum class Start { kFound, kGiven, kLong };
+  for (const Start start : {Start::kFound, Start::kGiven, Start::kLong}) {
     nlohmann::json log_evidence;
     const auto joints = [&](EstimateKind kind) {
       const std::string name = kind == EstimateKind::kMap ? "map" : "mean";
       TrackJob each = job(45, name);
       each.overwrite = true;
-      if (given)
+      if (start == Start::kLong) each.config.values.tracker.start.seconds = 1.4;
+      if (start == Start::kGiven)
         each.scene.initial = InitialState{.position = truth.joints[0][Joint::kPelvis].head<2>(),
                                           .heading = 0,
                                           .speed = 1.25,
@@ -160,7 +163,7 @@ TEST_F(Track, EveryFrameIsRefined) {
       same += map.joints[i][Joint::kLeftKnee] == mean.joints[i][Joint::kLeftKnee];
     }
     EXPECT_GT(tracked, 40u);
-    EXPECT_EQ(same, 0u) << given;
+    EXPECT_EQ(same, 0u) << static_cast<int>(start);
     EXPECT_LT(joint_errors(truth, map).absolute.mean, joint_errors(truth, mean).absolute.mean);
   }
 }
