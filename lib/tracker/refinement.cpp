@@ -1,10 +1,9 @@
 #include "tracker/refinement.h"
 
 #include <algorithm>
-#include <utility>
+#include <array>
 
 #include "body/kinematics.h"
-#include "core/conventions.h"
 #include "core/parallel_for.h"
 #include "filter/map_estimate.h"
 #include "tracker/frame_likelihood.h"
@@ -13,35 +12,29 @@ namespace walktrack {
 
 namespace {
 
-constexpr int kMostNumbers = 22;  // of a pose with arms
+using Numbers = Eigen::VectorXd;
+
 constexpr int kRounds = 4;
+constexpr double kRootSd = 0.02, kRootHeightSd = 0.01;  // m
 
-using Numbers = BoundedVector<kMostNumbers>;
-
-struct FreeNumber {
-  double Pose::*of_body = nullptr;
-  double LegPose::*of_leg = nullptr;
-  double ArmPose::*of_arm = nullptr;
-  double sd = 0;  // rad; how far people stray from the particles' mean
+template <typename Part>
+struct Angle {
+  double Part::*of;
+  double sd;  // rad; how far people may stray from the particles' mean
   bool sideways = false;
 };
 
-constexpr double kRootSd = 0.02, kRootHeightSd = 0.01;  // m
-
-// Angles that are free, by body, leg and arm; those that are sideways stay on a sagittal path.
-constexpr std::array kOfBody{FreeNumber{.of_body = &Pose::heading, .sd = 0.09, .sideways = true},
-                             FreeNumber{.of_body = &Pose::list, .sd = 0.035, .sideways = true},
-                             FreeNumber{.of_body = &Pose::tilt, .sd = 0.05}};
-constexpr std::array kOfLeg{
-    FreeNumber{.of_leg = &LegPose::hip_flexion, .sd = 0.09},
-    FreeNumber{.of_leg = &LegPose::hip_abduction, .sd = 0.05, .sideways = true},
-    FreeNumber{.of_leg = &LegPose::hip_rotation, .sd = 0.09, .sideways = true},
-    FreeNumber{.of_leg = &LegPose::knee_flexion, .sd = 0.14},
-    FreeNumber{.of_leg = &LegPose::ankle_dorsiflexion, .sd = 0.17}};
-constexpr std::array kOfArm{
-    FreeNumber{.of_arm = &ArmPose::shoulder_flexion, .sd = 0.26},
-    FreeNumber{.of_arm = &ArmPose::shoulder_abduction, .sd = 0.17, .sideways = true},
-    FreeNumber{.of_arm = &ArmPose::elbow_flexion, .sd = 0.26}};
+// Angles that are free; those that are sideways stay on a sagittal path.
+constexpr std::array kOfBody{Angle<Pose>{&Pose::heading, 0.09, true},
+                             Angle<Pose>{&Pose::list, 0.035, true}, Angle<Pose>{&Pose::tilt, 0.05}};
+constexpr std::array kOfLeg{Angle<LegPose>{&LegPose::hip_flexion, 0.09},
+                            Angle<LegPose>{&LegPose::hip_abduction, 0.05, true},
+                            Angle<LegPose>{&LegPose::hip_rotation, 0.09, true},
+                            Angle<LegPose>{&LegPose::knee_flexion, 0.14},
+                            Angle<LegPose>{&LegPose::ankle_dorsiflexion, 0.17}};
+constexpr std::array kOfArm{Angle<ArmPose>{&ArmPose::shoulder_flexion, 0.26},
+                            Angle<ArmPose>{&ArmPose::shoulder_abduction, 0.17, true},
+                            Angle<ArmPose>{&ArmPose::elbow_flexion, 0.26}};
 
 // Calls f(number, sd) for every number of the pose that is free in this model, in a fixed order.
 template <typename F>
@@ -49,16 +42,14 @@ void for_each_free(const BodyModel& model, Pose& pose, const F& f) {
   f(pose.root.x(), kRootSd);
   f(pose.root.y(), kRootSd);
   f(pose.root.z(), kRootHeightSd);
-  const auto is_free = [&](const FreeNumber& number) { return turns(model) || !number.sideways; };
-  for (const FreeNumber& number : kOfBody)
-    if (is_free(number)) f(pose.*number.of_body, number.sd);
-  for (LegPose& leg : pose.legs)
-    for (const FreeNumber& number : kOfLeg)
-      if (is_free(number)) f(leg.*number.of_leg, number.sd);
+  const auto each = [&](auto& part, const auto& angles) {
+    for (const auto& angle : angles)
+      if (turns(model) || !angle.sideways) f(part.*angle.of, angle.sd);
+  };
+  each(pose, kOfBody);
+  for (LegPose& leg : pose.legs) each(leg, kOfLeg);
   if (!model.body.groups.arms) return;
-  for (ArmPose& arm : pose.arms)
-    for (const FreeNumber& number : kOfArm)
-      if (is_free(number)) f(arm.*number.of_arm, number.sd);
+  for (ArmPose& arm : pose.arms) each(arm, kOfArm);
 }
 
 struct Prior {
@@ -113,7 +104,7 @@ void refine(const TrackerScene& scene, const SceneEvidence& evidence, int thread
       values[i] = log_likelihood(likelihood, with_numbers(model, mean, points[i]));
     });
   };
-  const auto found = map_estimate<kMostNumbers>(prior.mean, prior.sd, kRounds, log_likelihoods);
+  const auto found = map_estimate(prior.mean, prior.sd, kRounds, log_likelihoods);
   const Pose pose = with_numbers(model, mean, found.at);
   const JointPositions from = forward_kinematics(model.body, mean).joints,
                        to = forward_kinematics(model.body, pose).joints;

@@ -2,10 +2,10 @@
 //
 // Particles are walkers, and people's poses stray from walkers' further than some hundred particles
 // can follow in sixteen numbers at once. So the pose that is reported is let free of the walker:
-// every number of it is normal about the particles' mean, as far as people were found to stray
-// (sizes in refinement.cpp), and the frame's silhouettes decide (filter/map_estimate.h). Where they
-// say nothing, as while legs are hidden, the walker's word stands. The particles themselves are
-// left alone: what tells left from right, and what comes next, is theirs.
+// every number of it is normal about the particles' mean, as far as people may stray (sizes in
+// refinement.cpp, set by hand), and the frame's silhouettes decide (filter/map_estimate.h). Where
+// they say nothing, as while legs are hidden, the walker's word stands. The particles themselves
+// are left alone: what tells left from right, and what comes next, is theirs.
 //
 // README.md beside this file says what it gains, and what else was tried.
 #pragma once

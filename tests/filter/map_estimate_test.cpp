@@ -1,17 +1,17 @@
 #include "filter/map_estimate.h"
 
-#include <limits>
+#include <cmath>
 
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "core/rng.h"
 
 namespace walktrack {
 namespace {
 
-constexpr int kN = 6;
-using Vector = BoundedVector<kN>;
-using Matrix = BoundedMatrix<kN>;
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
 
 // The function for many points, counting them.
 template <typename F>
@@ -31,15 +31,15 @@ Vector drawn(Eigen::Index n, Rng& rng) {
 // Kalman's update, of any number of correlated measurements, in one step.
 TEST(MapEstimate, IsExactForNormalLikelihoods) {
   Rng rng(1, Purpose::kTest);
-  for (Eigen::Index n = 1; n <= kN; ++n) {
+  for (Eigen::Index n = 1; n <= 6; ++n) {
     const Vector mean = drawn(n, rng), sd = drawn(n, rng).cwiseAbs() + Vector::Constant(n, 0.2);
     const Vector peak = drawn(n, rng);
     Matrix a(n, n);
     for (Eigen::Index k = 0; k < n; ++k) a.col(k) = drawn(n, rng);
     const Matrix information = a * a.transpose();
-    const auto found = map_estimate<kN>(mean, sd, 1, for_all([&](const Vector& x) {
-                                          return 7 - 0.5 * (x - peak).dot(information * (x - peak));
-                                        }));
+    const auto found = map_estimate(mean, sd, 1, for_all([&](const Vector& x) {
+                                      return 7 - 0.5 * (x - peak).dot(information * (x - peak));
+                                    }));
     const Matrix prior = sd.cwiseAbs2().cwiseInverse().asDiagonal();
     const Matrix covariance = (prior + information).inverse();
     const Vector at = covariance * (prior * mean + information * peak);
@@ -65,7 +65,7 @@ TEST(MapEstimate, ClimbsToThePeakOfOtherOnes) {
       if (posterior(x) > posterior(best)) best = x;
     }
   }
-  const auto found = map_estimate<kN>(mean, sd, 10, for_all(f));
+  const auto found = map_estimate(mean, sd, 10, for_all(f));
   EXPECT_NEAR(found.gain, posterior(best) - posterior(mean), 0.1);  // it stops at gains of a tenth
   const Vector off = found.at - best;
   EXPECT_LT(off.dot(found.covariance.inverse() * off), 0.25) << "half a standard deviation";
@@ -75,7 +75,7 @@ TEST(MapEstimate, ClimbsToThePeakOfOtherOnes) {
 TEST(MapEstimate, LeavesAHollow) {
   const auto f = [](const Vector& x) { return -30 * std::abs(std::abs(x[0]) - 1); };
   const Vector mean = Vector::Constant(1, 0.15), sd = Vector::Constant(1, 1);
-  const auto found = map_estimate<kN>(mean, sd, 8, for_all(f));
+  const auto found = map_estimate(mean, sd, 8, for_all(f));
   EXPECT_GT(f(found.at), f(mean) + 20);
 }
 
@@ -84,13 +84,13 @@ TEST(MapEstimate, ClimbsSharpEdges) {
   const Vector edge = Eigen::Vector4d(0.8, -1.1, 0.5, 1.4);
   const auto f = [&](const Vector& x) { return -200 * (x - edge).cwiseAbs().maxCoeff(); };
   const Vector mean = Vector::Zero(4), sd = Vector::Ones(4);
-  const auto found = map_estimate<kN>(mean, sd, 8, for_all(f));
+  const auto found = map_estimate(mean, sd, 8, for_all(f));
   EXPECT_GT(found.gain, 0.6 * -f(mean));
 }
 
 TEST(MapEstimate, StaysWhereNothingIsSaid) {
   const Vector mean = Eigen::Vector3d(1, -2, 3), sd = Eigen::Vector3d(0.1, 2, 1);
-  const auto found = map_estimate<kN>(mean, sd, 4, for_all([](const Vector&) { return -5.0; }));
+  const auto found = map_estimate(mean, sd, 4, for_all([](const Vector&) { return -5.0; }));
   EXPECT_EQ(found.at, mean);
   EXPECT_EQ(found.gain, 0);
   EXPECT_LT((found.covariance - Matrix(sd.cwiseAbs2().asDiagonal())).norm(), 1e-12);
@@ -103,7 +103,7 @@ TEST(MapEstimate, NeverEndsBelowThePriorsMean) {
     const Vector mean = drawn(4, rng), sd = Vector::Constant(4, 0.5), wave = 9 * drawn(4, rng);
     const auto f = [&](const Vector& x) { return 8 * std::round(std::sin(wave.dot(x))); };
     int count = 0;
-    const auto found = map_estimate<kN>(mean, sd, 5, for_all(f, &count));
+    const auto found = map_estimate(mean, sd, 5, for_all(f, &count));
     const double gain = f(found.at) - f(mean) - 0.5 * ((found.at - mean) / 0.5).squaredNorm();
     EXPECT_NEAR(found.gain, gain, 1e-9);
     EXPECT_GE(found.gain, 0);
@@ -114,7 +114,7 @@ TEST(MapEstimate, NeverEndsBelowThePriorsMean) {
 
 TEST(MapEstimate, NoRoundsLeaveThePrior) {
   const Vector mean = Eigen::Vector2d(1, 2), sd = Eigen::Vector2d(1, 1);
-  EXPECT_EQ(map_estimate<kN>(mean, sd, 0, for_all([](const Vector& x) { return x[0]; })).at, mean);
+  EXPECT_EQ(map_estimate(mean, sd, 0, for_all([](const Vector& x) { return x[0]; })).at, mean);
 }
 
 }  // namespace

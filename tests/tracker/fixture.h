@@ -1,12 +1,14 @@
 // A subject, its walker and its gaits, as the tracker's tests share them.
 #pragma once
 
+#include "body/kinematics.h"
 #include "core/conventions.h"
 #include "tracker/kneed_motion.h"
 #include "tracker/motion.h"
 #include "tracker/planar_body.h"
 #include "tracker/scene.h"
 #include "tracker/start.h"
+#include "tracker/walker_filter.h"
 
 namespace walktrack {
 
@@ -55,6 +57,25 @@ inline std::vector<WalkerParticle> walkers_on_their_way(const MotionContext& con
     propagate(context, set[i], rng);
   }
   return set;
+}
+
+// A tracked frame of that pose, of a body without arms or with them: bands from 2 cm below to 3 cm
+// above each coordinate, two samples.
+inline FrameRecord record_of(const Body& body, const Pose& pose) {
+  FrameRecord record;
+  record.tracked = true;
+  FrameEstimate& estimate = record.estimate;
+  estimate.joint_count = body.groups.arms ? size_t{kJointCount} : kJointCountWithoutArms;
+  estimate.pose = pose;
+  estimate.joints = forward_kinematics(body, pose).joints;
+  for (size_t j = 0; j < estimate.joint_count; ++j) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double at = estimate.joints.at[j][static_cast<Eigen::Index>(axis)];
+      estimate.spread[j][axis] = {at, 0.015, at - 0.02, at + 0.03};
+    }
+  }
+  record.samples.assign(2, estimate.joints);
+  return record;
 }
 
 }  // namespace walktrack

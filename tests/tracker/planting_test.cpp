@@ -8,6 +8,7 @@
 #include <Eigen/QR>
 
 #include "body/kinematics.h"
+#include "fixture.h"
 
 namespace walktrack {
 namespace {
@@ -134,22 +135,13 @@ TEST(PlantingShifts, DoNotReachAcrossLostFrames) {
 // A pose and its joints are moved alike, and so are bands and samples.
 TEST(PlantFeet, MoveJointsPoseBandsAndSamples) {
   const Body body = make_body({}, {});
-  FrameRecord record;
-  record.tracked = true;
-  FrameEstimate& estimate = record.estimate;
-  estimate.joint_count = kJointCountWithoutArms;
-  estimate.pose.root = {0.2, 0.1, 0.9};
-  estimate.pose.heading = -3;
-  estimate.pose.legs[0] = {0.35, 0.02, 0.05, 0.15, 0.05};
-  estimate.pose.legs[1] = {-0.3, 0.02, 0.05, 0.25, 0.1};
-  estimate.joints = forward_kinematics(body, estimate.pose).joints;
-  for (size_t j = 0; j < estimate.joint_count; ++j) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double at = estimate.joints.at[j][static_cast<Eigen::Index>(axis)];
-      estimate.spread[j][axis] = {at, 0.02, at - 0.03, at + 0.04};
-    }
-  }
-  record.samples.assign(2, estimate.joints);
+  Pose pose;
+  pose.root = {0.2, 0.1, 0.9};
+  pose.heading = -3;
+  pose.legs[0] = {0.35, 0.02, 0.05, 0.15, 0.05};
+  pose.legs[1] = {-0.3, 0.02, 0.05, 0.25, 0.1};
+  FrameRecord record = record_of(body, pose);
+  const FrameEstimate& estimate = record.estimate;
   const FrameRecord before = record;
   const FootShifts by{Vector2d(0.02, -0.01), Vector2d(-0.015, 0.02)};
   plant_feet(by, record);
@@ -160,8 +152,8 @@ TEST(PlantFeet, MoveJointsPoseBandsAndSamples) {
     EXPECT_TRUE(moved.head<2>().isApprox(by[static_cast<size_t>(side)], 1e-9));
     for (const Joint joint : {knee(side), ankle(side), toe(side)})
       EXPECT_LT((drawn[joint] - estimate.joints[joint]).norm(), 0.003);
-    EXPECT_NEAR(estimate.spread[a][0].p95, estimate.joints.at[a].x() + 0.04, 1e-12);
-    EXPECT_EQ(estimate.spread[a][0].sd, 0.02);
+    EXPECT_NEAR(estimate.spread[a][0].p95, estimate.joints.at[a].x() + 0.03, 1e-12);
+    EXPECT_EQ(estimate.spread[a][0].sd, 0.015);
     EXPECT_EQ(record.samples[1].at[a], estimate.joints.at[a]);
   }
   EXPECT_EQ(estimate.joints[Joint::kPelvis], before.estimate.joints[Joint::kPelvis]);
@@ -170,16 +162,13 @@ TEST(PlantFeet, MoveJointsPoseBandsAndSamples) {
 
 TEST(PlantFeet, LiftToesOutOfTheGround) {
   const Body body = make_body({}, {});
-  FrameRecord record;
-  record.tracked = true;
-  FrameEstimate& estimate = record.estimate;
-  estimate.joint_count = kJointCountWithoutArms;
-  estimate.pose.root = {0, 0, 0.9};
-  estimate.pose.legs[0].ankle_dorsiflexion = -0.5;
-  estimate.joints = forward_kinematics(body, estimate.pose).joints;
+  Pose pose;
+  pose.root = {0, 0, 0.9};
+  pose.legs[0].ankle_dorsiflexion = -0.5;
+  FrameRecord record = record_of(body, pose);
+  const FrameEstimate& estimate = record.estimate;
   ASSERT_LT(estimate.joints[Joint::kLeftToe].z(), 0);
   ASSERT_GT(estimate.joints[Joint::kLeftAnkle].z(), 0);
-  record.samples.assign(1, estimate.joints);
   plant_feet({Vector2d::Zero(), Vector2d::Zero()}, record);
   EXPECT_EQ(estimate.joints[Joint::kLeftToe].z(), 0);
   EXPECT_EQ(record.samples[0][Joint::kLeftToe].z(), 0);
