@@ -3,7 +3,7 @@
 
 #include "commands.h"
 #include "core/errors.h"
-#include "jobs/analyse.h"
+#include "jobs/evaluate/analyse.h"
 #include "terminal.h"
 
 namespace walktrack {

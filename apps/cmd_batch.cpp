@@ -6,7 +6,7 @@
 #include "commands.h"
 #include "core/errors.h"
 #include "core/parallel_for.h"
-#include "jobs/batch.h"
+#include "jobs/batch/batch.h"
 #include "terminal.h"
 
 namespace walktrack {

@@ -8,7 +8,7 @@
 
 #include "commands.h"
 #include "core/errors.h"
-#include "jobs/calibrate.h"
+#include "jobs/calibrate/calibrate.h"
 #include "terminal.h"
 
 namespace walktrack {

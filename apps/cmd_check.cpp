@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "jobs/check.h"
+#include "jobs/check/check.h"
 #include "terminal.h"
 
 namespace walktrack {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "io/files.h"
+#include "io/archive/files.h"
 
 namespace walktrack {
 

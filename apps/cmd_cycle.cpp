@@ -3,9 +3,9 @@
 
 #include "commands.h"
 #include "core/errors.h"
-#include "io/files.h"
-#include "io/model_file.h"
-#include "jobs/cycle.h"
+#include "io/archive/files.h"
+#include "io/scene/model_file.h"
+#include "jobs/simulate/cycle.h"
 #include "model_options.h"
 
 namespace walktrack {

@@ -3,8 +3,8 @@
 
 #include "commands.h"
 #include "core/errors.h"
-#include "io/files.h"
-#include "jobs/evaluate.h"
+#include "io/archive/files.h"
+#include "jobs/evaluate/evaluate.h"
 
 namespace walktrack {
 

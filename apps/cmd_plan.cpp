@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "jobs/plan.h"
+#include "jobs/plan/plan.h"
 
 namespace walktrack {
 

@@ -5,9 +5,9 @@
 
 #include "commands.h"
 #include "core/errors.h"
-#include "io/motion_file.h"
-#include "io/render_file.h"
-#include "jobs/render.h"
+#include "io/scene/render_file.h"
+#include "io/tables/motion_file.h"
+#include "jobs/render/render.h"
 #include "terminal.h"
 
 namespace walktrack {

@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "core/parallel_for.h"
-#include "jobs/selftest.h"
+#include "jobs/selftest/selftest.h"
 #include "terminal.h"
 
 namespace walktrack {

@@ -3,7 +3,7 @@
 
 #include "commands.h"
 #include "core/errors.h"
-#include "jobs/sweep.h"
+#include "jobs/sweep/sweep.h"
 #include "terminal.h"
 
 namespace walktrack {

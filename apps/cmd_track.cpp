@@ -5,9 +5,9 @@
 
 #include "commands.h"
 #include "core/errors.h"
-#include "io/files.h"
-#include "io/scene.h"
-#include "jobs/track.h"
+#include "io/archive/files.h"
+#include "io/scene/scene.h"
+#include "jobs/track/track.h"
 #include "terminal.h"
 
 namespace walktrack {

@@ -4,7 +4,7 @@
 #include <fmt/ostream.h>
 
 #include "core/errors.h"
-#include "io/files.h"
+#include "io/archive/files.h"
 #include "manual.h"
 
 namespace walktrack {

@@ -10,7 +10,7 @@
 
 #include <boost/program_options.hpp>
 
-#include "io/config.h"
+#include "io/config/config.h"
 
 namespace walktrack {
 

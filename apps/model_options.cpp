@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/errors.h"
-#include "io/files.h"
-#include "io/model_file.h"
+#include "io/archive/files.h"
+#include "io/scene/model_file.h"
 
 namespace walktrack {
 

@@ -21,7 +21,7 @@ from fit_model_error import KINDS, QUANTILE, cameras_of, figure_variance, point,
 from measure_gait import SAME_CONTACT
 
 LEGS = (("lknee", "rknee"), ("lankle", "rankle"))
-FIGURE = 0.02  # kFigureError of lib/tracker/model_error.cpp, m
+FIGURE = 0.02  # kFigureError of lib/tracker/smooth/model_error.cpp, m
 ACROSS_TO_WIDTH = 0.57  # kAcrossToWidth of lib/metrics/gait_error.cpp
 SHARING_SCALE = ("step_length_m", "stride_length_m", "speed_m_s")
 

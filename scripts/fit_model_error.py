@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fits the sizes of lib/tracker/model_error.cpp to walks with truth.
+"""Fits the sizes of lib/tracker/smooth/model_error.cpp to walks with truth.
 
     scripts/measure_gait.py WALKTRACK OUT --walks 40 [--scenes FOLDER ...] -- --set track.model_error=0
     scripts/fit_model_error.py OUT [--scenes FOLDER ...] [--figure 0.02]
@@ -49,7 +49,7 @@ def inverse(m):
 
 
 def figure_variance(cameras, ends, figure):
-    """The diagonal of figure_covariance() of lib/tracker/model_error.h; the lens' bending left out."""
+    """The diagonal of figure_covariance() of lib/tracker/smooth/model_error.h; the lens' bending left out."""
     info = [[figure**2 * (r == c) for c in range(3)] for r in range(3)]
     for focal, cx, cy, rotation, translation, width, height in cameras:
         for end in ends:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fits the coefficients of the cost model (lib/jobs/cost_model.h) and prints them as its source has them.
+"""Fits the coefficients of the cost model (lib/jobs/plan/cost_model.h) and prints them as its source has them.
 
     scripts/measure_costs.py WALKTRACK OUT
 

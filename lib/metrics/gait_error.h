@@ -5,7 +5,7 @@
 // person's feet land otherwise than the body's moves events and steps in the same way in all
 // members. It is added here, as independent normal errors of every number of a table; values stay.
 //
-// What cameras leave open of the figure comes from where they stand (tracker/model_error.h):
+// What cameras leave open of the figure comes from where they stand (tracker/smooth/model_error.h):
 // lengths and speeds share the relative error of its distance, widths part of its error across the
 // way. The other sizes were fitted on walks with truth; lib/tracker/README.md says on which, how,
 // and what the bands hold since. Means over steps come with sizes of their own, as errors of steps

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "tracker/particle.h"
+#include "tracker/motion/particle.h"
 
 namespace walktrack {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "body/kinematics.h"
-#include "tracker/kneed_motion.h"
+#include "tracker/motion/kneed_motion.h"
 
 namespace walktrack {
 

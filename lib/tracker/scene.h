@@ -9,8 +9,8 @@
 #include "gait/gait_prior.h"
 #include "observation/likelihood.h"
 #include "observation/observer.h"
-#include "tracker/particle.h"
-#include "tracker/sighting.h"
+#include "tracker/detect/sighting.h"
+#include "tracker/motion/particle.h"
 
 namespace walktrack {
 

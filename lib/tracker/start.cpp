@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/conventions.h"
-#include "tracker/kneed_motion.h"
+#include "tracker/motion/kneed_motion.h"
 
 namespace walktrack {
 

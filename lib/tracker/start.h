@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "tracker/motion.h"
-#include "tracker/sighting.h"
+#include "tracker/detect/sighting.h"
+#include "tracker/motion/motion.h"
 
 namespace walktrack {
 

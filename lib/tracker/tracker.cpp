@@ -6,7 +6,7 @@
 
 #include "core/conventions.h"
 #include "core/log_weights.h"
-#include "tracker/exchange.h"
+#include "tracker/moves/exchange.h"
 
 namespace walktrack {
 
@@ -154,7 +154,7 @@ void Tracker::settle(std::vector<FrameRecord>& out) {
 }
 
 // Whether a set that takes one leg for the other goes unnoticed: several cameras see it, and only
-// the kneed walker reads poses anew (tracker/rephase.h).
+// the kneed walker reads poses anew (tracker/moves/rephase.h).
 bool Tracker::may_leap() const {
   return scene_.cameras.size() == 1 && config_.motion.model == MotionKind::kKneed;
 }

@@ -1,8 +1,10 @@
 // The tracker: frames of evidence in, poses with their uncertainty out.
 //
-//   searching: look for a walk in a sliding window of frames         (tracker/sighting.h); a start
+//   searching: look for a walk in a sliding window of frames         (tracker/detect/sighting.h); a
+//   start
 //              that explains the window worse than the straight walk it came from has failed. A
-//              person of unknown size is sized up by the same window  (tracker/stature.h), once
+//              person of unknown size is sized up by the same window  (tracker/detect/stature.h),
+//              once
 //   starting:  hypotheses over phase and side compete for a while    (tracker/contest.h)
 //   tracking:  for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h)
 //   lost:      the likelihood fell far below its own past, or below that of a figure that merely
@@ -19,8 +21,8 @@
 #include <vector>
 
 #include "tracker/contest.h"
-#include "tracker/refinement.h"
-#include "tracker/stature.h"
+#include "tracker/detect/stature.h"
+#include "tracker/smooth/refinement.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {

@@ -7,8 +7,8 @@
 
 #include "core/conventions.h"
 #include "core/parallel_for.h"
-#include "tracker/exchange.h"
 #include "tracker/leg_names.h"
+#include "tracker/moves/exchange.h"
 #include "tracker/tracker.h"
 
 namespace walktrack {

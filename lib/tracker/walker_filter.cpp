@@ -5,9 +5,9 @@
 #include "body/kinematics.h"
 #include "core/log_weights.h"
 #include "core/scratch.h"
-#include "tracker/course.h"
 #include "tracker/frame_likelihood.h"
-#include "tracker/model_error.h"
+#include "tracker/moves/course.h"
+#include "tracker/smooth/model_error.h"
 
 namespace walktrack {
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "filter/particle_filter.h"
-#include "tracker/estimate.h"
 #include "tracker/modes.h"
-#include "tracker/motion.h"
+#include "tracker/motion/motion.h"
 #include "tracker/scene.h"
+#include "tracker/smooth/estimate.h"
 
 namespace walktrack {
 
@@ -29,7 +29,7 @@ struct WalkerFilterContext {
   MotionContext motion;
   int samples;  // particles kept of a frame
   int threads;
-  double model_error = 1;  // multiplies what tracker/model_error.h adds to the spreads
+  double model_error = 1;  // multiplies what tracker/smooth/model_error.h adds to the spreads
 };
 
 // Takes `filter` through frame number `frame`. `first`: the particles have just been drawn, and

@@ -6,7 +6,7 @@
 #include "body/kinematics.h"
 #include "core/conventions.h"
 #include "tests/camera/made_camera.h"
-#include "tracker/planar_body.h"
+#include "tracker/motion/planar_body.h"
 #include "tracker/start.h"
 
 namespace walktrack {

@@ -8,7 +8,7 @@
 #include "gait/gait_prior.h"
 #include "observation/capsules.h"
 #include "observation/planes.h"
-#include "tracker/motion.h"
+#include "tracker/motion/motion.h"
 
 namespace walktrack {
 

@@ -1,4 +1,4 @@
-#include "io/config.h"
+#include "io/config/config.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {

@@ -1,12 +1,12 @@
 // Sizes are read from any bytes; small images are decoded too. The decoders are OpenCV's: faults in
 // them are not ours to find, but their exceptions are ours to catch.
-#include "io/image_size.h"
+#include "io/video/image_size.h"
 
 #include <cstdlib>
 
 #include <opencv2/core/mat.hpp>
 
-#include "io/video.h"
+#include "io/video/video.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {

@@ -1,4 +1,4 @@
-#include "io/motion_file.h"
+#include "io/tables/motion_file.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {

@@ -1,5 +1,5 @@
 // A scene beside a camera file and a video, which it may name.
-#include "io/scene.h"
+#include "io/scene/scene.h"
 #include "tests/fuzz/target.h"
 #include "tests/io/sample_files.h"
 

@@ -1,9 +1,9 @@
-#include "io/angles_file.h"
+#include "io/tables/angles_file.h"
 
 #include <gtest/gtest.h>
 
 #include "core/conventions.h"
-#include "io/csv.h"
+#include "io/tables/csv.h"
 
 namespace walktrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/archive.h"
+#include "io/archive/archive.h"
 
 #include <gtest/gtest.h>
 

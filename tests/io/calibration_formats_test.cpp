@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
-#include "io/calibration.h"
+#include "io/calibration/calibration.h"
 #include "tests/camera/sample_cameras.h"
 #include "tests/io/sample_files.h"
 #include "tests/message_of.h"

@@ -1,4 +1,4 @@
-#include "io/calibration.h"
+#include "io/calibration/calibration.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

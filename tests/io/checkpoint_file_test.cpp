@@ -1,4 +1,4 @@
-#include "io/checkpoint_file.h"
+#include "io/archive/checkpoint_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

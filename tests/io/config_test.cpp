@@ -1,4 +1,4 @@
-#include "io/config.h"
+#include "io/config/config.h"
 
 #include <filesystem>
 
@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
-#include "io/parameters.h"
-#include "io/presets.h"
+#include "io/config/parameters.h"
+#include "io/config/presets.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 

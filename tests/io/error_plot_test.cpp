@@ -1,4 +1,4 @@
-#include "io/error_plot.h"
+#include "io/drawing/error_plot.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "io/files.h"
+#include "io/archive/files.h"
 
 #include <sys/stat.h>
 

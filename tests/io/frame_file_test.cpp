@@ -1,4 +1,4 @@
-#include "io/frame_file.h"
+#include "io/archive/frame_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "io/gait_file.h"
+#include "io/tables/gait_file.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/csv.h"
+#include "io/tables/csv.h"
 
 namespace walktrack {
 namespace {

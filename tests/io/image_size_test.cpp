@@ -1,5 +1,5 @@
 // Against OpenCV's decoders: what the header states is what they decode.
-#include "io/image_size.h"
+#include "io/video/image_size.h"
 
 #include <string>
 #include <vector>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "io/video.h"
+#include "io/video/video.h"
 #include "tests/run_program.h"
 
 namespace walktrack {

@@ -1,4 +1,4 @@
-#include "io/kinetics_file.h"
+#include "io/tables/kinetics_file.h"
 
 #include <cmath>
 #include <filesystem>
@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
-#include "io/files.h"
+#include "io/archive/files.h"
 
 namespace walktrack {
 namespace {

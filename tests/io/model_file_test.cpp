@@ -1,4 +1,4 @@
-#include "io/model_file.h"
+#include "io/scene/model_file.h"
 
 #include <cstdio>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "io/motion_file.h"
+#include "io/tables/motion_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

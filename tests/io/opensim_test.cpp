@@ -1,4 +1,4 @@
-#include "io/opensim.h"
+#include "io/tables/opensim.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "io/overlay.h"
+#include "io/drawing/overlay.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

@@ -1,4 +1,4 @@
-#include "io/report_page.h"
+#include "io/drawing/report_page.h"
 
 #include <random>
 
@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/csv.h"
+#include "io/tables/csv.h"
 #include "tests/run_program.h"
 
 namespace walktrack {

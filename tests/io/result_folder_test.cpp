@@ -1,4 +1,4 @@
-#include "io/result_folder.h"
+#include "io/archive/result_folder.h"
 
 #include <gtest/gtest.h>
 

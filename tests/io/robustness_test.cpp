@@ -4,12 +4,12 @@
 
 #include "core/errors.h"
 #include "core/rng.h"
-#include "io/calibration.h"
-#include "io/config.h"
-#include "io/csv.h"
-#include "io/motion_file.h"
-#include "io/scene.h"
-#include "io/yaml.h"
+#include "io/calibration/calibration.h"
+#include "io/config/config.h"
+#include "io/config/yaml.h"
+#include "io/scene/scene.h"
+#include "io/tables/csv.h"
+#include "io/tables/motion_file.h"
 #include "tests/camera/sample_cameras.h"
 #include "tests/io/sample_files.h"
 

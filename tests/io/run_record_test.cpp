@@ -1,11 +1,11 @@
-#include "io/run_record.h"
+#include "io/archive/run_record.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/sha256.h"
+#include "io/archive/sha256.h"
 
 namespace walktrack {
 namespace {

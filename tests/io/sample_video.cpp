@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "io/video_writer.h"
+#include "io/video/video_writer.h"
 
 namespace walktrack {
 

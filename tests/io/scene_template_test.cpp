@@ -1,9 +1,9 @@
-#include "io/scene_template.h"
+#include "io/scene/scene_template.h"
 
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
-#include "io/scene.h"
+#include "io/scene/scene.h"
 #include "tests/io/sample_files.h"
 
 namespace walktrack {

@@ -1,4 +1,4 @@
-#include "io/scene.h"
+#include "io/scene/scene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "io/scene_video.h"
+#include "io/video/scene_video.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "io/trade_plot.h"
+#include "io/drawing/trade_plot.h"
 
 #include <cmath>
 

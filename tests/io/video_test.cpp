@@ -1,4 +1,4 @@
-#include "io/video.h"
+#include "io/video/video.h"
 
 #include <fstream>
 
@@ -8,7 +8,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "core/errors.h"
-#include "io/video_writer.h"
+#include "io/video/video_writer.h"
 #include "tests/io/sample_files.h"
 #include "tests/io/sample_video.h"
 

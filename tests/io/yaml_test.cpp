@@ -1,4 +1,4 @@
-#include "io/yaml.h"
+#include "io/config/yaml.h"
 
 #include <gtest/gtest.h>
 

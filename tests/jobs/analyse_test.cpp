@@ -1,4 +1,4 @@
-#include "jobs/analyse.h"
+#include "jobs/evaluate/analyse.h"
 
 #include <array>
 #include <cmath>
@@ -11,9 +11,9 @@
 
 #include "core/conventions.h"
 #include "core/errors.h"
-#include "io/csv.h"
-#include "io/files.h"
-#include "io/result_folder.h"
+#include "io/archive/files.h"
+#include "io/archive/result_folder.h"
+#include "io/tables/csv.h"
 
 namespace walktrack {
 namespace {

@@ -1,11 +1,11 @@
-#include "jobs/articulated.h"
+#include "jobs/simulate/articulated.h"
 
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
-#include "io/csv.h"
+#include "io/tables/csv.h"
 
 namespace walktrack {
 namespace {

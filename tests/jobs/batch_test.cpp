@@ -1,5 +1,5 @@
 // The batch with a small script in the place of `walktrack track`.
-#include "jobs/batch.h"
+#include "jobs/batch/batch.h"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
-#include "jobs/claim.h"
+#include "jobs/batch/claim.h"
 #include "tests/run_program.h"
 
 namespace walktrack {

@@ -1,5 +1,5 @@
 // From pictures of boards, taken by known cameras, to the files.
-#include "jobs/calibrate.h"
+#include "jobs/calibrate/calibrate.h"
 
 #include <cmath>
 #include <filesystem>
@@ -13,8 +13,8 @@
 
 #include "core/conventions.h"
 #include "core/errors.h"
-#include "io/calibration.h"
-#include "io/files.h"
+#include "io/archive/files.h"
+#include "io/calibration/calibration.h"
 #include "tests/camera/made_camera.h"
 #include "tests/observation/board_film.h"
 #include "tests/run_program.h"

@@ -1,4 +1,4 @@
-#include "jobs/check.h"
+#include "jobs/check/check.h"
 
 #include <cmath>
 #include <fstream>
@@ -10,11 +10,11 @@
 
 #include "core/errors.h"
 #include "core/rng.h"
-#include "io/calibration.h"
-#include "io/video.h"
-#include "io/video_writer.h"
-#include "jobs/check_parts.h"
-#include "jobs/render.h"
+#include "io/calibration/calibration.h"
+#include "io/video/video.h"
+#include "io/video/video_writer.h"
+#include "jobs/check/check_parts.h"
+#include "jobs/render/render.h"
 #include "synth/made_walk.h"
 #include "tests/camera/made_camera.h"
 #include "tests/io/sample_files.h"

@@ -1,4 +1,4 @@
-#include "jobs/cycle.h"
+#include "jobs/simulate/cycle.h"
 
 #include <stdexcept>
 
@@ -7,7 +7,7 @@
 
 #include "core/conventions.h"
 #include "core/errors.h"
-#include "io/model_file.h"
+#include "io/scene/model_file.h"
 
 namespace walktrack {
 namespace {

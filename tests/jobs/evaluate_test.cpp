@@ -1,4 +1,4 @@
-#include "jobs/evaluate.h"
+#include "jobs/evaluate/evaluate.h"
 
 #include <cmath>
 #include <filesystem>
@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.h"
-#include "io/files.h"
-#include "io/kinetics_file.h"
-#include "io/motion_file.h"
+#include "io/archive/files.h"
+#include "io/tables/kinetics_file.h"
+#include "io/tables/motion_file.h"
 #include "tests/metrics/test_walk.h"
 
 namespace walktrack {

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "core/conventions.h"
-#include "io/motion_file.h"
-#include "jobs/motion_tables.h"
+#include "io/tables/motion_file.h"
+#include "jobs/track/motion_tables.h"
 
 namespace walktrack {
 namespace {

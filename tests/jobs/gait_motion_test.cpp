@@ -1,4 +1,4 @@
-#include "jobs/gait_motion.h"
+#include "jobs/render/gait_motion.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include "body/body.h"
 #include "core/conventions.h"
 #include "core/errors.h"
-#include "jobs/motion_tables.h"
+#include "jobs/track/motion_tables.h"
 #include "kinetics/force_error.h"
 #include "metrics/gait.h"
 

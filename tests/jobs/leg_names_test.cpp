@@ -7,16 +7,16 @@
 
 #include "body/kinematics.h"
 #include "body/pose_from_joints.h"
-#include "io/motion_file.h"
-#include "io/render_file.h"
-#include "jobs/render.h"
-#include "jobs/track.h"
+#include "io/scene/render_file.h"
+#include "io/tables/motion_file.h"
+#include "jobs/render/render.h"
+#include "jobs/track/track.h"
 #include "metrics/joint_error.h"
 #include "synth/made_walk.h"
 #include "synth/stage.h"
 #include "tests/run_program.h"
 #include "tests/synth/filmed.h"
-#include "tracker/exchange.h"
+#include "tracker/moves/exchange.h"
 
 namespace walktrack {
 namespace {

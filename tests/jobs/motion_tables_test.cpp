@@ -1,13 +1,13 @@
-#include "jobs/motion_tables.h"
+#include "jobs/track/motion_tables.h"
 
 #include <filesystem>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/csv.h"
-#include "io/files.h"
-#include "io/motion_file.h"
+#include "io/archive/files.h"
+#include "io/tables/csv.h"
+#include "io/tables/motion_file.h"
 
 namespace walktrack {
 namespace {

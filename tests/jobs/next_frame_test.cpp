@@ -1,8 +1,8 @@
-#include "jobs/next_frame.h"
+#include "jobs/track/next_frame.h"
 
 #include <gtest/gtest.h>
 
-#include "jobs/track_setup.h"
+#include "jobs/track/track_setup.h"
 
 namespace walktrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "jobs/particle_budget.h"
+#include "jobs/track/particle_budget.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "jobs/plan.h"
+#include "jobs/plan/plan.h"
 
 #include <cmath>
 

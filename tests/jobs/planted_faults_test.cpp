@@ -13,7 +13,7 @@
 
 #include "core/conventions.h"
 #include "core/rng.h"
-#include "jobs/evaluate.h"
+#include "jobs/evaluate/evaluate.h"
 #include "synth/made_walk.h"
 #include "tests/body/changed_motion.h"
 

@@ -1,4 +1,4 @@
-#include "jobs/planted_track.h"
+#include "jobs/track/planted_track.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "jobs/prior.h"
+#include "jobs/prior/prior.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 
 #include "core/errors.h"
 #include "gait/prior_file.h"
-#include "io/files.h"
-#include "jobs/prior_pictures.h"
+#include "io/archive/files.h"
+#include "jobs/prior/prior_pictures.h"
 
 namespace walktrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "jobs/prior_walk.h"
+#include "jobs/prior/prior_walk.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
-#include "io/model_file.h"
+#include "io/scene/model_file.h"
 #include "tests/message_of.h"
 
 namespace walktrack {

@@ -1,4 +1,4 @@
-#include "jobs/render.h"
+#include "jobs/render/render.h"
 
 #include <cmath>
 #include <cstring>
@@ -12,11 +12,11 @@
 #include "body/kinematics.h"
 #include "core/conventions.h"
 #include "core/errors.h"
-#include "io/csv.h"
-#include "io/files.h"
-#include "io/motion_file.h"
-#include "io/render_file.h"
-#include "io/scene_video.h"
+#include "io/archive/files.h"
+#include "io/scene/render_file.h"
+#include "io/tables/csv.h"
+#include "io/tables/motion_file.h"
+#include "io/video/scene_video.h"
 
 namespace walktrack {
 namespace {
@@ -93,7 +93,8 @@ TEST_F(Render, WritesASceneThatReadsBackWithItsTruth) {
   EXPECT_EQ(FrameSource(scene.cameras[0].background).facts().frame_count, 3);
   const CsvTable angles = read_csv(job_.output / "angles.csv");
   EXPECT_EQ(angles.rows.size(), 16u);
-  // As a track's result names it (io/angles_file.h), so that the two can be laid over each other.
+  // As a track's result names it (io/tables/angles_file.h), so that the two can be laid over each
+  // other.
   EXPECT_TRUE(angles.optional_number(angles.rows[0], angles.column("knee_angle_l_deg")));
   EXPECT_EQ(read_csv(job_.output / "events.csv").columns.size(), 3u);
 }

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.h"
-#include "io/checkpoint_file.h"
-#include "io/frame_file.h"
-#include "jobs/track.h"
-#include "jobs/track_origin.h"
+#include "io/archive/checkpoint_file.h"
+#include "io/archive/frame_file.h"
+#include "jobs/track/track.h"
+#include "jobs/track/track_origin.h"
 #include "tests/run_program.h"
 
 namespace walktrack {

@@ -1,5 +1,5 @@
 // The self-test's own machinery, and its quickest trials.
-#include "jobs/selftest.h"
+#include "jobs/selftest/selftest.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "jobs/simulate.h"
+#include "jobs/simulate/simulate.h"
 
 #include <filesystem>
 #include <fstream>
@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
-#include "io/csv.h"
-#include "io/model_file.h"
-#include "io/video.h"
+#include "io/scene/model_file.h"
+#include "io/tables/csv.h"
+#include "io/video/video.h"
 
 namespace walktrack {
 namespace {

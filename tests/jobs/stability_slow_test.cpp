@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel_for.h"
-#include "io/files.h"
-#include "jobs/stability.h"
+#include "io/archive/files.h"
+#include "jobs/simulate/stability.h"
 
 namespace walktrack {
 namespace {

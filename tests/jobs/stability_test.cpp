@@ -1,4 +1,4 @@
-#include "jobs/stability.h"
+#include "jobs/simulate/stability.h"
 
 #include <cmath>
 #include <set>

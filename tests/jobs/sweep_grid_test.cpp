@@ -1,4 +1,4 @@
-#include "jobs/sweep_grid.h"
+#include "jobs/sweep/sweep_grid.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "jobs/sweep.h"
+#include "jobs/sweep/sweep.h"
 
 #include <atomic>
 #include <cmath>
@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.h"
-#include "io/csv.h"
-#include "io/files.h"
-#include "io/render_file.h"
-#include "jobs/render.h"
+#include "io/archive/files.h"
+#include "io/scene/render_file.h"
+#include "io/tables/csv.h"
+#include "jobs/render/render.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 

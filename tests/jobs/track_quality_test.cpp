@@ -1,4 +1,4 @@
-#include "jobs/track_quality.h"
+#include "jobs/track/track_quality.h"
 
 #include <algorithm>
 

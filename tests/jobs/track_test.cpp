@@ -1,4 +1,4 @@
-#include "jobs/track.h"
+#include "jobs/track/track.h"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.h"
-#include "io/files.h"
-#include "io/motion_file.h"
+#include "io/archive/files.h"
+#include "io/tables/motion_file.h"
 #include "metrics/joint_error.h"
 
 namespace walktrack {

@@ -7,12 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "core/job_control.h"
-#include "io/files.h"
-#include "io/motion_file.h"
-#include "io/render_file.h"
-#include "io/scene.h"
-#include "jobs/render.h"
-#include "jobs/track.h"
+#include "io/archive/files.h"
+#include "io/scene/render_file.h"
+#include "io/scene/scene.h"
+#include "io/tables/motion_file.h"
+#include "jobs/render/render.h"
+#include "jobs/track/track.h"
 #include "metrics/joint_error.h"
 #include "tests/io/sample_files.h"
 

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/job_control.h"
-#include "io/files.h"
-#include "io/motion_file.h"
-#include "io/render_file.h"
-#include "io/scene.h"
-#include "jobs/render.h"
-#include "jobs/track.h"
+#include "io/archive/files.h"
+#include "io/scene/render_file.h"
+#include "io/scene/scene.h"
+#include "io/tables/motion_file.h"
+#include "jobs/render/render.h"
+#include "jobs/track/track.h"
 #include "metrics/joint_error.h"
 #include "tests/io/sample_files.h"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.h"
-#include "io/csv.h"
+#include "io/tables/csv.h"
 #include "metrics/statistics.h"
 
 namespace walktrack {

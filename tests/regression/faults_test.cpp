@@ -11,8 +11,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/motion_file.h"
-#include "io/run_record.h"
+#include "io/archive/run_record.h"
+#include "io/tables/motion_file.h"
 #include "tests/body/changed_motion.h"
 #include "tests/regression/compared.h"
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "io/files.h"
+#include "io/archive/files.h"
 #include "tests/regression/suite.h"
 #include "tests/run_program.h"
 

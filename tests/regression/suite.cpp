@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "io/files.h"
-#include "io/motion_file.h"
-#include "io/render_file.h"
-#include "jobs/evaluate.h"
-#include "jobs/render.h"
+#include "io/archive/files.h"
+#include "io/scene/render_file.h"
+#include "io/tables/motion_file.h"
+#include "jobs/evaluate/evaluate.h"
+#include "jobs/render/render.h"
 #include "metrics/statistics.h"
 
 namespace walktrack {

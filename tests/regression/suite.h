@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "body/motion.h"
-#include "jobs/track.h"
+#include "jobs/track/track.h"
 #include "metrics/coverage.h"
 #include "tests/regression/bands.h"
 

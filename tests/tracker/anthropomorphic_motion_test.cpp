@@ -1,4 +1,4 @@
-#include "tracker/anthropomorphic_motion.h"
+#include "tracker/motion/anthropomorphic_motion.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 #include "body/kinematics.h"
 #include "fixture.h"
-#include "tracker/markov_motion.h"
+#include "tracker/motion/markov_motion.h"
 
 namespace walktrack {
 namespace {

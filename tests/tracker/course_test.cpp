@@ -1,4 +1,4 @@
-#include "tracker/course.h"
+#include "tracker/moves/course.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "tracker/estimate.h"
+#include "tracker/smooth/estimate.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "tracker/exchange.h"
+#include "tracker/moves/exchange.h"
 
 #include <gtest/gtest.h>
 

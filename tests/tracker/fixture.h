@@ -3,9 +3,9 @@
 
 #include "body/kinematics.h"
 #include "core/conventions.h"
-#include "tracker/kneed_motion.h"
-#include "tracker/motion.h"
-#include "tracker/planar_body.h"
+#include "tracker/motion/kneed_motion.h"
+#include "tracker/motion/motion.h"
+#include "tracker/motion/planar_body.h"
 #include "tracker/scene.h"
 #include "tracker/start.h"
 #include "tracker/walker_filter.h"

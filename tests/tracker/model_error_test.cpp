@@ -1,4 +1,4 @@
-#include "tracker/model_error.h"
+#include "tracker/smooth/model_error.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
-#include "tracker/exchange.h"
+#include "tracker/moves/exchange.h"
 
 namespace walktrack {
 namespace {

@@ -1,12 +1,12 @@
 // Laws that every motion model keeps.
-#include "tracker/motion_model.h"
+#include "tracker/motion/motion_model.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "fixture.h"
-#include "tracker/course.h"
+#include "tracker/moves/course.h"
 
 namespace walktrack {
 namespace {

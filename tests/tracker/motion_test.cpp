@@ -1,4 +1,4 @@
-#include "tracker/motion.h"
+#include "tracker/motion/motion.h"
 
 #include <cmath>
 

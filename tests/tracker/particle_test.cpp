@@ -1,4 +1,4 @@
-#include "tracker/particle.h"
+#include "tracker/motion/particle.h"
 
 #include <cmath>
 

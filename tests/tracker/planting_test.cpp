@@ -1,4 +1,4 @@
-#include "tracker/planting.h"
+#include "tracker/smooth/planting.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "tracker/refinement.h"
+#include "tracker/smooth/refinement.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "tracker/rephase.h"
+#include "tracker/moves/rephase.h"
 
 #include <cmath>
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
-#include "tracker/course.h"
-#include "tracker/exchange.h"
+#include "tracker/moves/course.h"
+#include "tracker/moves/exchange.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {

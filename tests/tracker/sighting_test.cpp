@@ -1,4 +1,4 @@
-#include "tracker/sighting.h"
+#include "tracker/detect/sighting.h"
 
 #include <cmath>
 

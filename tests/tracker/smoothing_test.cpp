@@ -1,4 +1,4 @@
-#include "tracker/smoothing.h"
+#include "tracker/smooth/smoothing.h"
 
 #include <cmath>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "tracker/stature.h"
+#include "tracker/detect/stature.h"
 
 #include <cmath>
 

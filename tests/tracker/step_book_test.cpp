@@ -1,4 +1,4 @@
-#include "tracker/step_book.h"
+#include "tracker/motion/step_book.h"
 
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-#include "tracker/stride.h"
+#include "tracker/motion/stride.h"
 
 #include <cmath>
 

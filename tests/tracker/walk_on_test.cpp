@@ -1,4 +1,4 @@
-#include "tracker/walk_on.h"
+#include "tracker/motion/walk_on.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,98 @@
+#include "io/archive/frame_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/errors.h"
+#include "io/archive/state_fields.h"
+
+namespace walktrack {
+
+namespace {
+
+// In front of each record: its length.
+constexpr size_t kLengthBytes = sizeof(uint32_t);
+
+[[noreturn]] void fail(const std::filesystem::path& path, std::string_view what) {
+  throw std::runtime_error(
+      fmt::format("{}: {}: {}", path.string(), what, std::generic_category().message(errno)));
+}
+
+}  // namespace
+
+FrameFile::FrameFile(const std::filesystem::path& path, size_t kept)
+    : path_(path), fd_(::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666)) {
+  if (fd_ < 0) fail(path_, "cannot be opened");
+  for (size_t i = 0; i < kept; ++i) {
+    const uint64_t from = end_of(i);
+    uint32_t length = 0;
+    std::memcpy(&length, read(from, kLengthBytes).data(), kLengthBytes);
+    ends_.push_back(from + kLengthBytes + length);
+  }
+  if (kept > 0) back_ = (*this)[kept - 1];
+  if (::ftruncate(fd_, static_cast<off_t>(end_of(kept))) != 0) fail(path_, "cannot be cut");
+}
+
+FrameFile::~FrameFile() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+FrameFile::FrameFile(FrameFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      fd_(std::exchange(other.fd_, -1)),
+      ends_(std::move(other.ends_)),
+      back_(std::move(other.back_)) {}
+
+void FrameFile::append(const FrameRecord& record) {
+  ArchiveWriter archive;
+  archive(uint32_t{0}, record);
+  std::string bytes = archive.bytes();
+  const auto length = static_cast<uint32_t>(bytes.size() - kLengthBytes);
+  std::memcpy(bytes.data(), &length, kLengthBytes);
+  uint64_t at = end_of(size());
+  for (std::string_view rest = bytes; !rest.empty();) {
+    const ssize_t written = ::pwrite(fd_, rest.data(), rest.size(), static_cast<off_t>(at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(path_, "cannot be written");
+    at += static_cast<uint64_t>(written);
+    rest.remove_prefix(static_cast<size_t>(written));
+  }
+  ends_.push_back(at);
+  back_ = record;
+}
+
+void FrameFile::flush() const {
+  if (::fsync(fd_) != 0 && errno != EINVAL) fail(path_, "cannot be flushed");
+}
+
+std::string FrameFile::read(uint64_t from, size_t size) const {
+  std::string bytes(size, '\0');
+  for (size_t done = 0; done < size;) {
+    const ssize_t got =
+        ::pread(fd_, bytes.data() + done, size - done, static_cast<off_t>(from + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(path_, "cannot be read");
+    if (got == 0) throw InputError(fmt::format("{}: has lost its last frames", path_.string()));
+    done += static_cast<size_t>(got);
+  }
+  return bytes;
+}
+
+FrameRecord FrameFile::operator[](size_t index) const {
+  const uint64_t from = end_of(index) + kLengthBytes;
+  const std::string bytes = read(from, static_cast<size_t>(ends_.at(index) - from));
+  ArchiveReader archive(bytes, path_.native());
+  FrameRecord record;
+  archive(record);
+  return record;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,113 @@
+#include "io/archive/run_record.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/version.h"
+#include "io/archive/files.h"
+#include "io/archive/sha256.h"
+
+namespace walktrack {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Numbers, flags and lists as such, words as text.
+Json typed(const std::string& text) {
+  const Json value = Json::parse(text, nullptr, false);
+  return value.is_discarded() ? Json(text) : value;
+}
+
+// "filter.flow.sd" becomes {"filter": {"flow": {"sd": …}}}. `threads` changes no result.
+Json nested_config(const ConfigWithOrigin& config) {
+  Json root = Json::object();
+  for (const auto& [key, text] : config_values(config.values)) {
+    if (key == "threads") continue;
+    Json* place = &root;
+    for (size_t at = 0;;) {
+      const size_t dot = key.find('.', at);
+      place = &(*place)[key.substr(at, dot - at)];
+      if (dot == std::string::npos) break;
+      at = dot + 1;
+    }
+    *place = typed(text);
+  }
+  return root;
+}
+
+Json origins(const ConfigWithOrigin& config) {
+  Json root = Json::object();
+  for (const auto& [key, origin] : config.origin) {
+    if (key != "threads") root[key] = origin;
+  }
+  return root;
+}
+
+Json quality_list(const std::vector<QualityMeasure>& quality) {
+  Json list = Json::array();
+  for (const QualityMeasure& m : quality) {
+    list.push_back({{"name", m.name},
+                    {"what", m.what},
+                    {"value", m.value},
+                    {"unit", m.unit},
+                    {"digits", m.digits},
+                    {"gate", m.gate ? Json(*m.gate) : Json()},
+                    {"at_most", m.at_most},
+                    {"passed", m.passed()}});
+  }
+  return list;
+}
+
+template <typename Pairs>
+Json object_of(const Pairs& pairs) {
+  Json root = Json::object();
+  for (const auto& [name, value] : pairs) root[name] = value;
+  return root;
+}
+
+}  // namespace
+
+std::string run_json(const RunRecord& record) {
+  const BuildFacts& facts = build_facts();
+  Json root;
+  root["program"] = {{"name", "walktrack"},
+                     {"version", facts.version},
+                     {"commit", facts.commit},
+                     {"build", facts.build_type},
+                     {"compiler", facts.compiler}};
+  root["command"] = record.command;
+  root["status"] = record.status;
+  root["notes"] = record.notes;
+  root["scene"] = {{"file", record.scene}, {"sha256", record.scene_digest}};
+  root["seed"] = record.config.values.seed;
+  root["config"] = nested_config(record.config);
+  root["config_origin"] = origins(record.config);
+  root["numbers"] = object_of(record.numbers);
+  root["quality"] = quality_list(record.quality);
+  root["by_frame"] = object_of(record.by_frame);
+  root["digest"] = record.digest;
+  root["timing"] = {{"command_line", record.command_line},
+                    {"threads", record.threads},
+                    {"seconds", record.seconds},
+                    {"resumed_at_frame", record.resumed_at_frame},
+                    {"stage_seconds", object_of(record.stage_seconds)},
+                    {"stage_cpu_seconds", object_of(record.stage_cpu_seconds)}};
+  // Names come from outside and may be no UTF-8.
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::optional<std::string> command_of_result(const std::filesystem::path& folder) {
+  constexpr size_t kMaxBytes = size_t{1} << 30;
+  const std::filesystem::path file = folder / "run.json";
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  const Json root = Json::parse(read_text_file(file, kMaxBytes), nullptr, false);
+  if (!root.is_object() || !root.contains("command") || !root["command"].is_string())
+    return std::nullopt;
+  return root["command"].get<std::string>();
+}
+
+std::string result_digest(const std::string& joints_csv, const std::string& uncertainty_csv) {
+  return sha256(joints_csv + uncertainty_csv);
+}
+
+}  // namespace walktrack

@@ -1,0 +1,59 @@
+// run.json: how a result came about and what happened on the way.
+//
+// Everything but the "timing" block follows from the inputs, the configuration and the seed alone,
+// so it is the same for any number of threads; threads, command line and clock times are in that
+// block.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/config/config.h"
+
+namespace walktrack {
+
+// One measure of a result's quality, with the gate it has to pass, if any.
+struct QualityMeasure {
+  std::string name;  // e.g. "foot_slide_mm"
+  std::string what;  // the same in words
+  double value = 0;
+  std::string unit;  // "" = a number
+  int digits = 0;    // after the point, where people read it
+  std::optional<double> gate;
+  bool at_most = true;  // or at least
+  bool passed() const { return !gate || (at_most ? value <= *gate : value >= *gate); }
+};
+
+struct RunRecord {
+  std::string command;                                  // e.g. "track"
+  std::string scene;                                    // name of the scene file
+  std::string scene_digest;                             // SHA-256 of it
+  ConfigWithOrigin config;                              // effective
+  std::string status;                                   // e.g. "tracked", "lost", "interrupted"
+  std::vector<std::string> notes;                       // what the user should know
+  std::vector<std::pair<std::string, double>> numbers;  // e.g. "fallen_particles"
+  std::vector<QualityMeasure> quality;
+  std::vector<std::pair<std::string, std::vector<double>>> by_frame;  // e.g. "ess"; NaN -> null
+  std::string digest;  // result_digest() of the result's tables
+
+  // The timing block.
+  std::vector<std::string> command_line;
+  int threads = 1;  // in fact used
+  // In order of the stages: passed on the clock, and worked by all threads together.
+  std::vector<std::pair<std::string, double>> stage_seconds, stage_cpu_seconds;
+  double seconds = 0;        // altogether
+  int resumed_at_frame = 0;  // that these times begin with
+};
+
+std::string run_json(const RunRecord& record);
+
+// The command that wrote the result folder ("track", …); nullopt where there is none.
+std::optional<std::string> command_of_result(const std::filesystem::path& folder);
+
+// SHA-256 of joints.csv and uncertainty.csv, one after the other.
+std::string result_digest(const std::string& joints_csv, const std::string& uncertainty_csv);
+
+}  // namespace walktrack

@@ -1,0 +1,159 @@
+// The members of everything that a checkpoint or a file of frames holds (io/archive/archive.h).
+#pragma once
+
+#include "io/archive/archive.h"
+#include "observation/observer.h"
+#include "tracker/tracker.h"
+
+namespace walktrack {
+
+template <typename Archive, ArchivedAs<LegPose> T>
+void fields(Archive& archive, T& value) {
+  auto& [hip_flexion, hip_abduction, hip_rotation, knee_flexion, ankle_dorsiflexion] = value;
+  archive(hip_flexion, hip_abduction, hip_rotation, knee_flexion, ankle_dorsiflexion);
+}
+
+template <typename Archive, ArchivedAs<ArmPose> T>
+void fields(Archive& archive, T& value) {
+  auto& [shoulder_flexion, shoulder_abduction, elbow_flexion] = value;
+  archive(shoulder_flexion, shoulder_abduction, elbow_flexion);
+}
+
+template <typename Archive, ArchivedAs<Pose> T>
+void fields(Archive& archive, T& value) {
+  auto& [root, heading, list, tilt, legs, arms] = value;
+  archive(root, heading, list, tilt, legs, arms);
+}
+
+template <typename Archive, ArchivedAs<JointPositions> T>
+void fields(Archive& archive, T& value) {
+  auto& [at] = value;
+  archive(at);
+}
+
+template <typename Archive, ArchivedAs<KneedState> T>
+void fields(Archive& archive, T& value) {
+  auto& [q, qd, stance_stop, swing_stop, contact_x, since_transfer, clearance, transfers, hasty] =
+      value;
+  archive(q, qd, stance_stop, swing_stop, contact_x, since_transfer, clearance, transfers, hasty);
+}
+
+template <typename Archive, ArchivedAs<SpringDamper> T>
+void fields(Archive& archive, T& value) {
+  auto& [stiffness, damping, rest] = value;
+  archive(stiffness, damping, rest);
+}
+
+template <typename Archive, ArchivedAs<KneedControls> T>
+void fields(Archive& archive, T& value) {
+  auto& [torso, hip, stance_knee, swing_knee, toe_off_impulse] = value;
+  archive(torso, hip, stance_knee, swing_knee, toe_off_impulse);
+}
+
+template <typename Archive, ArchivedAs<StepAim> T>
+void fields(Archive& archive, T& value) {
+  auto& [speed, step_length] = value;
+  archive(speed, step_length);
+}
+
+template <typename Archive, ArchivedAs<WalkerParticle> T>
+void fields(Archive& archive, T& value) {
+  auto& [predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_extra, noise,
+         walker, stance, ball, extra, extra_before, pose, pose_before, way, arriving, controls,
+         aim] = value;
+  archive(predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_extra, noise,
+          walker, stance, ball, extra, extra_before, pose, pose_before, way, arriving, controls,
+          aim);
+}
+
+template <typename Archive, ArchivedAs<ParticleSet<WalkerParticle>> T>
+void fields(Archive& archive, T& value) {
+  auto& [states, log_weights, log_likelihoods] = value;
+  archive(states, log_weights, log_likelihoods);
+}
+
+template <typename Archive, ArchivedAs<FilterState<WalkerParticle>> T>
+void fields(Archive& archive, T& value) {
+  auto& [set, scale] = value;
+  archive(set, scale);
+}
+
+template <typename Archive, ArchivedAs<LastSeen> T>
+void fields(Archive& archive, T& value) {
+  auto& [position, velocity, frame] = value;
+  archive(position, velocity, frame);
+}
+
+template <typename Archive, ArchivedAs<Stature> T>
+void fields(Archive& archive, T& value) {
+  auto& [height, sd] = value;
+  archive(height, sd);
+}
+
+template <typename Archive, ArchivedAs<TrackerState> T>
+void fields(Archive& archive, T& value) {
+  auto& [frame, starts, filter, last_seen, supports, below, beaten, losses, doubt, stature] = value;
+  archive(frame, starts, filter, last_seen, supports, below, beaten, losses, doubt, stature);
+}
+
+template <typename Archive, ArchivedAs<BackgroundModel> T>
+void fields(Archive& archive, T& value) {
+  auto& [width, height, luma, orange, green, luma_precision, chroma_precision] = value;
+  archive(width, height, luma, orange, green, luma_precision, chroma_precision);
+}
+
+template <typename Archive, ArchivedAs<AppearanceState> T>
+void fields(Archive& archive, T& value) {
+  auto& [frames, anchor, recent, anchor_pixels, log_density] = value;
+  archive(frames, anchor, recent, anchor_pixels, log_density);
+}
+
+template <typename Archive, ArchivedAs<PixelRect> T>
+void fields(Archive& archive, T& value) {
+  auto& [x0, y0, x1, y1] = value;
+  archive(x0, y0, x1, y1);
+}
+
+template <typename Archive, ArchivedAs<Region> T>
+void fields(Archive& archive, T& value) {
+  auto& [area, metres_per_px, picture] = value;
+  archive(area, metres_per_px, picture);
+}
+
+template <typename Archive, ArchivedAs<ObserverState> T>
+void fields(Archive& archive, T& value) {
+  auto& [background, appearance, scene, grey_width, grey_height, grey_before, frames] = value;
+  archive(background, appearance, scene, grey_width, grey_height, grey_before, frames);
+}
+
+template <typename Archive, ArchivedAs<Spread> T>
+void fields(Archive& archive, T& value) {
+  auto& [mean, sd, p05, p95] = value;
+  archive(mean, sd, p05, p95);
+}
+
+template <typename Archive, ArchivedAs<FrameEstimate> T>
+void fields(Archive& archive, T& value) {
+  auto& [joint_count, joints, spread, pose, angles, left_stance, since_transfer, speed] = value;
+  archive(joint_count, joints, spread, pose, angles, left_stance, since_transfer, speed);
+}
+
+template <typename Archive, ArchivedAs<FilterReport> T>
+void fields(Archive& archive, T& value) {
+  auto& [log_evidence, ess, layers, dead, accepted, all_dead] = value;
+  archive(log_evidence, ess, layers, dead, accepted, all_dead);
+}
+
+template <typename Archive, ArchivedAs<StrideModes> T>
+void fields(Archive& archive, T& value) {
+  auto& [phase, exchanged] = value;
+  archive(phase, exchanged);
+}
+
+template <typename Archive, ArchivedAs<FrameRecord> T>
+void fields(Archive& archive, T& value) {
+  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes] = value;
+  archive(tracked, estimate, filter, support, samples, fallen, diverged, modes);
+}
+
+}  // namespace walktrack

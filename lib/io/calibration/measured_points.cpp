@@ -1,0 +1,49 @@
+#include "io/calibration/measured_points.h"
+
+#include <fmt/format.h>
+#include <Eigen/SVD>
+
+#include "core/errors.h"
+#include "io/tables/csv.h"
+
+namespace walktrack {
+
+namespace {
+
+constexpr size_t kFewestPoints = 4;
+constexpr double kLeastBreadth = 0.02;  // of points across their longest line, share of its length
+
+// Whether the points lie on one line, or nearly so: their second singular value is tiny.
+bool on_one_line(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::MatrixX3d rows(points.size(), 3);
+  for (size_t i = 0; i < points.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = points[i];
+  rows.rowwise() -= rows.colwise().mean().eval();
+  const Eigen::Vector3d spread = Eigen::JacobiSVD<Eigen::MatrixX3d>(rows).singularValues();
+  return !(spread[1] > kLeastBreadth * spread[0]);
+}
+
+}  // namespace
+
+MeasuredPoints read_measured_points(const std::filesystem::path& path) {
+  const CsvTable table = read_csv(path);
+  const size_t u = table.column("u"), v = table.column("v");
+  const size_t x = table.column("x"), y = table.column("y");
+  const auto z = table.find_column("z");
+  MeasuredPoints out;
+  for (const CsvTable::Row& row : table.rows) {
+    out.pixels.emplace_back(table.number(row, u), table.number(row, v));
+    out.world.emplace_back(table.number(row, x), table.number(row, y),
+                           z ? table.number(row, *z) : 0.0);
+    out.lines.push_back(row.line);
+  }
+  if (out.pixels.size() < kFewestPoints)
+    throw InputError(
+        describe({table.file, 0, ""}, fmt::format("{} points", out.pixels.size()),
+                 fmt::format("at least {}; eight or more tell mistakes apart", kFewestPoints)));
+  if (on_one_line(out.world))
+    throw InputError(describe({table.file, 0, ""}, "points that all lie on one line",
+                              "points spread over the ground that the camera sees"));
+  return out;
+}
+
+}  // namespace walktrack

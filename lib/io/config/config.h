@@ -1,0 +1,88 @@
+// The configuration: how to track. It gathers the config structs of the modules; each struct owns
+// its defaults, and config_table.cpp holds the one table that gives its members names and ranges.
+//
+// Files are YAML and list only what differs:
+//   seed: 7
+//   filter: {particles: 5000}
+// Errors are UsageErrors "file:line: key: found X, allowed Y"; unknown keys name the nearest one.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "body/body.h"
+#include "kinetics/kinetics.h"
+#include "observation/config.h"
+#include "tracker/smooth/smoothing.h"
+#include "tracker/tracker.h"
+
+namespace walktrack {
+
+// A result below these ends in exit code 4.
+struct GateConfig {
+  double lost_share = 0.1;   // of the frames after the walker was found
+  double least_steps = 1;    // foot changes seen; who makes none does not walk
+  double leg_swaps = 60;     // a minute
+  double foot_slide = 0.15;  // m, mean over stances, before feet are planted
+  double penetration = 0.1;  // m
+  double jitter = 2500;      // m/s^3
+};
+
+// Particles that follow the clock, so that frames keep to a time. What comes out then depends on
+// the machine's speed and load: it is the one thing in the configuration that makes results differ
+// from run to run.
+struct BudgetConfig {
+  double frame_ms = 0;        // for a frame, from decoding to the estimate; 0 = none
+  int least_particles = 50;   // never fewer, even if frames take longer
+  int most_particles = 2000;  // never more
+};
+
+// The page to look at.
+struct ReportConfig {
+  double embed_mb = 24;  // of overlay films inside it; larger ones are played from beside it
+};
+
+// When `track` notes where it stands (io/archive/checkpoint_file.h).
+struct CheckpointConfig {
+  double seconds = 10;  // between checkpoints, or as long as keeps their cost small; 0: each frame
+};
+
+struct Config {
+  uint64_t seed = 1;  // of all random numbers
+  int threads = 0;    // 0 = all of the machine
+  BodyGroups body;
+  ObservationConfig observation;
+  TrackerConfig tracker;
+  SmoothingConfig smoothing;
+  KineticsConfig kinetics;
+  GateConfig gates;
+  BudgetConfig budget;
+  ReportConfig report;
+  CheckpointConfig checkpoint;
+};
+
+// A configuration and where each value that is no default came from.
+struct ConfigWithOrigin {
+  Config values;
+  std::map<std::string, std::string> origin;  // key -> "fast.yaml:3" or "--set"
+};
+
+// The values of a file on top of `config`. Where there is no such file, `path` may be the name of a
+// preset (io/config/presets.h).
+void apply_config_file(ConfigWithOrigin& config, const std::string& path);
+
+// "key=value" on top of `config`; `origin` is what messages and printouts call it, e.g. "--set".
+void apply_setting(ConfigWithOrigin& config, const std::string& setting, const std::string& origin);
+
+// As YAML that apply_config_file reads back to the same values: every parameter, or only those that
+// are no defaults; with a comment of meaning, allowed values and origin, or bare.
+enum class ConfigScope { kEverything, kChanged };
+std::string config_as_yaml(const ConfigWithOrigin& config, ConfigScope scope, bool comments);
+
+// Every key and its effective value as text, in table order: what run.json keeps.
+std::vector<std::pair<std::string, std::string>> config_values(const Config& config);
+
+}  // namespace walktrack

@@ -1,0 +1,137 @@
+#include "io/config/yaml.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/errors.h"
+#include "io/archive/files.h"
+
+namespace walktrack {
+
+YamlValue YamlValue::from_file(const std::string& path) {
+  return from_text(read_text_file(path, kMaxYamlBytes), path);
+}
+
+YamlValue YamlValue::from_text(const std::string& text, const std::string& name) {
+  try {
+    YAML::Node node = YAML::Load(text);
+    if (!node.IsDefined() || node.IsNull()) node = YAML::Node(YAML::NodeType::Map);
+    return {node, name, ""};
+  } catch (const YAML::Exception& error) {
+    throw InputError(describe({name, error.mark.is_null() ? 0 : error.mark.line + 1, ""},
+                              fmt::format("broken YAML ({})", error.msg), ""));
+  }
+}
+
+int YamlValue::line() const {
+  const YAML::Mark mark = node_.Mark();
+  return mark.is_null() ? 0 : mark.line + 1;
+}
+
+void YamlValue::fail(std::string_view found, std::string_view allowed) const {
+  throw InputError(describe({file_, line(), key_}, found, allowed));
+}
+
+std::string YamlValue::describe_found() const {
+  if (node_.IsSequence()) return "a list";
+  if (node_.IsMap()) return "a map";
+  if (node_.IsScalar()) return fmt::format("'{}'", node_.Scalar());
+  return "nothing";
+}
+
+std::vector<std::string> YamlValue::keys() const {
+  if (!is_map()) fail(describe_found(), "a map of keys");
+  std::vector<std::string> found;
+  for (const auto& entry : node_) {
+    const YamlValue key(entry.first, file_, key_);
+    if (!key.is_scalar()) key.fail("a key that is no word", "words as keys");
+    found.push_back(entry.first.Scalar());
+  }
+  return found;
+}
+
+void YamlValue::only_keys(const std::vector<std::string>& allowed) const {
+  std::set<std::string> seen;
+  for (const auto& entry : node_.IsMap() ? node_ : (keys(), node_)) {
+    const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
+    const YamlValue place(entry.first, file_, key_.empty() ? name : key_ + "." + name);
+    if (!seen.insert(name).second) place.fail("the key twice", "once");
+    if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
+    const std::string nearest = nearest_word(name, allowed);
+    place.fail(nearest.empty() ? "an unknown key"
+                               : fmt::format("an unknown key, did you mean '{}'?", nearest),
+               fmt::format("{}", fmt::join(allowed, ", ")));
+  }
+}
+
+bool YamlValue::has(const std::string& key) const {
+  if (!is_map()) fail(describe_found(), "a map of keys");
+  const YAML::Node child = node_[key];
+  return child.IsDefined() && !child.IsNull();
+}
+
+YamlValue YamlValue::at(const std::string& key) const {
+  const std::string path = key_.empty() ? key : key_ + "." + key;
+  if (!has(key)) {
+    throw InputError(describe({file_, line(), path}, "nothing", "this key is required"));
+  }
+  return {node_[key], file_, path};
+}
+
+std::vector<YamlValue> YamlValue::items() const {
+  if (!is_list()) fail(describe_found(), "a list");
+  std::vector<YamlValue> found;
+  for (size_t i = 0; i < node_.size(); ++i) {
+    found.push_back({node_[i], file_, fmt::format("{}[{}]", key_, i)});
+  }
+  return found;
+}
+
+std::string YamlValue::text() const {
+  if (!is_scalar() || node_.Scalar().empty()) fail(describe_found(), "a word or text");
+  return node_.Scalar();
+}
+
+double YamlValue::number() const {
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  return number(-kLargest, kLargest);
+}
+
+double YamlValue::number(double lowest, double highest) const {
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  const std::string range = lowest == -kLargest && highest == kLargest
+                                ? std::string("a number")
+                                : fmt::format("a number from {:g} to {:g}", lowest, highest);
+  const auto value = is_scalar() ? number_from_text(node_.Scalar()) : std::nullopt;
+  if (!value || !(*value >= lowest && *value <= highest)) fail(describe_found(), range);
+  return *value;
+}
+
+int YamlValue::integer(int lowest, int highest) const {
+  const auto value = is_scalar() ? number_from_text(node_.Scalar()) : std::nullopt;
+  if (!value || *value != std::floor(*value) || *value < lowest || *value > highest) {
+    fail(describe_found(), fmt::format("a whole number from {} to {}", lowest, highest));
+  }
+  return static_cast<int>(*value);
+}
+
+std::vector<double> YamlValue::numbers() const {
+  if (!is_list()) fail(describe_found(), "a list of numbers");
+  std::vector<double> found;
+  for (const YamlValue& item : items()) found.push_back(item.number());
+  return found;
+}
+
+std::vector<double> YamlValue::numbers(size_t count) const {
+  const std::string allowed = fmt::format("a list of {} numbers", count);
+  if (!is_list()) fail(describe_found(), allowed);
+  std::vector<double> found = numbers();
+  if (found.size() != count) fail(fmt::format("{} numbers", found.size()), allowed);
+  return found;
+}
+
+}  // namespace walktrack

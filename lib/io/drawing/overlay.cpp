@@ -1,0 +1,139 @@
+#include "io/drawing/overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "body/motion.h"
+
+namespace walktrack {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+const cv::Scalar kLeft(178, 114, 0), kRight(0, 94, 213), kTrunk(255, 255, 255),
+    kGrid(150, 150, 150);
+
+constexpr int kPieces = 12;             // that a bent line is drawn in
+constexpr int kFractionBits = 4;        // of OpenCV's sub-pixel coordinates
+constexpr double kFarOutside = 10'000;  // px; beyond it OpenCV's coordinates overflow
+
+cv::Point fixed_point(const Vector2d& pixel) {
+  constexpr double kScale = 1 << kFractionBits;
+  return {static_cast<int>(std::lround(kScale * pixel.x())),
+          static_cast<int>(std::lround(kScale * pixel.y()))};
+}
+
+void draw_piece(cv::Mat& image, const Vector2d& from, const Vector2d& to, const cv::Scalar& bgr,
+                int thickness_px) {
+  if (from.cwiseAbs().maxCoeff() > kFarOutside || to.cwiseAbs().maxCoeff() > kFarOutside) return;
+  cv::line(image, fixed_point(from), fixed_point(to), bgr, thickness_px, cv::LINE_AA,
+           kFractionBits);
+}
+
+struct Bone {
+  Joint from, to;
+  const cv::Scalar& bgr;
+};
+
+const std::array<Bone, 9> kBones{{
+    {Joint::kPelvis, Joint::kNeck, kTrunk},
+    {Joint::kNeck, Joint::kHead, kTrunk},
+    {Joint::kLeftHip, Joint::kRightHip, kTrunk},
+    {Joint::kLeftHip, Joint::kLeftKnee, kLeft},
+    {Joint::kLeftKnee, Joint::kLeftAnkle, kLeft},
+    {Joint::kLeftAnkle, Joint::kLeftToe, kLeft},
+    {Joint::kRightHip, Joint::kRightKnee, kRight},
+    {Joint::kRightKnee, Joint::kRightAnkle, kRight},
+    {Joint::kRightAnkle, Joint::kRightToe, kRight},
+}};
+
+const std::array<Bone, 5> kArmBones{{
+    {Joint::kLeftShoulder, Joint::kRightShoulder, kTrunk},
+    {Joint::kLeftShoulder, Joint::kLeftElbow, kLeft},
+    {Joint::kLeftElbow, Joint::kLeftWrist, kLeft},
+    {Joint::kRightShoulder, Joint::kRightElbow, kRight},
+    {Joint::kRightElbow, Joint::kRightWrist, kRight},
+}};
+
+void draw_bones(cv::Mat& image, const Camera& camera, const JointPositions& joints,
+                std::span<const Bone> bones, int thickness_px) {
+  for (const Bone& bone : bones) {
+    if (!known(joints[bone.from]) || !known(joints[bone.to])) continue;
+    draw_line(image, camera, joints[bone.from], joints[bone.to], bone.bgr, thickness_px);
+  }
+}
+
+double text_scale(const cv::Mat& image) { return std::max(0.35, image.rows / 960.0); }
+
+void draw_text(cv::Mat& image, const std::string& text, const cv::Point& at) {
+  const double scale = text_scale(image);
+  const int thickness = line_thickness(image);
+  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(0), 3 * thickness,
+              cv::LINE_AA);
+  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(255), thickness,
+              cv::LINE_AA);
+}
+
+}  // namespace
+
+int line_thickness(const cv::Mat& image) { return std::max(1, (image.rows + 240) / 480); }
+
+void draw_line(cv::Mat& image, const Camera& camera, const Vector3d& from, const Vector3d& to,
+               const cv::Scalar& bgr, int thickness_px) {
+  std::optional<Vector2d> last = project(camera, from);
+  for (int i = 1; i <= kPieces; ++i) {
+    const double share = static_cast<double>(i) / kPieces;
+    const std::optional<Vector2d> next = project(camera, from + share * (to - from));
+    if (last && next) draw_piece(image, *last, *next, bgr, thickness_px);
+    last = next;
+  }
+}
+
+void draw_ground_grid(cv::Mat& image, const Camera& camera, const Vector2d& centre,
+                      double half_side) {
+  const double x0 = std::floor(centre.x() - half_side), x1 = std::ceil(centre.x() + half_side);
+  const double y0 = std::floor(centre.y() - half_side), y1 = std::ceil(centre.y() + half_side);
+  for (double x = x0; x <= x1; ++x) draw_line(image, camera, {x, y0, 0}, {x, y1, 0}, kGrid);
+  for (double y = y0; y <= y1; ++y) draw_line(image, camera, {x0, y, 0}, {x1, y, 0}, kGrid);
+}
+
+void draw_axes(cv::Mat& image, const Camera& camera, const Vector3d& origin, double length) {
+  const std::array<cv::Scalar, 3> colours{cv::Scalar(0, 0, 255), cv::Scalar(0, 200, 0),
+                                          cv::Scalar(255, 0, 0)};
+  const std::array<const char*, 3> names{"x", "y", "z"};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const Vector3d tip = origin + length * Vector3d::Unit(static_cast<Eigen::Index>(axis));
+    draw_line(image, camera, origin, tip, colours[axis], 2 * line_thickness(image));
+    const auto pixel = project(camera, tip);
+    if (pixel && inside_image(camera, *pixel)) {
+      draw_text(image, names[axis],
+                {static_cast<int>(pixel->x()) + 3, static_cast<int>(pixel->y()) - 3});
+    }
+  }
+}
+
+void draw_skeleton(cv::Mat& image, const Camera& camera, const JointPositions& joints, bool arms,
+                   int thickness_px) {
+  draw_bones(image, camera, joints, kBones, thickness_px);
+  if (arms) draw_bones(image, camera, joints, kArmBones, thickness_px);
+}
+
+void draw_spread(cv::Mat& image, const Camera& camera, std::span<const JointPositions> skeletons,
+                 bool arms, double opacity) {
+  if (skeletons.empty()) return;
+  cv::Mat drawn = image.clone();
+  for (const JointPositions& joints : skeletons) draw_skeleton(drawn, camera, joints, arms, 1);
+  cv::addWeighted(drawn, opacity, image, 1 - opacity, 0, image);
+}
+
+void draw_caption(cv::Mat& image, const std::string& text) {
+  const int margin = static_cast<int>(std::lround(16 * text_scale(image)));
+  draw_text(image, text, {margin, 2 * margin + margin / 2});
+}
+
+}  // namespace walktrack

@@ -1,0 +1,124 @@
+#include "io/tables/gait_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "io/tables/csv.h"
+
+namespace walktrack {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* name_of(Side side) { return side == Side::kLeft ? "left" : "right"; }
+
+// With six decimals, as tables have them.
+Json number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::round(value * 1e6) / 1e6 + 0.0;
+}
+
+Json band(const Banded& banded) {
+  return {
+      {"value", number(banded.value)}, {"p05", number(banded.p05)}, {"p95", number(banded.p95)}};
+}
+
+template <size_t N>
+void add_bands(const std::array<std::string_view, N>& names, const std::array<Banded, N>& values,
+               Json& out) {
+  for (size_t k = 0; k < N; ++k) out[std::string(names[k])] = band(values[k]);
+}
+
+template <size_t N>
+Json bands(const std::array<std::string_view, N>& names, const std::array<Banded, N>& values) {
+  Json out = Json::object();
+  add_bands(names, values, out);
+  return out;
+}
+
+Json events_of(const GaitTable& table) {
+  struct Event {
+    double time;
+    Json json;
+  };
+  std::vector<Event> events;
+  const auto add = [&](const ContactRow& row, ContactColumn column, const char* name) {
+    const Banded& time = row.at[column];
+    if (!std::isfinite(time.value)) return;
+    events.push_back(
+        {time.value, {{"event", name}, {"side", name_of(row.side)}, {"time_s", band(time)}}});
+  };
+  for (const ContactRow& row : table.contacts) {
+    add(row, kFootStrike, "foot_strike");
+    add(row, kToeOff, "toe_off");
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Event& a, const Event& b) { return a.time < b.time; });
+  Json out = Json::array();
+  for (Event& event : events) out.push_back(std::move(event.json));
+  return out;
+}
+
+Json contacts_of(const GaitTable& table) {
+  Json out = Json::array();
+  for (const ContactRow& row : table.contacts) {
+    Json one = {{"side", name_of(row.side)}};
+    add_bands(kContactColumns, row.at, one);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+constexpr std::array kNotes{
+    "foot_strike: the ankle, once furthest ahead of the pelvis, has slowed to half of its speed; "
+    "toe_off: the toe is furthest behind the pelvis (after Zeni et al. 2008).",
+    "support_transfer: when the walker model's weight changed onto this foot. The model has no "
+    "double support, so it comes between the strike and the other foot's toe-off.",
+    "p05, p95: between these lie 90 % of the tracker's particles at the same contacts, and the "
+    "value. They say how certain the tracker is, given its model. Empty: too few particles or "
+    "steps "
+    "know.",
+    "step: to the other foot's contact, along and across the direction of walking; stride: to the "
+    "next contact of the same foot. symmetry: 100 (left - right) / mean of both."};
+
+}  // namespace
+
+std::string gait_json(const GaitTable& table) {
+  Json root;
+  root["format"] = "walktrack gait 1";
+  root["time_zero"] = "first frame of the scene";
+  root["events"] = events_of(table);
+  root["contacts"] = contacts_of(table);
+  Json& summary = root["summary"];
+  summary["steps"] = table.steps;
+  summary["strides"] = table.strides;
+  summary["both"] = bands(kSummaryColumns, table.both);
+  summary["left"] = bands(kSummaryColumns, table.left);
+  summary["right"] = bands(kSummaryColumns, table.right);
+  summary["symmetry"] = bands(kSymmetryColumns, table.symmetry);
+  root["notes"] = kNotes;
+  return root.dump(2) + "\n";
+}
+
+std::string gait_csv(const GaitTable& table) {
+  std::string text =
+      "# One row a contact of a foot with the ground. Times in s from the scene's first frame,\n"
+      "# lengths in m, shares in % of the stride; _p05, _p95: 5-95 % band. Definitions: gait.json\n"
+      "side";
+  for (const std::string_view name : kContactColumns)
+    text += fmt::format(",{0},{0}_p05,{0}_p95", name);
+  text += "\n";
+  for (const ContactRow& row : table.contacts) {
+    text += name_of(row.side);
+    for (const Banded& each : row.at)
+      for (const double value : {each.value, each.p05, each.p95}) append_number(text, ',', value);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace walktrack

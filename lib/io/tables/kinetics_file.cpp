@@ -1,0 +1,176 @@
+#include "io/tables/kinetics_file.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "io/tables/csv.h"
+
+namespace walktrack {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kBandSd = 1.6449;  // standard deviations from the mean to the 95th percentile
+
+std::vector<std::string> column_names() {
+  std::vector<std::string> out;
+  const auto vector = [&](const std::string& name, const char* unit) {
+    for (const char* axis : {"x", "y", "z"})
+      out.push_back(fmt::format("{}_{}_{}", name, axis, unit));
+  };
+  vector("com", "m");
+  for (const char* side : {"l", "r"}) {
+    vector(fmt::format("{}_grf", side), "n");
+    vector(fmt::format("{}_cop", side), "m");
+    out.push_back(fmt::format("{}_free_moment_nm", side));
+  }
+  for (const char* side : {"l", "r"})
+    for (const char* name : {"hip_flexion_nm", "hip_abduction_nm", "knee_flexion_nm",
+                             "ankle_dorsiflexion_nm", "hip_w", "knee_w", "ankle_w"})
+      out.push_back(fmt::format("{}_{}", side, name));
+  for (const char* name :
+       {"kinetic_energy_j", "potential_energy_j", "unexplained_force_n", "unexplained_moment_nm"})
+    out.emplace_back(name);
+  return out;
+}
+
+// The numbers of a frame in the order of the columns, in calibration axes.
+std::vector<double> values_of(const KineticsFrame& frame, const WorldFrame& world) {
+  std::vector<double> out;
+  const auto add = [&](const Vector3d& v) { out.insert(out.end(), v.begin(), v.end()); };
+  add(calibration_from_world(world, frame.com));
+  for (const FootLoad& foot : frame.feet) {
+    add(world.rotation.transpose() * foot.force);
+    add(calibration_from_world(world, {foot.centre.x(), foot.centre.y(), 0}));
+    out.push_back(foot.free_moment);
+  }
+  for (const LegLoads& leg : frame.legs)
+    out.insert(out.end(), {leg.hip_flexion, leg.hip_abduction, leg.knee_flexion,
+                           leg.ankle_dorsiflexion, leg.hip_power, leg.knee_power, leg.ankle_power});
+  out.insert(out.end(), {frame.kinetic_energy, frame.potential_energy, frame.unexplained_force,
+                         frame.unexplained_moment});
+  return out;
+}
+
+double rate_of(const Kinetics& kinetics) {
+  const size_t n = kinetics.time.size();
+  return n > 1 ? static_cast<double>(n - 1) / (kinetics.time.back() - kinetics.time.front()) : 0;
+}
+
+std::string header(const Kinetics& kinetics, const Subject& subject, const KineticsConfig& config) {
+  const KineticsTotals& t = kinetics.totals;
+  return fmt::format(
+      "# Inverse dynamics of the motion. SI units as named; world axes of the calibration; {:.6g} "
+      "Hz.\n"
+      "# Subject: height {:.3f} m, mass {:.2f} kg; forces and moments are as right as this mass.\n"
+      "# Joint centres smoothed without lag below {:g} Hz; within {:.2f} s of the ends of a "
+      "tracked\n"
+      "# span values lean on its extrapolation. In double support the feet's shares are modelled.\n"
+      "# Moments: of the muscles, positive as the angle's name says (pushing off: "
+      "ankle_dorsiflexion_nm < 0).\n"
+      "# Totals: distance {:.3f} m, positive work of hips, knees and ankles {:.1f} J, negative "
+      "{:.1f} "
+      "J,\n# cost of transport {:.3f}, peak vertical load of a foot {:.2f} body weights\n",
+      rate_of(kinetics), subject.height, subject.mass, config.cutoff_hz,
+      config.cutoff_hz > 0 ? 0.5 / config.cutoff_hz : 0, t.distance, t.positive_work,
+      t.negative_work, t.cost_of_transport, t.peak_load);
+}
+
+std::string table(std::string text, const Kinetics& kinetics, const KineticsBands& bands,
+                  const WorldFrame& world) {
+  const std::vector<std::string> names = column_names();
+  text += "t";
+  for (const std::string& name : names) text += fmt::format(",{0},{0}_p05,{0}_p95", name);
+  text += "\n";
+  for (size_t i = 0; i < kinetics.frames.size(); ++i) {
+    text += csv_number(kinetics.time[i]);
+    const std::vector<double> values = kinetics.frames[i].known
+                                           ? values_of(kinetics.frames[i], world)
+                                           : std::vector<double>(names.size(), kNone);
+    for (size_t k = 0; k < names.size(); ++k) {
+      const double half = bands.half_width(i, k, kinetics.frames[i]);
+      for (const double value : {values[k], values[k] - half, values[k] + half})
+        append_number(text, ',', value);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void KineticsBands::add(const Kinetics& member) {
+  rows_.resize(member.frames.size());
+  for (size_t i = 0; i < rows_.size(); ++i) {
+    if (!member.frames[i].known) continue;
+    const std::vector<double> values = values_of(member.frames[i], world_);
+    rows_[i].columns.resize(values.size());
+    ++rows_[i].members;
+    for (size_t k = 0; k < values.size(); ++k) {
+      if (!std::isfinite(values[k])) continue;
+      Sum& sum = rows_[i].columns[k];
+      const double away = values[k] - sum.mean;
+      sum.mean += away / ++sum.count;
+      sum.squares += away * (values[k] - sum.mean);
+    }
+  }
+}
+
+// The part of the vertical load's error in a column, N; columns are those of values_of().
+double KineticsBands::model_error(size_t column, const KineticsFrame& frame) const {
+  constexpr size_t kFirstFoot = 3, kColumnsOfFoot = 7, kAxes = 3;
+  if (column < kFirstFoot || column >= kFirstFoot + 2 * kColumnsOfFoot) return 0;
+  const size_t foot = (column - kFirstFoot) / kColumnsOfFoot;
+  const size_t axis = (column - kFirstFoot) % kColumnsOfFoot;
+  if (axis >= kAxes || !frame.feet[foot].centre.allFinite()) return 0;
+  return load_error_ * std::abs(world_.rotation(2, static_cast<Eigen::Index>(axis)));
+}
+
+double KineticsBands::half_width(size_t row, size_t column, const KineticsFrame& frame) const {
+  if (row >= rows_.size() || rows_[row].members == 0) return kNone;
+  const Sum& sum = rows_[row].columns[column];
+  if (sum.count < 2 || 2 * sum.count < rows_[row].members) return kNone;
+  return kBandSd * std::hypot(std::sqrt(sum.squares / (sum.count - 1)), model_error(column, frame));
+}
+
+std::string kinetics_csv(const Kinetics& kinetics, const KineticsBands& bands,
+                         const Subject& subject, const KineticsConfig& config,
+                         const WorldFrame& world) {
+  return table(header(kinetics, subject, config), kinetics, bands, world);
+}
+
+std::string simulated_kinetics_csv(const Kinetics& kinetics, const Subject& subject) {
+  const std::string comment = fmt::format(
+      "# Truth of a simulated walk. SI units as named; world axes; {:.6g} Hz. Forces are means "
+      "over "
+      "the\n# time of a row, impulses of strike and toe-off included. Moments of joints are not "
+      "stated.\n"
+      "# Subject: height {:.3f} m, mass {:.2f} kg\n",
+      rate_of(kinetics), subject.height, subject.mass);
+  return table(comment, kinetics, KineticsBands({}), {});
+}
+
+GroundForces read_ground_forces(const std::filesystem::path& path) {
+  std::vector<std::string> names{"t"};
+  for (const char* side : {"l", "r"})
+    for (const char* axis : {"x", "y", "z"})
+      names.push_back(fmt::format("{}_grf_{}_n", side, axis));
+  const auto columns = read_csv_columns(path, names);
+  GroundForces out;
+  out.time = columns[0];
+  for (size_t row = 0; row < out.time.size(); ++row) {
+    const auto vector = [&](size_t first) {
+      return Vector3d(columns[first][row], columns[first + 1][row], columns[first + 2][row]);
+    };
+    out.feet.push_back({vector(1), vector(4)});
+  }
+  return out;
+}
+
+}  // namespace walktrack

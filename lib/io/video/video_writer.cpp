@@ -1,0 +1,60 @@
+#include "io/video/video_writer.h"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <opencv2/videoio.hpp>
+
+#include "io/archive/files.h"
+
+namespace walktrack {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::unique_ptr<cv::VideoWriter> open_encoder(const fs::path& path, cv::Size size, double rate) {
+  for (const int code :
+       {cv::VideoWriter::fourcc('a', 'v', 'c', '1'), cv::VideoWriter::fourcc('m', 'p', '4', 'v')}) {
+    auto writer =
+        std::make_unique<cv::VideoWriter>(path.string(), cv::CAP_FFMPEG, code, rate, size);
+    if (writer->isOpened()) return writer;
+  }
+  throw std::runtime_error(fmt::format("{}: no video encoder opens for {}x{} px at {:g} Hz",
+                                       path.string(), size.width, size.height, rate));
+}
+
+}  // namespace
+
+VideoWriter::VideoWriter(const fs::path& path, cv::Size size_px, double frame_rate)
+    : path_(path), temporary_(path.parent_path() / (path.stem().string() + ".part.mp4")) {
+  writer_ = open_encoder(temporary_, size_px, frame_rate);
+}
+
+VideoWriter::~VideoWriter() {
+  if (!writer_) return;
+  writer_->release();
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+}
+
+VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
+
+void VideoWriter::write(const cv::Mat& frame) {
+  writer_->write(frame);
+  ++frames_;
+}
+
+void VideoWriter::close() {
+  writer_->release();
+  // The encoder reports nothing, so the file is asked.
+  cv::VideoCapture check(temporary_.string(), cv::CAP_FFMPEG);
+  const bool complete = check.isOpened() && check.get(cv::CAP_PROP_FRAME_COUNT) == frames_;
+  if (frames_ > 0 && !complete) {
+    throw std::runtime_error(fmt::format("{}: cannot be written completely", path_.string()));
+  }
+  writer_.reset();
+  publish_file(temporary_, path_);
+}
+
+}  // namespace walktrack

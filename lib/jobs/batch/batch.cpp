@@ -1,0 +1,217 @@
+#include "jobs/batch/batch.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <deque>
+#include <list>
+#include <optional>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "core/errors.h"
+#include "io/archive/files.h"
+#include "io/archive/result_folder.h"
+#include "io/scene/scene_template.h"
+#include "jobs/batch/claim.h"
+
+namespace walktrack {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr auto kPollInterval = std::chrono::milliseconds(20);
+constexpr auto kRenewInterval = std::chrono::seconds(10);
+constexpr size_t kMostLogBytes = size_t{1} << 30;
+constexpr int kDegradedExit = 4, kInterruptedExit = 130;  // of the sequence's program
+
+// A sequence that is being done.
+struct Running {
+  Sequence sequence;
+  Claim claim;
+  ChildProcess child;
+};
+
+// The last line that the program said, without its name in front.
+std::string last_words(const fs::path& log) {
+  std::string text = fs::exists(log) ? read_text_file(log, kMostLogBytes) : "";
+  while (text.ends_with('\n')) text.pop_back();
+  text.erase(0, text.rfind('\n') + 1);
+  constexpr std::string_view kProgram = "walktrack: ";
+  if (text.starts_with(kProgram)) text.erase(0, kProgram.size());
+  return text;
+}
+
+std::string failure_reason(const BatchJob& job, const ChildEnd& end, const fs::path& log) {
+  if (end.timed_out) return fmt::format("took longer than {:g} s", job.limits.seconds);
+  const std::string words = last_words(log);
+  if (end.signal) {
+    return fmt::format("ended by signal {} ({}){}{}", end.signal, strsignal(end.signal),
+                       words.empty() ? "" : ": ", words);
+  }
+  return fmt::format("exit {}{}{}", end.exit_code, words.empty() ? "" : ": ", words);
+}
+
+// Results stay below the output folder: what leads elsewhere was not made by a batch.
+void refuse_links(const BatchJob& job, const std::vector<Sequence>& sequences) {
+  for (const Sequence& sequence : sequences) {
+    fs::path folder = job.output;
+    for (const fs::path& part : fs::path(sequence.name)) {
+      folder /= part;
+      if (fs::is_symlink(folder))
+        throw UsageError(
+            describe({folder.string(), 0, ""}, "a link", "a folder of the batch's own"));
+    }
+  }
+}
+
+// When the sequence failed; nullopt if it has not.
+std::optional<fs::file_time_type> failure_time(const Sequence& sequence) {
+  std::error_code none;
+  const auto time = fs::last_write_time(sequence.output / "failure.txt", none);
+  return none ? std::nullopt : std::optional(time);
+}
+
+// A sequence that is to be done, and how it stood when this worker began.
+struct Waiting {
+  Sequence sequence;
+  std::optional<fs::file_time_type> failed;
+
+  // Whether another worker has done it since, with or without success.
+  bool done_by_another(const BatchJob& job) const {
+    return (!job.overwrite && is_complete_result(sequence.output)) ||
+           failure_time(sequence) > failed;
+  }
+};
+
+// If it is still to be done and nobody else is at it: clears why an earlier try failed, and starts.
+std::optional<Running> start(const BatchJob& job, const Waiting& waiting) {
+  const Sequence& sequence = waiting.sequence;
+  if (waiting.done_by_another(job)) return std::nullopt;
+  fs::create_directories(sequence.output);
+  std::optional<Claim> claim = Claim::try_take(sequence.output);
+  // Another worker may have done it between the look and the claim.
+  if (!claim || waiting.done_by_another(job)) return std::nullopt;
+  for (const char* earlier : {"failure.txt", "log.txt"}) fs::remove(sequence.output / earlier);
+  if (!sequence.video.empty()) {
+    write_file_atomically(sequence.scene, scene_for_video(job.scene_template, sequence.video));
+  }
+  std::vector<std::string> words = job.command;
+  words.insert(words.end(),
+               {sequence.scene.string(), "-o", sequence.output.string(), "--resume", "-y"});
+  return Running{sequence, std::move(*claim),
+                 ChildProcess(words, sequence.output / "log.txt", job.limits)};
+}
+
+// A worker that was killed after a sequence's last file has left its claim, which a claim taken
+// here gives back at once.
+void clear_dead_claims(const std::vector<Sequence>& sequences) {
+  for (const Sequence& sequence : sequences)
+    if (is_complete_result(sequence.output) && fs::exists(sequence.output / Claim::kFile))
+      Claim::try_take(sequence.output);
+}
+
+void note_end(const BatchJob& job, const Running& running, const ChildEnd& end, bool stopping) {
+  if (is_complete_result(running.sequence.output)) {
+    if (end.exit_code == 0 || end.exit_code == kDegradedExit) return;
+  }
+  if (stopping && (end.exit_code == kInterruptedExit || end.signal)) return;
+  write_file_atomically(running.sequence.output / "failure.txt",
+                        failure_reason(job, end, running.sequence.output / "log.txt") + "\n");
+}
+
+class Runner {
+ public:
+  Runner(const BatchJob& job, const JobControl& control, const std::vector<Sequence>& sequences)
+      : job_(job), control_(control), total_(sequences.size()) {
+    for (const Sequence& sequence : sequences)
+      waiting_.push_back({sequence, failure_time(sequence)});
+  }
+
+  void run() {
+    auto renewed = std::chrono::steady_clock::now();
+    while (!waiting_.empty() || !running_.empty()) {
+      if (control_.stopping()) stop();
+      fill();
+      collect();
+      control_.progress("sequences", total_ - waiting_.size() - running_.size(), total_);
+      if (std::chrono::steady_clock::now() - renewed > kRenewInterval) {
+        for (const Running& running : running_) running.claim.renew();
+        renewed = std::chrono::steady_clock::now();
+      }
+      if (!running_.empty()) std::this_thread::sleep_for(kPollInterval);
+    }
+  }
+  bool interrupted() const { return stopped_; }
+
+ private:
+  void stop() {
+    if (stopped_) return;
+    stopped_ = true;
+    waiting_.clear();
+    for (const Running& running : running_) running.child.ask_to_stop();
+  }
+
+  void fill() {
+    while (!waiting_.empty() && static_cast<int>(running_.size()) < job_.jobs) {
+      const Waiting next = waiting_.front();
+      waiting_.pop_front();
+      if (auto running = start(job_, next)) running_.push_back(std::move(*running));
+    }
+  }
+
+  void collect() {
+    for (auto running = running_.begin(); running != running_.end();) {
+      const auto end = running->child.poll();
+      if (!end) {
+        ++running;
+        continue;
+      }
+      note_end(job_, *running, *end, stopped_);
+      const SequenceResult result = result_of(running->sequence);
+      if (result.state == SequenceState::kFailed) {
+        control_.say(fmt::format("{}: {}", running->sequence.name, result.reason));
+      }
+      running = running_.erase(running);
+    }
+  }
+
+  const BatchJob& job_;
+  const JobControl& control_;
+  std::deque<Waiting> waiting_;
+  std::list<Running> running_;
+  size_t total_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+BatchOutcome run_batch(const BatchJob& job, const JobControl& control) {
+  const std::vector<Sequence> all = sequences_of(job);
+  if (all.empty()) {
+    throw UsageError(describe({job.folder.string(), 0, ""}, "no sequence",
+                              job.scene_template.empty()
+                                  ? "scene*.yaml files, or .yaml files that list cameras"
+                                  : "video files"));
+  }
+  fs::create_directories(job.output);
+  const std::vector<Sequence> own = shard_of(all, job.shard, job.shards);
+  refuse_links(job, own);
+  clear_dead_claims(own);
+  Runner runner(job, control, sequences_to_do(job));
+  runner.run();
+  write_batch_reports(all, job.output);
+  BatchOutcome outcome{.interrupted = runner.interrupted()};
+  for (const Sequence& sequence : own) {
+    const SequenceState state = result_of(sequence).state;
+    outcome.complete += state == SequenceState::kComplete;
+    outcome.degraded += state == SequenceState::kDegraded;
+    outcome.failed += state == SequenceState::kFailed;
+    outcome.waiting += state == SequenceState::kWaiting;
+  }
+  return outcome;
+}
+
+}  // namespace walktrack

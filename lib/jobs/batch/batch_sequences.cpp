@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "core/errors.h"
+#include "io/archive/files.h"
+#include "io/archive/result_folder.h"
+#include "io/scene/scene_template.h"
+#include "io/video/video.h"
+#include "jobs/batch/batch.h"
+
+namespace walktrack {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr size_t kMostSceneBytes = 16u << 20;
+constexpr size_t kMostRecordBytes = 256u << 20;
+
+// Scene files by name are taken even when broken, so that they end up among the failures.
+bool is_scene(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension != ".yaml" && extension != ".yml") return false;
+  if (path.stem().string().starts_with("scene")) return true;
+  std::error_code ignored;
+  if (fs::file_size(path, ignored) > kMostSceneBytes) return false;
+  const std::string text = read_text_file(path, kMostSceneBytes);
+  const bool cameras = text.starts_with("cameras:") || text.find("\ncameras:") != std::string::npos;
+  return cameras && text.find("video:") != std::string::npos;  // what to render has cameras too
+}
+
+// "a/b/scene.yaml" is "a/b", other files keep their stem.
+std::string sequence_name(const fs::path& relative) {
+  const fs::path folder = relative.parent_path();
+  if (relative.stem() == "scene" && !folder.empty()) return folder.generic_string();
+  return (folder / relative.stem()).generic_string();
+}
+
+// Regular files that `wanted` takes, not inside `output`. Links to folders are not followed.
+template <typename Wanted>
+std::vector<fs::path> files_below(const fs::path& folder, const fs::path& output, Wanted wanted) {
+  if (!fs::is_directory(folder)) {
+    throw InputError(describe({folder.string(), 0, ""}, "no folder", "a folder with sequences"));
+  }
+  const fs::path out = fs::weakly_canonical(output);
+  std::vector<fs::path> found;
+  for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::end(entry); ++entry) {
+    if (entry->is_directory() && fs::weakly_canonical(entry->path()) == out) {
+      entry.disable_recursion_pending();
+    } else if (entry->is_regular_file() && wanted(entry->path())) {
+      found.push_back(entry->path());
+    }
+  }
+  return found;
+}
+
+std::vector<Sequence> in_natural_order(std::vector<Sequence> sequences) {
+  std::sort(sequences.begin(), sequences.end(),
+            [](const Sequence& a, const Sequence& b) { return natural_less(a.name, b.name); });
+  return sequences;
+}
+
+std::string text_or(const nlohmann::json& json, const char* key, const std::string& otherwise) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : otherwise;
+}
+
+SequenceResult complete_result(const fs::path& file) {
+  const auto json = nlohmann::json::parse(read_text_file(file, kMostRecordBytes), nullptr, false);
+  SequenceResult result{.state = SequenceState::kComplete};
+  if (!json.is_object()) {
+    return {.state = SequenceState::kFailed, .reason = "run.json is broken"};
+  }
+  const std::string status = text_or(json, "status", "tracked");
+  if (status != "tracked") {
+    result.state = SequenceState::kDegraded;
+    result.reason = status;
+    const auto notes = json.find("notes");
+    if (notes != json.end() && notes->is_array() && !notes->empty() && notes->front().is_string()) {
+      result.reason += ": " + notes->front().get<std::string>();
+    }
+  }
+  result.digest = text_or(json, "digest", "");
+  const auto timing = json.find("timing");
+  if (timing != json.end() && timing->is_object()) {
+    result.seconds = timing->value("seconds", 0.0);
+  }
+  result.figures = figures_of(json, file.parent_path());
+  return result;
+}
+
+}  // namespace
+
+std::vector<Sequence> find_sequences(const fs::path& folder, const fs::path& output) {
+  std::vector<Sequence> found;
+  for (const fs::path& file : files_below(folder, output, is_scene)) {
+    const std::string name = sequence_name(file.lexically_relative(folder));
+    found.push_back({name, fs::absolute(file).lexically_normal(), output / name});
+  }
+  return in_natural_order(std::move(found));
+}
+
+std::vector<Sequence> find_videos(const fs::path& folder, const fs::path& output) {
+  const std::vector<fs::path> files = files_below(folder, output, is_video_file);
+  std::map<std::string, int> stems;
+  const auto stem = [&](const fs::path& file) {
+    return file.lexically_relative(folder).replace_extension().generic_string();
+  };
+  for (const fs::path& file : files) ++stems[stem(file)];
+  std::vector<Sequence> found;
+  for (const fs::path& file : files) {
+    // "a.mp4" and "a.mov" keep their endings, to be told apart.
+    const std::string name =
+        stems[stem(file)] == 1 ? stem(file) : file.lexically_relative(folder).generic_string();
+    found.push_back({name, output / name / "scene.yaml", output / name, fs::absolute(file)});
+  }
+  return in_natural_order(std::move(found));
+}
+
+std::vector<Sequence> sequences_of(const BatchJob& job) {
+  return job.scene_template.empty() ? find_sequences(job.folder, job.output)
+                                    : find_videos(job.folder, job.output);
+}
+
+std::vector<Sequence> shard_of(const std::vector<Sequence>& sequences, int shard, int shards) {
+  std::vector<Sequence> own;
+  for (size_t i = 0; i < sequences.size(); ++i) {
+    if (i % static_cast<size_t>(shards) == static_cast<size_t>(shard - 1)) {
+      own.push_back(sequences[i]);
+    }
+  }
+  return own;
+}
+
+std::vector<Sequence> sequences_to_do(const BatchJob& job) {
+  std::vector<Sequence> own = shard_of(sequences_of(job), job.shard, job.shards);
+  std::erase_if(own, [&](const Sequence& sequence) {
+    const SequenceState state = result_of(sequence).state;
+    if (job.retry_failed) return state != SequenceState::kFailed;
+    return !job.overwrite && is_complete_result(sequence.output);
+  });
+  return own;
+}
+
+SequenceResult result_of(const Sequence& sequence) {
+  const fs::path failure = sequence.output / "failure.txt";
+  if (is_complete_result(sequence.output)) return complete_result(sequence.output / "run.json");
+  if (!fs::exists(failure)) return {};
+  SequenceResult result{.state = SequenceState::kFailed};
+  result.reason = read_text_file(failure, kMostSceneBytes);
+  while (result.reason.ends_with('\n')) result.reason.pop_back();
+  return result;
+}
+
+std::string_view state_name(SequenceState state) {
+  switch (state) {
+    case SequenceState::kComplete:
+      return "complete";
+    case SequenceState::kDegraded:
+      return "degraded";
+    case SequenceState::kFailed:
+      return "failed";
+    case SequenceState::kWaiting:
+      break;
+  }
+  return "waiting";
+}
+
+}  // namespace walktrack

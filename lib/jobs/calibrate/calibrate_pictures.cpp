@@ -1,0 +1,76 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "io/drawing/overlay.h"
+#include "jobs/calibrate/calibrate_parts.h"
+
+namespace walktrack {
+
+namespace {
+
+constexpr double kEnlargement = 30;  // of misses in the lens picture
+constexpr int kSubpixelBits = 4;
+
+const cv::Scalar kFound(80, 220, 80), kMiss(60, 60, 255);  // green, red
+
+cv::Point shifted(const Eigen::Vector2d& pixel) {
+  const double scale = 1 << kSubpixelBits;
+  return {static_cast<int>(std::lround(scale * pixel.x())),
+          static_cast<int>(std::lround(scale * pixel.y()))};
+}
+
+void draw_ring(cv::Mat& image, const Eigen::Vector2d& at, int radius, const cv::Scalar& colour) {
+  cv::circle(image, shifted(at), radius << kSubpixelBits, colour, line_thickness(image),
+             cv::LINE_AA, kSubpixelBits);
+}
+
+void draw_stroke(cv::Mat& image, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                 const cv::Scalar& colour) {
+  cv::line(image, shifted(from), shifted(to), colour, line_thickness(image), cv::LINE_AA,
+           kSubpixelBits);
+}
+
+void draw_cross(cv::Mat& image, const Eigen::Vector2d& at, double half, const cv::Scalar& colour) {
+  draw_stroke(image, at - Eigen::Vector2d(half, 0), at + Eigen::Vector2d(half, 0), colour);
+  draw_stroke(image, at - Eigen::Vector2d(0, half), at + Eigen::Vector2d(0, half), colour);
+}
+
+}  // namespace
+
+cv::Mat lens_picture(const BoardViews& views, const LensFit& fit) {
+  cv::Mat image = 0.4 * views.picture;
+  for (size_t v = 0; v < views.points.size(); ++v) {
+    for (size_t i = 0; i < views.points[v].size(); ++i) {
+      const Eigen::Vector2d& at = views.points[v][i];
+      draw_ring(image, at, 1, kFound);
+      draw_stroke(image, at, at - kEnlargement * fit.misses[v][i], kMiss);
+    }
+  }
+  draw_caption(image, fmt::format("{} views: green found, red the miss x{:.0f}; rms {:.2f} px",
+                                  views.points.size(), kEnlargement, fit.rms_px));
+  return image;
+}
+
+cv::Mat place_picture(const cv::Mat& picture, const PlaceFit& fit, const MeasuredPoints& points) {
+  cv::Mat image = picture.clone();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  double reach = 0;
+  for (const Eigen::Vector3d& point : points.world)
+    middle += point / static_cast<double>(points.world.size());
+  for (const Eigen::Vector3d& point : points.world)
+    reach = std::max(reach, (point - middle).norm());
+  draw_ground_grid(image, fit.camera, middle.head<2>(), std::ceil(reach) + 2);
+  draw_axes(image, fit.camera, Eigen::Vector3d::Zero(), std::min(1.0, std::max(reach, 0.05)));
+  const int size = 4 * line_thickness(image);
+  for (size_t i = 0; i < points.pixels.size(); ++i) {
+    draw_ring(image, points.pixels[i], size, kFound);
+    draw_cross(image, points.pixels[i] - fit.misses[i], size, kMiss);
+  }
+  draw_caption(image,
+               fmt::format("green given, red projected; rms {:.2f} px; 1 m grid", fit.rms_px));
+  return image;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,51 @@
+// `walktrack check`: the doctor for scenes. Says of every camera where it stands and what it sees,
+// and finds the mistakes that calibrations and recordings have: a camera underground or upside
+// down, millimetres for metres, a transposed or inverted pose, a wrong image size, unequal or
+// varying frame rates, turned phone video, cameras out of step. A mistake comes with its cure.
+//
+// What makes a scene unreadable (a matrix that is no rotation, a mirrored one, unknown keys) is an
+// InputError of the readers, with its place and cure.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "camera/inspection.h"
+#include "core/job_control.h"
+#include "io/scene/scene.h"
+#include "io/video/video_facts.h"
+
+namespace walktrack {
+
+struct CheckJob {
+  std::filesystem::path scene;
+  std::filesystem::path pictures;  // folder for check_<camera>.png; empty = none
+};
+
+struct Finding {
+  std::string camera;  // empty = the scene
+  bool failure;        // otherwise worth knowing only
+  std::string what, cure;
+};
+
+struct CheckedCamera {
+  std::string name;
+  CameraInspection view;
+  VideoFacts video;
+};
+
+struct CheckReport {
+  std::vector<CheckedCamera> cameras;
+  std::vector<Finding> findings;
+  bool failed() const;
+};
+
+CheckReport check_scene(const CheckJob& job, const JobControl& control);
+
+// The report for people, one paragraph a camera, findings last.
+std::string check_text(const CheckReport& report);
+// The same for programs.
+std::string check_json(const CheckReport& report);
+
+}  // namespace walktrack

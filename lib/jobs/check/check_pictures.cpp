@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "body/kinematics.h"
+#include "core/errors.h"
+#include "io/archive/files.h"
+#include "io/drawing/overlay.h"
+#include "io/video/video.h"
+#include "jobs/check/check_parts.h"
+
+namespace walktrack {
+
+namespace {
+
+constexpr double kGridHalfSide = 6;  // m
+
+// The subject standing at a place on the ground.
+JointPositions standing_figure(const Subject& subject, const Eigen::Vector2d& place) {
+  const Body body = make_body(subject, {});
+  Pose pose;
+  const double half_width = 0.5 * body.lengths.hip_width;
+  const double ahead = body.lengths.ball_forward;
+  stand_on(body, Side::kLeft, {place.x() + ahead, place.y() + half_width, 0},
+           ankle_from_ball(body.lengths, 0), pose);
+  pose.legs[1].ankle_dorsiflexion = pose.legs[0].ankle_dorsiflexion;
+  return forward_kinematics(body, pose).joints;
+}
+
+}  // namespace
+
+void write_check_pictures(const Scene& scene, const CheckReport& report,
+                          const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    const SceneCamera& camera = scene.cameras[i];
+    const CameraInspection& view = report.cameras[i].view;
+    cv::Mat frame;
+    FrameSource source(camera.video);
+    if (!source.skip(camera.start_frame) || !source.read(frame)) continue;
+    const Eigen::Vector2d place = view.standing_place.value_or(Eigen::Vector2d::Zero());
+    draw_ground_grid(frame, camera.camera, place, kGridHalfSide);
+    draw_axes(frame, camera.camera, Eigen::Vector3d::Zero(), 1);
+    draw_skeleton(frame, camera.camera, standing_figure(scene.subject, place), false,
+                  2 * line_thickness(frame));
+    draw_caption(frame, fmt::format("{}: {:.2f} m figure at ({:.1f}, {:.1f}), 1 m grid",
+                                    camera.name, scene.subject.height, place.x(), place.y()));
+    std::vector<uchar> png;
+    cv::imencode(".png", frame, png);
+    write_file_atomically(folder / ("check_" + camera.name + ".png"),
+                          {reinterpret_cast<const char*>(png.data()), png.size()});
+  }
+}
+
+}  // namespace walktrack

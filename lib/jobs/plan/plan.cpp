@@ -1,0 +1,283 @@
+#include "jobs/plan/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/conventions.h"
+#include "io/video/scene_video.h"
+#include "jobs/track/track_setup.h"
+#include "tracker/walker_filter.h"
+
+namespace walktrack {
+
+namespace {
+
+constexpr double kPercent = 100;
+
+// The box that is looked at reaches half a metre to all sides of the walker (jobs/track/track.cpp),
+// seen obliquely, and a quarter of that above and below.
+constexpr double kBoxWidth = 1.2, kBoxRise = 0.25;  // m
+
+CameraWork camera_work(const Scene& scene, const SceneCamera& camera, const Config& config) {
+  const WorkingScale scale = working_scale(scene, camera.camera, config);
+  const double rows = scale.person_px / scale.shrink, height = scene.subject.height;
+  const double px_per_m = rows / height;
+  const double image_height = static_cast<double>(camera.camera.height_px) / scale.shrink;
+  const double image_width = static_cast<double>(camera.camera.width_px) / scale.shrink;
+  return {camera.name, static_cast<double>(camera.camera.width_px) * camera.camera.height_px,
+          std::min(image_width, kBoxWidth * px_per_m) *
+              std::min(image_height, (height + kBoxRise) * px_per_m),
+          std::min(image_height, rows)};
+}
+
+int classes_of(const ObservationConfig& config, const Body& body) {
+  if (!config.foreground.enabled) return 0;
+  const auto used = appearances_of(body);
+  std::set<int> classes;
+  for (size_t i = 0; i < used.size(); ++i)
+    if (used[i]) classes.insert(config.foreground.classes[i]);
+  return static_cast<int>(classes.size());
+}
+
+FrameWork frame_work(const Scene& scene, const Config& config) {
+  const Body body = make_body(scene.subject, config.body);
+  const FilterConfig& filter = config.tracker.filter;
+  FrameWork work;
+  for (const SceneCamera& camera : scene.cameras)
+    work.cameras.push_back(camera_work(scene, camera, config));
+  work.particles = filter.particles;
+  const double layers = usual_layers(static_cast<int>(scene.cameras.size()), filter.max_layers);
+  work.poses = filter.particles * (1 + layers * filter.moves);
+  work.parts = static_cast<int>(body.parts.size());
+  work.classes = classes_of(config.observation, body);
+  work.background = config.observation.background.enabled;
+  work.flow = config.observation.flow.enabled;
+  return work;
+}
+
+double total_ms(const Scene& scene, const Config& config) {
+  return frame_cost(frame_work(scene, config)).sum();
+}
+
+// Writes the items, each with what it would save.
+class Items {
+ public:
+  Items(const Scene& scene, const ConfigWithOrigin& config)
+      : scene_(scene), config_(config), all_(total_ms(scene, config.values)) {}
+
+  // Something that a flag of the configuration switches.
+  void flag(const std::string& name, const std::string& key, bool on, const std::string& what) {
+    PlanItem item{name, on, what, origin(key), 0};
+    if (item.on) {
+      ConfigWithOrigin without = config_;
+      apply_setting(without, key + "=false", "");
+      item.ms = all_ - total_ms(scene_, without.values);
+    }
+    items_.push_back(std::move(item));
+  }
+
+  // Something that follows from the scene.
+  void fact(const std::string& name, bool on, const std::string& what, const std::string& why) {
+    items_.push_back({name, on, what, why, 0});
+  }
+
+  std::string origin(const std::string& key) const {
+    const auto found = config_.origin.find(key);
+    return found == config_.origin.end() ? key + ", a default" : key + ", from " + found->second;
+  }
+
+  std::vector<PlanItem> take() { return std::move(items_); }
+
+ private:
+  const Scene& scene_;
+  const ConfigWithOrigin& config_;
+  double all_;
+  std::vector<PlanItem> items_;
+};
+
+void add_walker(const Config& config, Items& items) {
+  const auto item = [&](const char* name, const char* what) {
+    items.fact(name, true, what, items.origin("motion.model"));
+  };
+  switch (config.tracker.motion.model) {
+    case MotionKind::kKneed:
+      return item("walker",
+                  "a kneed walker simulated from frame to frame, with noise on its torques");
+    case MotionKind::kAnthropomorphic:
+      return item("walker", "a walker of two straight legs; knees and trunk by habit");
+    case MotionKind::kMarkov:
+      return item("motion", "every coordinate by habit: no walker, no ground");
+  }
+}
+
+double slope_deg(const Scene& scene) {
+  return deg_from_rad(std::atan2(scene.gravity.head<2>().norm(), -scene.gravity.z()));
+}
+
+std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& config) {
+  const Config& values = config.values;
+  const ObservationConfig& images = values.observation;
+  Items items(scene, config);
+  add_walker(values, items);
+  items.fact("legs, trunk", true, "tilt, hips, knees and ankles in the walk's upright planes",
+             "always: the walker's body");
+  items.fact("sideways", values.tracker.motion.path == Path::kSpatial,
+             "turning, the pelvis's list, hips sideways, 6 angles more",
+             items.origin("motion.path"));
+  items.flag("head", "body.head", values.body.head, "head and neck");
+  items.flag("arms", "body.arms", values.body.arms, "both arms, 6 angles more");
+  items.flag("background", "observation.background.enabled", images.background.enabled,
+             "how the empty scene looks");
+  items.flag("appearance", "observation.foreground.enabled", images.foreground.enabled,
+             "how the walker looks, learned on the way");
+  items.flag("flow", "observation.flow.enabled", images.flow.enabled, "how the pixels move");
+  const bool slope = !scene.gravity.head<2>().isZero();
+  items.fact("slope", slope,
+             slope ? fmt::format("{:.1f} degrees", slope_deg(scene)) : "the ground is level",
+             slope ? "the scene's gravity leans" : "the scene's gravity is upright");
+  const auto hidden = std::count_if(scene.cameras.begin(), scene.cameras.end(),
+                                    [](const SceneCamera& c) { return !c.occluders.empty(); });
+  items.fact("occluders", hidden > 0, "pixels that say nothing",
+             hidden > 0 ? fmt::format("{} of the scene's cameras have some", hidden)
+                        : "the scene has none");
+  items.fact("search", !scene.initial, "finding the walk in a window of frames, until it is found",
+             scene.initial ? "the scene says where the walk begins" : "the scene has no `initial`");
+  items.fact("size", !scene.height_given,
+             "how tall the walker is, from the first window in which they are found",
+             scene.height_given ? "the scene gives subject.height"
+                                : "the scene does not give subject.height");
+  const bool paced = values.budget.frame_ms > 0;
+  items.fact("budget", paced,
+             paced ? fmt::format("{} to {} particles, by the clock: not deterministic",
+                                 values.budget.least_particles, values.budget.most_particles)
+                   : "particles that follow the clock",
+             items.origin("budget.frame_ms"));
+  return items.take();
+}
+
+std::vector<std::pair<std::string, double>> memory_of(const Scene& scene, const Config& config,
+                                                      const Plan& plan) {
+  double filmed = 0, shrunk = 0, region = 0;
+  for (size_t c = 0; c < plan.cameras.size(); ++c) {
+    const PlanCamera& camera = plan.cameras[c];
+    const double pixels = plan.work.cameras[c].filmed_px;
+    filmed += pixels;
+    shrunk += pixels / (camera.shrink * camera.shrink);
+    region += plan.work.cameras[c].region_px;
+  }
+  const ObservationConfig& images = config.observation;
+  const StartConfig& start = config.tracker.start;
+  const double hypotheses = 2.0 * start.phases * start.particles;
+  std::vector<std::pair<std::string, double>> out{
+      {"particles", plan.work.particles * plan.state.bytes_per_particle},
+      {"the contest of the first half second", hypotheses * plan.state.bytes_per_particle},
+      {"frames as filmed", 2 * 3 * filmed},
+      {"log-ratios around the walker", sizeof(int32_t) * region * std::max(1, plan.work.classes)}};
+  if (images.background.enabled) {
+    out.emplace_back("background", 5 * sizeof(float) * shrunk);
+    out.emplace_back("learning it, before the first frame",
+                     3.0 * images.background.samples * shrunk);
+  }
+  if (!scene.initial) {
+    const double frames = std::ceil(config.tracker.sighting.window * plan.frame_rate);
+    const double flow_bytes = images.flow.enabled ? sizeof(FlowPixel) : 0;
+    out.emplace_back("the search's window of frames",
+                     frames * shrunk * (sizeof(int32_t) + flow_bytes));
+  }
+  const double record =
+      double{sizeof(FrameRecord)} + config.tracker.samples * double{sizeof(JointPositions)};
+  out.emplace_back("results of a minute of film", 60 * plan.frame_rate * record);
+  return out;
+}
+
+std::string saving(double without, double all) {
+  return fmt::format("saves {:.0f} % of the time", kPercent * (1 - without / all));
+}
+
+// The camera that sees the walk most from the side, if the scene says where it goes.
+std::optional<size_t> side_camera(const Scene& scene) {
+  std::optional<size_t> best;
+  double most = -1;
+  for (size_t c = 0; c < scene.cameras.size(); ++c) {
+    const auto view = side_view(scene, scene.cameras[c].camera);
+    if (!view || view->off_sight <= most) continue;
+    best = c;
+    most = view->off_sight;
+  }
+  return best;
+}
+
+void advise_cameras(const Scene& scene, const Config& config, double all,
+                    std::vector<std::string>& out) {
+  if (scene.cameras.size() < 2) return;
+  const std::optional<size_t> side = side_camera(scene);
+  Scene one = scene;
+  one.cameras = {scene.cameras[side.value_or(0)]};
+  out.push_back(fmt::format(
+      "Cameras: speed, steps and sagittal angles need one camera at the side{}; that {}. Step "
+      "width, "
+      "turning and the distance to the camera need a second one.",
+      side ? fmt::format(" ({})", one.cameras[0].name) : "", saving(total_ms(one, config), all)));
+}
+
+std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& config, double all) {
+  std::vector<std::string> out;
+  const Config& values = config.values;
+  const auto without = [&](const std::string& setting) {
+    ConfigWithOrigin changed = config;
+    apply_setting(changed, setting, "");
+    return saving(total_ms(scene, changed.values), all);
+  };
+  const ObservationConfig& images = values.observation;
+  if (images.flow.enabled && (images.background.enabled || images.foreground.enabled))
+    out.push_back(
+        fmt::format("Flow: silhouettes hold the track of a walker who stands out from the "
+                    "scene; observation.flow.enabled=false {}.",
+                    without("observation.flow.enabled=false")));
+  if (values.body.arms)
+    out.push_back(
+        fmt::format("Arms: legs, pelvis and trunk are tracked without them; "
+                    "body.arms=false {}.",
+                    without("body.arms=false")));
+  const double usual = ObservationConfig{}.person_px;
+  if (images.person_px > usual)
+    out.push_back(
+        fmt::format("Scale: above {:g} px of person height little is won; "
+                    "observation.person_px={:g} {}.",
+                    usual, usual, without(fmt::format("observation.person_px={:g}", usual))));
+  const int usual_particles = FilterConfig{}.particles;
+  if (values.tracker.filter.particles > usual_particles)
+    out.push_back(fmt::format("Particles: filter.particles={} {}.", usual_particles,
+                              without(fmt::format("filter.particles={}", usual_particles))));
+  advise_cameras(scene, values, all, out);
+  return out;
+}
+
+}  // namespace
+
+Plan plan_scene(const Scene& scene, const ConfigWithOrigin& config) {
+  Plan plan;
+  plan.scene = scene.file;
+  plan.frame_rate = SceneVideo(scene).frame_rate();
+  plan.work = frame_work(scene, config.values);
+  plan.cost = frame_cost(plan.work);
+  for (size_t c = 0; c < scene.cameras.size(); ++c) {
+    const SceneCamera& camera = scene.cameras[c];
+    const WorkingScale scale = working_scale(scene, camera.camera, config.values);
+    plan.cameras.push_back({camera.name, camera.camera.width_px, camera.camera.height_px,
+                            scale.shrink, scale.person_px / scale.shrink,
+                            plan.cost.cameras[c].sum()});
+  }
+  plan.items = items_of(scene, config);
+  plan.state = state_of(scene, config.values);
+  plan.levels = plan_levels(scene, config);
+  plan.memory = memory_of(scene, config.values, plan);
+  plan.advice = advice_of(scene, config, plan.cost.sum());
+  return plan;
+}
+
+}  // namespace walktrack

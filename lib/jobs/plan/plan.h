@@ -1,0 +1,51 @@
+// `walktrack plan`: what tracking a scene would model and why, what it would cost, and what the
+// scene does not need. Nothing is tracked: costs are those of cost_model.h.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/config/config.h"
+#include "io/scene/scene.h"
+#include "jobs/plan/cost_model.h"
+#include "jobs/plan/plan_levels.h"
+
+namespace walktrack {
+
+struct PlanItem {
+  std::string name;
+  bool on = true;
+  std::string what;  // it is, or would be
+  std::string why;   // it is on or off: a default, the configuration's place, the scene
+  double ms = 0;     // CPU time a frame; 0 for what is off
+};
+
+struct PlanCamera {
+  std::string name;
+  int width_px = 0, height_px = 0, shrink = 1;
+  double person_px = 0;  // height of the standing subject in the shrunk image
+  double ms = 0;         // all that this camera alone costs
+};
+
+struct Plan {
+  std::filesystem::path scene;  // its file
+  double frame_rate = 0;
+  std::vector<PlanCamera> cameras;
+  std::vector<PlanItem> items;
+  PlanState state;
+  PlanLevels levels;
+  FrameWork work;
+  FrameCost cost;
+  std::vector<std::pair<std::string, double>> memory;  // what it is for, bytes
+  std::vector<std::string> advice;                     // what the scene does not need
+};
+
+// Opens the scene's videos, but reads no frame. InputError for what `track` would refuse, too.
+Plan plan_scene(const Scene& scene, const ConfigWithOrigin& config);
+
+std::string plan_text(const Plan& plan);
+std::string plan_json(const Plan& plan);
+
+}  // namespace walktrack

@@ -1,0 +1,51 @@
+// The levels of the model, each with all that the one before has, and the lowest that a scene
+// needs:
+//
+//   sagittal path  legs and trunk in upright planes of one heading, for a side view of one camera
+//   spatial path   turning, the pelvis's list, hips sideways: for everything else
+//   arms           on the path that is set; legs, pelvis and trunk are tracked without them
+//
+// A slope is the scene's own (its gravity), and costs a walker of their own for all particles.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/config/config.h"
+#include "io/scene/scene.h"
+
+namespace walktrack {
+
+struct PlanState {
+  int walker = 0, place = 0, pose = 0, controls = 0;  // numbers that a particle carries
+  int noise = 0;                                      // numbers drawn for it in each frame
+  double bytes_per_particle = 0;                      // all copies and weights of the filter
+  int dimension() const { return walker + place + pose + controls; }
+};
+
+PlanState state_of(const Scene& scene, const Config& config);
+
+struct PlanLevel {
+  std::string name;
+  std::vector<std::string> settings;  // what --set takes for it
+  PlanState state;
+  bool on = false;      // the configuration's
+  bool lowest = false;  // that suffices
+};
+
+struct PlanLevels {
+  std::vector<PlanLevel> levels;  // from the lowest up
+  std::string why;                // the lowest one suffices
+};
+
+PlanLevels plan_levels(const Scene& scene, const ConfigWithOrigin& config);
+
+// By the scene's `initial`: how far the walk's way is from a camera's line of sight over the
+// ground, 0 to pi/2 rad, and how far below the horizon it sees the walker's middle.
+struct SideView {
+  double off_sight = 0, below_horizon = 0;  // rad
+};
+std::optional<SideView> side_view(const Scene& scene, const Camera& camera);
+
+}  // namespace walktrack

@@ -1,0 +1,147 @@
+// The plan for people and for programs.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "jobs/plan/plan.h"
+
+namespace walktrack {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMiB = 1024 * 1024, kMsPerSecond = 1000, kPercent = 100;
+
+// Time by what it goes into, all cameras together, in the order of the work.
+std::vector<std::pair<std::string, double>> stages(const FrameCost& cost) {
+  FrameCost::OfCamera all;
+  for (const FrameCost::OfCamera& camera : cost.cameras) {
+    all.decoding += camera.decoding;
+    all.background += camera.background;
+    all.appearance += camera.appearance;
+    all.flow += camera.flow;
+    all.projection += camera.projection;
+    all.silhouettes += camera.silhouettes;
+  }
+  return {{"decoding", all.decoding},     {"background", all.background},
+          {"appearance", all.appearance}, {"flow", all.flow},
+          {"walker", cost.walker},        {"poses", cost.poses},
+          {"projection", all.projection}, {"silhouettes", all.silhouettes}};
+}
+
+std::string items_text(const Plan& plan) {
+  std::string out = "Modelled\n";
+  for (const PlanItem& item : plan.items)
+    out += fmt::format(
+        "  {:<3} {:<12} {} ({}){}\n", item.on ? "on" : "off", item.name, item.what, item.why,
+        item.ms > 0
+            ? fmt::format("; without it {:.0f} % less time", kPercent * item.ms / plan.cost.sum())
+            : "");
+  return out;
+}
+
+const char* mark(const PlanLevel& level) {
+  return level.on ? (level.lowest ? "  <- on, and suffices" : "  <- on")
+                  : (level.lowest ? "  <- suffices" : "");
+}
+
+std::string levels_text(const Plan& plan) {
+  std::string out = "\nLevels of the model: numbers a particle carries, drawn anew in a frame\n";
+  for (const PlanLevel& level : plan.levels.levels)
+    out += fmt::format("  {:<14} {:3} {:3}  {}{}\n", level.name, level.state.dimension(),
+                       level.state.noise, fmt::join(level.settings, " "), mark(level));
+  return out + fmt::format(
+                   "Lowest that suffices, by the scene:\n  {}.\nProved by measurement:\n"
+                   "  walktrack sweep {} -o out/levels --over path=sagittal:spatial\n",
+                   plan.levels.why, plan.scene.string());
+}
+
+std::string cost_text(const Plan& plan) {
+  const double all = plan.cost.sum();
+  std::string out = fmt::format(
+      "\nTime of a frame, {:g} particles: {:.1f} ms of CPU, {:.3g} frames/s on one thread of the "
+      "machine "
+      "that the\ncosts were measured on. Shares and ratios carry over to other machines, times "
+      "only "
+      "roughly;\n'walktrack sweep' measures yours.\n",
+      plan.work.particles, all, kMsPerSecond / all);
+  for (const auto& [stage, ms] : stages(plan.cost))
+    if (ms > 0)
+      out += fmt::format("  {:<12} {:6.2f} ms {:5.1f} %\n", stage, ms, kPercent * ms / all);
+  return out;
+}
+
+}  // namespace
+
+std::string plan_text(const Plan& plan) {
+  std::string out =
+      fmt::format("{}: {} camera{} at {:g} Hz\n", plan.scene.filename().string(),
+                  plan.cameras.size(), plan.cameras.size() == 1 ? "" : "s", plan.frame_rate);
+  for (const PlanCamera& camera : plan.cameras)
+    out += fmt::format(
+        "  {}: {}x{} px, worked on at 1/{} of it, where a person is {:.0f} px high; "
+        "{:.0f} % of the time\n",
+        camera.name, camera.width_px, camera.height_px, camera.shrink, camera.person_px,
+        kPercent * camera.ms / plan.cost.sum());
+  out += '\n';
+  out += items_text(plan);
+  const PlanState& s = plan.state;
+  out += fmt::format(
+      "\nState: {} numbers a particle (walker {}, standing foot and way {}, angles and their rates "
+      "{}, controls {}),\n{} drawn anew in a frame; "
+      "{:.0f} bytes with its copies, most of them fixed\n",
+      s.dimension(), s.walker, s.place, s.pose, s.controls, s.noise, s.bytes_per_particle);
+  out += levels_text(plan);
+  out += cost_text(plan);
+  out += "\nMemory, besides the program's own\n";
+  for (const auto& [what, bytes] : plan.memory)
+    out += fmt::format("  {:<38} {:7.2f} MiB\n", what, bytes / kMiB);
+  if (plan.advice.empty()) return out + "\nNothing in it seems more than the scene needs.\n";
+  out += "\nWhat the scene may not need\n";
+  for (const std::string& sentence : plan.advice) out += fmt::format("- {}\n", sentence);
+  return out + "'walktrack sweep' proves each on this scene.\n";
+}
+
+std::string plan_json(const Plan& plan) {
+  Json root = {{"scene", plan.scene.filename().string()}, {"frame_rate_hz", plan.frame_rate}};
+  for (size_t c = 0; c < plan.cameras.size(); ++c) {
+    const PlanCamera& camera = plan.cameras[c];
+    const CameraWork& work = plan.work.cameras[c];
+    root["cameras"].push_back({{"name", camera.name},
+                               {"size_px", {camera.width_px, camera.height_px}},
+                               {"shrink", camera.shrink},
+                               {"person_px", camera.person_px},
+                               {"region_px", work.region_px},
+                               {"rows", work.rows},
+                               {"cpu_ms", camera.ms}});
+  }
+  for (const PlanItem& item : plan.items)
+    root["items"].push_back({{"name", item.name},
+                             {"on", item.on},
+                             {"what", item.what},
+                             {"why", item.why},
+                             {"saves_cpu_ms", item.ms}});
+  const PlanState& s = plan.state;
+  root["state"] = {{"dimension", s.dimension()},
+                   {"noise", s.noise},
+                   {"bytes_per_particle", s.bytes_per_particle}};
+  for (const PlanLevel& level : plan.levels.levels)
+    root["levels"].push_back({{"name", level.name},
+                              {"settings", level.settings},
+                              {"dimension", level.state.dimension()},
+                              {"noise", level.state.noise},
+                              {"on", level.on},
+                              {"lowest_sufficient", level.lowest}});
+  root["lowest_level_why"] = plan.levels.why;
+  root["work"] = {{"particles", plan.work.particles},
+                  {"poses", plan.work.poses},
+                  {"parts", plan.work.parts},
+                  {"classes", plan.work.classes}};
+  root["cpu_ms"] = plan.cost.sum();
+  for (const auto& [stage, ms] : stages(plan.cost)) root["cpu_ms_by_stage"][stage] = ms;
+  for (const auto& [what, bytes] : plan.memory) root["memory_bytes"][what] = bytes;
+  root["advice"] = plan.advice;
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace walktrack

@@ -1,0 +1,16 @@
+// A walk out of a table of gaits: at every support transfer the walker takes the controls
+// of the gait at the speed wanted by then, corrected by the feedback: `walktrack simulate --prior`.
+#pragma once
+
+#include "gait/walk_plan.h"
+#include "jobs/simulate/simulate.h"
+
+namespace walktrack {
+
+// The job with start, controls and later steps out of the shipped table, for the parameters of
+// `job.model`; good for one walk, whose progress it keeps. UsageError where the model is neither
+// the kneed walker with a torso nor the anthropomorphic one, and where the table holds no gait for
+// a speed of the plan or for the slope.
+SimulateJob with_prior(SimulateJob job, const WalkPlan& plan);
+
+}  // namespace walktrack

@@ -1,0 +1,256 @@
+#include "jobs/render/render.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/conventions.h"
+#include "core/errors.h"
+#include "core/parallel_for.h"
+#include "io/archive/files.h"
+#include "io/calibration/calibration.h"
+#include "io/tables/angles_file.h"
+#include "io/tables/kinetics_file.h"
+#include "io/tables/motion_file.h"
+#include "jobs/render/frame_writer.h"
+#include "jobs/render/gait_motion.h"
+#include "jobs/render/render_truth.h"
+#include "synth/sensor.h"
+#include "synth/stage.h"
+
+namespace walktrack {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kFramesPerThread = 2;   // in memory at a time
+constexpr double kRoundingShare = 1e-6;  // of a frame: a duration of whole frames includes the last
+
+// One camera of the recording.
+struct Filming {
+  RenderCamera camera;
+  View view;
+  double rate;                       // Hz
+  uint32_t stream;                   // of its random numbers
+  size_t frames;                     // with start_frame
+  double time(size_t frame) const {  // of an exposure
+    return (static_cast<double>(frame) - camera.start_frame) / rate + camera.delay;
+  }
+};
+
+Subject subject_of(const FilmedWalker& walker) {
+  Subject subject;
+  subject.height = height_of(walker);
+  subject.mass = walker.mass;
+  return subject;
+}
+
+size_t frames_in(double duration, double rate) {
+  return static_cast<size_t>(std::floor(duration * rate + kRoundingShare)) + 1;
+}
+
+// A camera's place, from its file if it has one.
+std::vector<std::optional<Camera>> calibrations(const RenderOptions& options) {
+  std::vector<std::optional<Camera>> out;
+  for (const RenderCamera& camera : options.cameras) {
+    if (camera.calibration.empty()) {
+      out.emplace_back();
+    } else {
+      out.emplace_back(read_calibration(camera.calibration, camera.name));
+    }
+  }
+  return out;
+}
+
+cv::Mat picture(const RenderJob& job, const Plane<Colour>& light, uint32_t stream, uint32_t frame) {
+  std::vector<uint8_t> bytes =
+      developed(light, job.options.sensor, job.options.seed, stream, frame);
+  const cv::Mat image(light.height, light.width, CV_8UC3, bytes.data());
+  if (job.options.jpeg_quality == 0) return image.clone();
+  std::vector<uint8_t> coded;
+  cv::imencode(".jpg", image, coded, {cv::IMWRITE_JPEG_QUALITY, job.options.jpeg_quality});
+  return cv::imdecode(coded, cv::IMREAD_COLOR);
+}
+
+void write_truth_pictures(const RenderJob& job, const Stage& stage, const Filming& filming,
+                          size_t frame) {
+  const RenderOptions& options = job.options;
+  if (!options.labels && !options.flow && !options.depth) return;
+  const auto now = actors_at(stage, filming.time(frame));
+  const Plane<Sight> sights = render(filming.view, stage.world, now).sights;
+  const auto file = [&](const char* kind, const char* suffix) {
+    return job.output / kind / filming.camera.name / fmt::format("{:06}.{}", frame, suffix);
+  };
+  if (options.labels) write_labels(file("labels", "png"), labels_of(sights));
+  if (options.depth) write_depth(file("depth", "pfm"), depth_of(filming.view, sights));
+  if (!options.flow) return;
+  const auto next = actors_at(stage, filming.time(frame + 1));
+  write_flow(file("flow", "flo"), flow_of(filming.view, sights, now, next));
+}
+
+void make_truth_folders(const RenderJob& job, const std::string& camera) {
+  const RenderOptions& options = job.options;
+  for (const auto& [wanted, kind] :
+       {std::pair{options.labels, "labels"}, std::pair{options.flow, "flow"},
+        std::pair{options.depth, "depth"}}) {
+    if (wanted) fs::create_directories(job.output / kind / camera);
+  }
+}
+
+// Renders `count` frames, some at a time in parallel, and writes them in order.
+template <typename MakeFrame>
+void write_film(const RenderJob& job, const std::string& name, const Filming& filming, size_t count,
+                int threads, const JobControl& control, const MakeFrame& make_frame) {
+  FrameWriter writer(job.output, name, job.options.images,
+                     {filming.view.camera.width_px, filming.view.camera.height_px}, filming.rate);
+  const size_t batch = kFramesPerThread * static_cast<size_t>(threads);
+  std::vector<cv::Mat> images(batch);
+  for (size_t start = 0; start < count && !control.stopping(); start += batch) {
+    const size_t n = std::min(batch, count - start);
+    parallel_for(n, threads, [&](size_t i) { images[i] = make_frame(start + i); });
+    for (size_t i = 0; i < n; ++i) writer.write(images[i]);
+    control.progress("rendering " + filming.camera.name, start + n, count);
+  }
+  if (!control.stopping()) writer.close();
+}
+
+void film(const RenderJob& job, const Stage& stage, const Filming& filming, int threads,
+          const JobControl& control) {
+  const std::string& name = filming.camera.name;
+  make_truth_folders(job, name);
+  write_file_atomically(job.output / (name + ".yaml"), opencv_from_camera(filming.view.camera));
+  write_film(job, name, filming, filming.frames, threads, control, [&](size_t frame) {
+    write_truth_pictures(job, stage, filming, frame);
+    const Plane<Colour> light =
+        exposed(stage, filming.view, job.options.shutter, filming.time(frame), filming.rate);
+    return picture(job, light, 2 * filming.stream, static_cast<uint32_t>(frame));
+  });
+  if (job.options.background_frames == 0 || control.stopping()) return;
+  write_film(job, name + "_background", filming, static_cast<size_t>(job.options.background_frames),
+             threads, control, [&](size_t frame) {
+               return picture(job, filming.view.empty, 2 * filming.stream + 1,
+                              static_cast<uint32_t>(frame));
+             });
+}
+
+std::vector<double> scene_times(const Stage& stage, double rate) {
+  std::vector<double> times(frames_in(stage.duration, rate));
+  for (size_t i = 0; i < times.size(); ++i) times[i] = static_cast<double>(i) / rate;
+  return times;
+}
+
+// Position, heading and speed at time 0, from the first half second.
+std::string initial_line(const Motion& truth) {
+  size_t last = 0;
+  while (last + 1 < truth.time.size() && truth.time[last] < 0.5) ++last;
+  const Eigen::Vector3d from = truth.joints.front()[Joint::kPelvis];
+  const Eigen::Vector3d way = truth.joints[last][Joint::kPelvis] - from;
+  if (!known(way) || last == 0)
+    throw InputError("'initial: true' needs a walker who is there from the start");
+  return fmt::format(
+      "initial: {{time: 0, position: [{:.2f}, {:.2f}], heading: {:.2f}, speed: {:.2f}}}\n",
+      from.x(), from.y(), std::atan2(way.y(), way.x()), way.head<2>().norm() / truth.time[last]);
+}
+
+std::string gravity_line(const Motion& truth, double slope) {
+  const Eigen::Vector3d way =
+      truth.joints.back()[Joint::kPelvis] - truth.joints.front()[Joint::kPelvis];
+  const double heading = known(way) ? std::atan2(way.y(), way.x()) : 0;
+  const double along = kStandardGravity * std::sin(slope);
+  return fmt::format("gravity: [{:.6f}, {:.6f}, {:.6f}]\n", along * std::cos(heading),
+                     along * std::sin(heading), -kStandardGravity * std::cos(slope));
+}
+
+std::string scene_yaml(const RenderJob& job, const std::vector<Filming>& cameras,
+                       const Motion& truth) {
+  std::string out = "# Synthetic: rendered by walktrack, truth in truth.csv.\ncameras:\n";
+  for (const Filming& filming : cameras) {
+    const std::string& name = filming.camera.name;
+    const bool images = job.options.images;
+    out += fmt::format("  - {{name: {0}, video: {1}, calibration: {0}.yaml", name,
+                       film_name(name, images));
+    if (job.options.background_frames > 0)
+      out += fmt::format(", background: {}", film_name(name + "_background", images));
+    if (filming.camera.start_frame > 0)
+      out += fmt::format(", start_frame: {}", filming.camera.start_frame);
+    if (filming.camera.frame_rate)
+      out += fmt::format(", frame_rate: {}", shortest_number(filming.rate));
+    out += "}\n";
+  }
+  out += fmt::format("frame_rate: {}\n", shortest_number(job.options.frame_rate));
+  out += fmt::format("subject: {{height: {}, mass: {}}}\n", shortest_number(height_of(job.walker)),
+                     shortest_number(job.walker.mass));
+  if (job.options.slope != 0) out += gravity_line(truth, job.options.slope);
+  if (job.options.state_initial) out += initial_line(truth);
+  return out + "truth: truth.csv\n";
+}
+
+std::vector<Filming> film_crew(const RenderOptions& options, const Stage& stage, int threads) {
+  std::vector<Filming> out;
+  for (size_t i = 0; i < stage.cameras.size(); ++i) {
+    RenderCamera camera = options.cameras.empty() ? RenderCamera{} : options.cameras[i];
+    if (camera.name.empty()) camera.name = fmt::format("cam{}", i);
+    const double rate = camera.frame_rate.value_or(options.frame_rate);
+    const size_t frames = frames_in(stage.duration, rate) + static_cast<size_t>(camera.start_frame);
+    out.push_back({std::move(camera), make_view(stage.world, stage.cameras[i], threads), rate,
+                   static_cast<uint32_t>(i), frames});
+  }
+  return out;
+}
+
+// Forces at the scene's times, with the walker where the stage has put it.
+std::string kinetics_truth(const RenderJob& job, WalkedGait walked, std::vector<double> times) {
+  const FilmedWalker& walker = job.walker;
+  const Subject subject = subject_of(walker);
+  walked.world_from_plane = Eigen::Translation3d(walker.shift.x(), walker.shift.y(), 0) *
+                            Eigen::AngleAxisd(walker.turn, Eigen::Vector3d::UnitZ()) *
+                            walked.world_from_plane;
+  const std::vector<double> of_scene = times;
+  for (double& time : times) time += job.options.start - walker.delay;
+  Kinetics truth = ground_kinetics(walked, times, 1 / job.options.frame_rate);
+  truth.time = of_scene;
+  return simulated_kinetics_csv(truth, subject);
+}
+
+}  // namespace
+
+size_t render_scene(const RenderJob& given, const JobControl& control) {
+  RenderJob job = given;
+  const int threads = thread_count(job.threads);
+  refuse_existing(job.output / "scene.yaml", job.overwrite);
+  fs::create_directories(job.output);
+  fs::remove(job.output / "scene.yaml");
+  fs::remove(job.output / "kinetics.csv");
+  std::optional<WalkedGait> walked;
+  if (job.gait) {
+    const double end = job.options.duration.value_or(kDefaultWalkDuration) + job.options.start;
+    walked = walked_gait(*job.gait, subject_of(job.walker), job.options.slope,
+                         std::max(0.0, end - job.walker.delay));
+    job.walker.motion = walked->motion;
+  }
+  const Stage stage = make_stage(job.walker, job.options, calibrations(job.options));
+  const std::vector<Filming> cameras = film_crew(job.options, stage, threads);
+  const Actor& actor = stage.actors.front();
+  const std::vector<double> times = scene_times(stage, job.options.frame_rate);
+  const Motion truth = truth_at(stage, times);
+  write_file_atomically(job.output / "truth.csv", motion_csv(truth));
+  const std::vector<AngleRow> angles = angle_rows(truth, actor.body.lengths);
+  write_file_atomically(job.output / "angles.csv",
+                        joint_angles_csv(angles, job.options.frame_rate));
+  write_file_atomically(job.output / "events.csv", events_csv(actor.motion, stage.duration));
+  if (walked)
+    write_file_atomically(job.output / "kinetics.csv", kinetics_truth(job, *walked, times));
+  size_t frames = 0;
+  for (const Filming& filming : cameras) {
+    film(job, stage, filming, threads, control);
+    if (control.stopping()) return frames;
+    frames += filming.frames;
+  }
+  write_file_atomically(job.output / "scene.yaml", scene_yaml(job, cameras, truth));
+  return frames;
+}
+
+}  // namespace walktrack

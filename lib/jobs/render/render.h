@@ -1,0 +1,31 @@
+// `walktrack render`: a motion becomes a scene folder that `track` reads, with its truth:
+//   scene.yaml, <camera>.mp4, <camera>.yaml, <camera>_background.mp4 (with `images`, folders of
+//   %06d.png in place of .mp4), truth.csv (joints), angles.csv (io/tables/angles_file.h, without
+//   bands), events.csv, kinetics.csv where the motion has physics (io/tables/kinetics_file.h), and
+//   on request labels/<camera>/%06d.png (0 = nobody, 1 + part + 100 walker), flow/<camera>/%06d.flo
+//   (Middlebury), depth/<camera>/%06d.pfm (m).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "core/job_control.h"
+#include "io/scene/render_file.h"
+#include "synth/render_options.h"
+
+namespace walktrack {
+
+struct RenderJob {
+  FilmedWalker walker;
+  std::optional<GaitWalk> gait;  // instead of the walker's motion
+  RenderOptions options;
+  std::filesystem::path output;
+  bool overwrite = false;
+  int threads = 0;  // 0 = all of the machine
+};
+
+// scene.yaml is written last: a folder that holds one is complete. UsageError if it is there
+// already and may not be overwritten. Returns the number of frames rendered, all cameras together.
+size_t render_scene(const RenderJob& job, const JobControl& control);
+
+}  // namespace walktrack

@@ -1,0 +1,268 @@
+#include "jobs/selftest/selftest_film.h"
+
+#include <malloc.h>
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "body/kinematics.h"
+#include "core/errors.h"
+#include "io/archive/files.h"
+#include "io/calibration/calibration.h"
+#include "io/tables/motion_file.h"
+#include "jobs/track/track.h"
+#include "metrics/joint_error.h"
+#include "synth/sensor.h"
+#include "synth/stage.h"
+
+namespace walktrack {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kSeconds = 2;      // of a film
+constexpr double kHeight = 1.75;    // m, of who walks in it
+constexpr double kLeastMass = 0.5;  // kg, that a scene may state
+constexpr double kFarthest = 1000;  // m; nobody walks out of that in a self-test
+constexpr size_t kMaxTableBytes = 64u << 20;
+constexpr int kBackgroundFrames = 10;
+constexpr double kMostGrowth = 1;  // MB, from the first half of a film to the second
+constexpr uint32_t kFilmStream = 0, kBackgroundStream = 1;
+
+struct Shot {
+  Frames frames, background;
+  Camera camera;
+  Motion truth;
+};
+
+cv::Mat image_of(const Plane<Colour>& light, const Film& film, uint32_t stream, size_t frame) {
+  std::vector<uint8_t> bytes = developed(light, film.options.sensor, film.options.seed, stream,
+                                         static_cast<uint32_t>(frame));
+  const cv::Mat image(light.height, light.width, CV_8UC3, bytes.data());
+  if (film.enlarge == 1) return image.clone();
+  cv::Mat large;
+  cv::resize(image, large, {}, film.enlarge, film.enlarge, cv::INTER_NEAREST);
+  return large;
+}
+
+// The camera whose pixels are 1 / factor as large.
+Camera enlarged(Camera camera, double factor) {
+  camera.width_px = static_cast<int>(camera.width_px * factor);
+  camera.height_px = static_cast<int>(camera.height_px * factor);
+  camera.focal_px *= factor;
+  camera.centre_px = (camera.centre_px.array() + 0.5) * factor - 0.5;  // pixel centres are whole
+  return camera;
+}
+
+Shot shoot(const Film& film) {
+  const Stage stage = make_stage(film.walker, film.options, {std::nullopt});
+  const View view = make_view(stage.world, stage.cameras[0], 1);
+  Shot shot;
+  shot.camera = enlarged(stage.cameras[0], film.enlarge);
+  std::vector<double> times;
+  for (double time = 0; time <= stage.duration; time += 1 / film.options.frame_rate) {
+    const Plane<Colour> light =
+        exposed(stage, view, film.options.shutter, time, film.options.frame_rate);
+    shot.frames.push_back(image_of(light, film, kFilmStream, times.size()));
+    times.push_back(time);
+  }
+  for (size_t i = 0; i < kBackgroundFrames; ++i) {
+    shot.background.push_back(image_of(view.empty, film, kBackgroundStream, i));
+  }
+  shot.truth = truth_at(stage, times);
+  if (film.spoil) film.spoil(shot.frames);
+  return shot;
+}
+
+void write_frames(const Frames& frames, const fs::path& folder) {
+  fs::create_directories(folder);
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const std::string file = (folder / fmt::format("{:06}.bmp", i)).string();
+    if (!cv::imwrite(file, frames[i])) throw std::runtime_error(file + " cannot be written");
+  }
+}
+
+// Where the walk begins, from its first half second.
+std::string initial_line(const Motion& truth) {
+  size_t last = 0;
+  while (last + 1 < truth.time.size() && truth.time[last] < 0.5) ++last;
+  const Eigen::Vector3d from = truth.joints.front()[Joint::kPelvis];
+  const Eigen::Vector3d way = truth.joints[last][Joint::kPelvis] - from;
+  const double seconds = std::max(truth.time[last], 1e-3);
+  return fmt::format("initial: {{position: [{:.3f}, {:.3f}], heading: {:.3f}, speed: {:.3f}}}\n",
+                     from.x(), from.y(), std::atan2(way.y(), way.x()),
+                     way.head<2>().norm() / seconds);
+}
+
+fs::path write_scene(const Film& film, const Shot& shot, const fs::path& folder) {
+  write_frames(shot.frames, folder / "film");
+  write_frames(shot.background, folder / "empty");
+  write_file_atomically(folder / "camera.yaml", opencv_from_camera(shot.camera));
+  std::string text =
+      "cameras: [{name: side, video: film, calibration: camera.yaml, background: empty}]\n";
+  text += fmt::format("frame_rate: {}\n", film.options.frame_rate);
+  text +=
+      fmt::format("subject: {{height: {}, mass: {}}}\n", height_of(film.walker), film.walker.mass);
+  if (film.state_initial) text += initial_line(shot.truth);
+  write_file_atomically(folder / "scene.yaml", text + film.scene_lines);
+  return folder / "scene.yaml";
+}
+
+ConfigWithOrigin config_of(const Film& film) {
+  ConfigWithOrigin config;
+  // Few particles: this is about surviving, not about accuracy.
+  for (const char* setting : {"threads=1", "filter.particles=150", "start.particles=40"}) {
+    apply_setting(config, setting, "selftest");
+  }
+  for (const std::string& setting : film.settings) apply_setting(config, setting, "selftest");
+  return config;
+}
+
+// MB on the heap. Not what is resident, which is up to the kernel as well.
+double heap_memory() {
+  const struct mallinfo2 heap = mallinfo2();
+  return static_cast<double>(heap.uordblks + heap.hblkhd) / (1 << 20);
+}
+
+// The most memory that tracking took in each half of the film: searching takes more than following,
+// and both happen in both.
+struct MemoryWatch {
+  double first_half = 0, second_half = 0;  // MB
+
+  void look(const Progress& progress) {
+    if (progress.what != "tracking") return;
+    double& half = 2 * progress.done <= progress.total ? first_half : second_half;
+    half = std::max(half, heap_memory());
+  }
+  double growth() const { return second_half - first_half; }
+};
+
+TrackOutcome track(const fs::path& scene, ConfigWithOrigin config, const fs::path& output,
+                   const JobControl& control) {
+  TrackJob job;
+  job.scene = read_scene(scene);
+  job.config = std::move(config);
+  job.output = output;
+  job.overlay = false;
+  return track_scene(job, control);
+}
+
+// What no result may hold; empty if it does not. The reader refuses cells that are no numbers.
+std::string fault_in(const fs::path& output) {
+  const std::string uncertainty = read_text_file(output / "uncertainty.csv", kMaxTableBytes);
+  if (uncertainty.find("nan", uncertainty.find('\n')) != std::string::npos ||
+      uncertainty.find("inf", uncertainty.find('\n')) != std::string::npos) {
+    return "uncertainty.csv holds what is no number";
+  }
+  const Motion motion = read_motion(output / "joints.csv");
+  for (size_t i = 0; i < motion.time.size(); ++i) {
+    for (const Eigen::Vector3d& joint : motion.joints[i].at) {
+      if (known(joint) && joint.norm() > kFarthest) {
+        return fmt::format("a joint {:g} m away at {:g} s", joint.norm(), motion.time[i]);
+      }
+    }
+  }
+  return {};
+}
+
+// `height` of the walker, m.
+TrialResult judged(const TrackOutcome& outcome, const Motion& truth, double height,
+                   const fs::path& output) {
+  TrialResult result;
+  result.what = fault_in(output);
+  if (!result.what.empty()) return result;
+  result.what = fmt::format("{} of {} frames", outcome.tracked, outcome.frames);
+  result.end = outcome.status == TrackStatus::kTracked ? TrialEnd::kTracked : TrialEnd::kDegraded;
+  if (!outcome.trouble.empty()) result.what += "; " + outcome.trouble;
+  if (outcome.tracked == 0) return result;
+  const auto errors = joint_errors(truth, read_motion(output / "joints.csv"));
+  const double error = errors.by_joint[static_cast<size_t>(Joint::kPelvis)].absolute.median;
+  if (!std::isfinite(error)) return result;
+  result.what += fmt::format("; pelvis {:.2f} m off", error);
+  if (error > kTrackedWithin * height) result.end = TrialEnd::kDegraded;
+  return result;
+}
+
+}  // namespace
+
+Film film_of_walk(double speed) {
+  Film film;
+  film.walker.height = kHeight;
+  const Body body = make_body({.height = kHeight, .lengths = {}}, {.arms = true});
+  MadeWalk walk;
+  walk.speed = speed;
+  walk.to = kSeconds;
+  film.walker.motion = made_walk(body, walk);
+  RenderCamera camera;
+  camera.width_px = 160;
+  camera.height_px = 120;
+  film.options.cameras = {camera};
+  return film;
+}
+
+Film film_of_body(double height) {
+  Film film = film_of_walk();
+  const double length = height / kHeight, time = std::sqrt(length);
+  film.walker.height = height;
+  film.walker.mass = std::max(kLeastMass, film.walker.mass * std::pow(length, 3));
+  Motion& motion = film.walker.motion;
+  const Eigen::Vector3d middle = 0.5 * length * motion.joints.back()[Joint::kPelvis];
+  for (double& each : motion.time) each *= time;
+  for (JointPositions& joints : motion.joints) {
+    for (Eigen::Vector3d& joint : joints.at) joint *= length;
+  }
+  RenderCamera& camera = film.options.cameras[0];
+  camera.look_at = {middle.x(), middle.y(), 0.5 * height};
+  camera.position = *camera.look_at + height * Eigen::Vector3d(0, -2.6, 0.2);
+  return film;
+}
+
+Film film_of_standing(double speed, double turn_rate) {
+  Film film = film_of_walk();
+  const Body body = make_body({}, {});
+  Motion standing;
+  for (double time = 0; time <= kSeconds; time += 0.01) {
+    Pose pose;
+    pose.root = {speed * time, 0, leg_length(body.lengths)};
+    pose.heading = turn_rate * time;
+    standing.time.push_back(time);
+    standing.joints.push_back(forward_kinematics(body, pose).joints);
+    for (int j = kJointCountWithoutArms; j < kJointCount; ++j) {
+      standing.joints.back().at[static_cast<size_t>(j)] = unknown_joints().at[0];
+    }
+  }
+  film.walker.motion = std::move(standing);
+  film.walker.arms = false;
+  return film;
+}
+
+TrialResult try_film(const Film& film, const fs::path& folder) {
+  ConfigWithOrigin config = config_of(film);  // a setting that is refused is a fault of the trial
+  try {
+    Shot shot = shoot(film);
+    const fs::path scene = write_scene(film, shot, folder);
+    shot.frames.clear();  // so that the memory told is the tracker's
+    const fs::path output = folder / "result";
+    MemoryWatch memory;
+    JobControl control;
+    if (film.watch_memory)
+      control.report = [&](const Progress& progress) { memory.look(progress); };
+    TrialResult result = judged(track(scene, std::move(config), output, control), shot.truth,
+                                height_of(film.walker), output);
+    if (film.watch_memory) {
+      result.what += fmt::format("; second half {:+.1f} MB", memory.growth());
+      if (memory.growth() > kMostGrowth) result.end = TrialEnd::kFailed;
+    }
+    return result;
+  } catch (const InputError& error) {
+    return {.end = TrialEnd::kReported, .what = error.what()};
+  } catch (const UsageError& error) {
+    return {.end = TrialEnd::kReported, .what = error.what()};
+  }
+}
+
+}  // namespace walktrack

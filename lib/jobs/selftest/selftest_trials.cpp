@@ -1,0 +1,308 @@
+// The table of trials.
+#include <sys/resource.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/conventions.h"
+#include "core/errors.h"
+#include "core/rng.h"
+#include "filter/particle_filter.h"
+#include "jobs/selftest/selftest.h"
+#include "jobs/selftest/selftest_film.h"
+
+namespace walktrack {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Trial {
+  const char* name;
+  bool stress;  // takes minutes
+  TrialResult (*run)(const fs::path& folder);
+};
+
+TrialResult try_walk(double speed, const fs::path& folder) {
+  return try_film(film_of_walk(speed), folder);
+}
+
+TrialResult try_settings(const std::vector<std::string>& settings, const fs::path& folder) {
+  Film film = film_of_walk();
+  film.settings = settings;
+  return try_film(film, folder);
+}
+
+TrialResult try_scene(const std::string& lines, const fs::path& folder) {
+  Film film = film_of_walk();
+  film.scene_lines = lines;
+  return try_film(film, folder);
+}
+
+TrialResult try_spoilt(void (*spoil)(Frames&), const fs::path& folder) {
+  Film film = film_of_walk();
+  film.spoil = spoil;
+  return try_film(film, folder);
+}
+
+TrialResult try_slope(double slope_deg, const fs::path& folder) {
+  Film film = film_of_walk();
+  const double slope = rad_from_deg(slope_deg);
+  film.scene_lines =
+      fmt::format("gravity: [{:.4f}, 0, {:.4f}]\n", kStandardGravity * std::sin(slope),
+                  -kStandardGravity * std::cos(slope));
+  return try_film(film, folder);
+}
+
+// Fewer seconds of it, which nobody need make a step in.
+void cut(Film& film, double seconds) {
+  film.options.duration = seconds;
+  film.settings.push_back("gates.least_steps=0");
+}
+
+// Where the camera differs from that of the other films.
+struct Filming {
+  int width_px = 160, height_px = 120;
+  std::optional<double> focal_px{};
+  std::optional<Eigen::Vector3d> position{}, look_at{};
+  int enlarge = 1;
+};
+
+TrialResult try_camera(const Filming& filming, const fs::path& folder) {
+  Film film = film_of_walk();
+  RenderCamera& camera = film.options.cameras[0];
+  camera.width_px = filming.width_px;
+  camera.height_px = filming.height_px;
+  camera.focal_px = filming.focal_px;
+  camera.position = filming.position;
+  camera.look_at = filming.look_at;
+  film.enlarge = filming.enlarge;
+  if (film.enlarge > 1) cut(film, 0.2);  // hundreds of megabytes of pictures
+  return try_film(film, folder);
+}
+
+TrialResult try_rate(double rate, const fs::path& folder) {
+  Film film = film_of_walk();
+  film.options.frame_rate = rate;
+  if (rate > 60) film.options.duration = 0.8;
+  return try_film(film, folder);
+}
+
+// Three frames: a start and two steps.
+TrialResult try_many_particles(const char* count, const fs::path& folder) {
+  Film film = film_of_walk();
+  // Hypotheses of the start are small filters; the large one is to work from the first frame on.
+  film.settings = {fmt::format("filter.particles={}", count), "filter.max_layers=2",
+                   "start.seconds=0"};
+  cut(film, 0.07);
+  return try_film(film, folder);
+}
+
+// The same walk again and again, for as many frames as wanted: memory must not grow with them.
+TrialResult try_long(size_t frames, const fs::path& folder) {
+  Film film = film_of_walk();
+  film.watch_memory = true;
+  film.settings = {"filter.particles=30", "start.particles=10"};
+  film.spoil = [frames](Frames& shot) {
+    const size_t once = shot.size();
+    for (size_t i = once; i < frames; ++i) shot.push_back(shot[i % once]);
+  };
+  return try_film(film, folder);
+}
+
+// A filter on a line, with likelihoods that no float could hold.
+TrialResult try_filter(double (*log_likelihood)(double x), bool may_die) {
+  ParticleFilter<double> filter({.particles = 1000}, 1, 1);
+  filter.start(std::vector<double>(1000, 0.0));
+  int died = 0;
+  double evidence = 0;
+  for (uint32_t frame = 0; frame < 20; ++frame) {
+    const FilterReport report = filter.step(
+        frame,
+        [frame](double& x, uint32_t i) {
+          Rng rng(1, Purpose::kTest, frame, i);
+          x += rng.normal();
+          return true;
+        },
+        [&](double x) { return log_likelihood(x); },
+        [](double& x, double scale, Rng& rng) { x += scale * rng.normal(); });
+    evidence = report.log_evidence;
+    if (std::isnan(evidence) || std::isnan(report.ess)) return {.what = "a figure is no number"};
+    if (!report.all_dead) continue;
+    ++died;
+    filter.start(std::vector<double>(1000, 0.0));
+  }
+  if (died == 0) {
+    return {.end = TrialEnd::kTracked, .what = fmt::format("log-evidence {:.4g}", evidence)};
+  }
+  return {.end = may_die ? TrialEnd::kReported : TrialEnd::kFailed,
+          .what = fmt::format("all particles dead in {} of 20 frames, as the filter says", died)};
+}
+
+void keep_every(Frames& frames, size_t nth) {
+  Frames kept;
+  for (size_t i = 0; i < frames.size(); i += nth) kept.push_back(frames[i]);
+  frames = kept;
+}
+
+constexpr std::array kTrials{
+    // The one that has to pass the quality gates, so with half of the default particles.
+    Trial{"ordinary walk", false,
+          [](const fs::path& f) { return try_settings({"start.particles=80"}, f); }},
+    Trial{"ordinary walk, start not told", false,
+          [](const fs::path& f) {
+            Film film = film_of_walk();
+            film.state_initial = false;
+            return try_film(film, f);
+          }},
+    Trial{"walk of 0.3 m/s", false, [](const fs::path& f) { return try_walk(0.3, f); }},
+    Trial{"walk of 2.2 m/s", false, [](const fs::path& f) { return try_walk(2.2, f); }},
+    Trial{"standing still, feet together", false,
+          [](const fs::path& f) { return try_film(film_of_standing(0, 0), f); }},
+    Trial{"turning on the spot, 90 deg/s", false,
+          [](const fs::path& f) { return try_film(film_of_standing(0, 0.5 * kPi), f); }},
+    Trial{"knees straight throughout", false,
+          [](const fs::path& f) { return try_film(film_of_standing(1, 0), f); }},
+    Trial{"1 particle", false,
+          [](const fs::path& f) {
+            return try_settings({"filter.particles=1", "start.particles=1"}, f);
+          }},
+    Trial{"10,000 particles", false,
+          [](const fs::path& f) { return try_many_particles("10000", f); }},
+    Trial{"1,000,000 particles", true,
+          [](const fs::path& f) { return try_many_particles("1000000", f); }},
+    Trial{"no noise at all", false,
+          [](const fs::path& f) {
+            return try_settings(
+                {"motion.torque_noise_scale=0", "motion.clock=0", "motion.turning=0",
+                 "motion.misfit=0", "motion.ball_drift=0", "motion.ball_slip=0", "motion.landing=0",
+                 "motion.arrival=0", "motion.control_noise=0", "motion.aim_drift=0",
+                 "motion.rephasing=0"},
+                f);
+          }},
+    Trial{"noise a thousand times", false,
+          [](const fs::path& f) {
+            Film film = film_of_walk();
+            film.options.duration = 0.5;  // what flies about takes time to search for
+            film.settings = {"motion.torque_noise_scale=1000",
+                             "motion.clock=1",
+                             "motion.turning=80",
+                             "motion.misfit=10",
+                             "motion.ball_drift=1",
+                             "motion.ball_slip=1",
+                             "motion.landing=1",
+                             "motion.arrival=10",
+                             "motion.control_noise=1",
+                             "motion.aim_drift=1",
+                             "motion.rephasing=100"};
+            return try_film(film, f);
+          }},
+    Trial{"all log-weights -infinity", false,
+          [](const fs::path&) { return try_filter([](double) { return -kInfinity; }, true); }},
+    Trial{"log-likelihoods 1e6 nats apart", false,
+          [](const fs::path&) { return try_filter([](double x) { return -1e6 * x * x; }, false); }},
+    Trial{"log-likelihoods of -1e300 nats", false,
+          [](const fs::path&) { return try_filter([](double x) { return -1e300 * x; }, false); }},
+    Trial{"person 1 px high", false,
+          [](const fs::path& f) {
+            return try_camera({.focal_px = 9, .position = {{0, -16, 1.2}}}, f);
+          }},
+    Trial{"image of 1 px", false,
+          [](const fs::path& f) { return try_camera({.width_px = 1, .height_px = 1}, f); }},
+    Trial{"image of 2 x 500 px", false,
+          [](const fs::path& f) { return try_camera({.width_px = 2, .height_px = 500}, f); }},
+    Trial{"8K images, person 4,000 px high", true,
+          [](const fs::path& f) {
+            return try_camera(
+                {.height_px = 90, .focal_px = 144, .position = {{0.2, -3, 0.9}}, .enlarge = 48}, f);
+          }},
+    Trial{"4K images", false, [](const fs::path& f) { return try_camera({.enlarge = 24}, f); }},
+    Trial{"5 frames/s", false, [](const fs::path& f) { return try_rate(5, f); }},
+    Trial{"240 frames/s", false, [](const fs::path& f) { return try_rate(240, f); }},
+    Trial{"every frame twice", false,
+          [](const fs::path& f) {
+            return try_spoilt(
+                [](Frames& frames) {
+                  for (size_t i = 1; i < frames.size(); i += 2) frames[i] = frames[i - 1];
+                },
+                f);
+          }},
+    Trial{"every other frame missing", false,
+          [](const fs::path& f) {
+            return try_spoilt([](Frames& frames) { keep_every(frames, 2); }, f);
+          }},
+    Trial{"black frames now and then", false,
+          [](const fs::path& f) {
+            return try_spoilt(
+                [](Frames& frames) {
+                  for (size_t i = 4; i < frames.size(); i += 7) frames[i] = cv::Scalar::all(0);
+                },
+                f);
+          }},
+    Trial{"one colour throughout", false,
+          [](const fs::path& f) {
+            return try_spoilt(
+                [](Frames& frames) {
+                  for (cv::Mat& frame : frames) frame = cv::Scalar::all(90);
+                },
+                f);
+          }},
+    Trial{
+        "a single frame", false,
+        [](const fs::path& f) { return try_spoilt([](Frames& frames) { frames.resize(1); }, f); }},
+    Trial{"frames that change their size", false,
+          [](const fs::path& f) {
+            return try_spoilt([](Frames& frames) { frames[9] = frames[9].rowRange(0, 50); }, f);
+          }},
+    Trial{"camera looking away", false,
+          [](const fs::path& f) {
+            return try_camera({.position = {{0, -5, 1.2}}, .look_at = {{0, -9, 1.2}}}, f);
+          }},
+    Trial{"camera inside the body", false,
+          [](const fs::path& f) {
+            return try_camera({.position = {{1.2, 0, 1}}, .look_at = {{5, 0, 1}}}, f);
+          }},
+    Trial{"body of 0.3 m", false, [](const fs::path& f) { return try_film(film_of_body(0.3), f); }},
+    Trial{"body of 3 m", false, [](const fs::path& f) { return try_film(film_of_body(3), f); }},
+    Trial{"45 deg downhill", false, [](const fs::path& f) { return try_slope(45, f); }},
+    Trial{"45 deg uphill", false, [](const fs::path& f) { return try_slope(-45, f); }},
+    Trial{"gravity of the moon", false,
+          [](const fs::path& f) { return try_scene("gravity: [0, 0, -1.62]\n", f); }},
+    Trial{"gravity of a giant", false,
+          [](const fs::path& f) { return try_scene("gravity: [0, 0, -99]\n", f); }},
+    Trial{"gravity upwards", false,
+          [](const fs::path& f) { return try_scene("gravity: [0, 0, 9.81]\n", f); }},
+    Trial{"300 frames", false, [](const fs::path& f) { return try_long(300, f); }},
+    Trial{"10,000 frames", true, [](const fs::path& f) { return try_long(10'000, f); }},
+};
+
+}  // namespace
+
+std::vector<std::string> trial_names(bool stress) {
+  std::vector<std::string> names;
+  for (const Trial& trial : kTrials) {
+    if (stress || !trial.stress) names.emplace_back(trial.name);
+  }
+  return names;
+}
+
+TrialResult run_trial(const std::string& name, const fs::path& folder) {
+  for (const Trial& trial : kTrials) {
+    if (name != trial.name) continue;
+    TrialResult result = trial.run(folder);
+    result.name = name;
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    result.peak_memory = static_cast<double>(usage.ru_maxrss) / 1024;  // from kB
+    return result;
+  }
+  throw UsageError(fmt::format("no trial is called '{}', did you mean '{}'?", name,
+                               nearest_word(name, trial_names(true))));
+}
+
+}  // namespace walktrack

@@ -1,0 +1,91 @@
+// `walktrack sweep`: how much accuracy a scene's tracking gives for its time. Every setting of a
+// grid tracks the scene with several seeds; written are
+//   sweep.csv, sweep.json, sweep.md   one row a setting, and in words which one to use
+//   sweep.svg                         error against time, the settings that nothing beats joined
+//   runs/<setting>/seed_<n>/          every run's own result folder
+// A run whose folder is complete, of the same scene, configuration and program, is not done again:
+// a sweep that was interrupted goes on, one with more values or seeds measures what is new. Seeds
+// are the outer loop, so that a change of the machine's load meets all settings alike, and what was
+// done before an interruption is a whole, if coarser, picture. Errors follow from inputs and seeds
+// alone; times do not.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/job_control.h"
+#include "jobs/sweep/sweep_grid.h"
+
+namespace walktrack {
+
+struct SweepJob {
+  Scene scene;
+  ConfigWithOrigin config;
+  std::vector<SweepKnob> knobs;
+  int seeds = 3;                // of each setting, from the configuration's on
+  int repeats = 1;              // of each run, for its time alone
+  std::filesystem::path truth;  // empty = the scene's; if it has none, see SweepReport::reference
+  std::filesystem::path output;
+  bool again = false;  // do complete runs again
+};
+
+struct SweepRun {
+  uint64_t seed = 0;
+  bool found = false;                                          // the walker
+  double error_mm = std::numeric_limits<double>::quiet_NaN();  // NaN = not found
+  double lost_share = 1;                                       // of the frames after that
+  // Medians of the repeats; of the processors together, which other programs hardly change.
+  double seconds_per_frame = std::numeric_limits<double>::quiet_NaN();
+  double cpu_seconds_per_frame = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct SweepRow {
+  SweepSetting setting;
+  std::vector<SweepRun> runs;
+  // Means over the runs; the error's standard deviation over seeds, NaN for fewer than two.
+  double error_mm = 0, error_sd_mm = 0, lost_share = 0;
+  double seconds_per_frame = 0, cpu_seconds_per_frame = 0;  // medians of the runs
+  bool holds = false;     // every seed found the walker and kept to the gate of lost frames
+  bool on_front = false;  // nothing that holds is both faster and more accurate
+
+  double frames_per_second() const { return 1 / seconds_per_frame; }
+};
+
+struct SweepReport {
+  std::string scene;
+  std::vector<SweepKnob> knobs;
+  std::vector<SweepRow> rows;  // in grid order; without those that no run has finished of
+  std::string error_is;        // what the error is, e.g. "joint error (7 joints), mean, mm"
+  // What errors are against: the truth's file, or without one a run of the richest setting with a
+  // seed of its own, so that they contain that run's error too.
+  std::string reference;
+  bool against_truth = true;
+  int seeds = 0, threads = 0;
+  bool interrupted = false;
+};
+
+// Throws UsageError, InputError for what cannot be started, InputError for a film that breaks off.
+SweepReport run_sweep(const SweepJob& job, const JobControl& control);
+
+// Means, deviations and the front from the rows' runs.
+void summarise_sweep(std::vector<SweepRow>& rows, double lost_gate);
+
+// What somebody wants of a setting.
+struct SweepWish {
+  std::optional<double> frames_per_second, error_mm;
+};
+
+// Which settings to use, one sentence each.
+std::vector<std::string> sweep_advice(const SweepReport& report, const SweepWish& wish);
+
+std::string sweep_csv(const SweepReport& report);
+std::string sweep_json(const SweepReport& report, const std::vector<std::string>& advice);
+std::string sweep_markdown(const SweepReport& report, const std::vector<std::string>& advice);
+// The four files.
+void write_sweep(const SweepReport& report, const std::vector<std::string>& advice,
+                 const std::filesystem::path& output);
+
+}  // namespace walktrack

@@ -1,0 +1,56 @@
+// The grid of a sweep: which knobs are turned, to which values, and what that makes of a scene and
+// its configuration.
+//
+//   particles=50:100:300      filter.particles           scale=60:120     observation.person_px
+//   moves, layers, arms       filter.moves, filter.max_layers, body.arms
+//   model=markov:kneed        motion.model          path=sagittal:spatial  motion.path
+//   terms=all:background+flow   those of background, foreground and flow that are on
+//   cameras=1:2:side+front      the first so many of the scene, or those named
+//   config=fast:balanced:mine.yaml   what -c takes; the other knobs come on top of it
+//   any key of `walktrack config`
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/config/config.h"
+#include "io/scene/scene.h"
+
+namespace walktrack {
+
+struct SweepKnob {
+  std::string name;                 // as it was asked for
+  std::vector<std::string> values;  // at least one
+};
+
+// A value for each knob, in their order.
+using SweepSetting = std::vector<std::string>;
+
+// Knobs from words "NAME=V1:V2,NAME=V1:V2". UsageError for what is unknown, doubled, or refused by
+// this scene or configuration.
+std::vector<SweepKnob> sweep_knobs(const std::vector<std::string>& words, const Scene& scene,
+                                   const ConfigWithOrigin& config);
+
+// All combinations, the last knob turning fastest.
+std::vector<SweepSetting> sweep_grid(const std::vector<SweepKnob>& knobs);
+
+// Of each knob the value that ought to be the most accurate: the largest number, most cameras, most
+// terms, true before false; of words the last.
+SweepSetting richest_setting(const std::vector<SweepKnob>& knobs);
+
+void apply_sweep_setting(const std::vector<SweepKnob>& knobs, const SweepSetting& setting,
+                         Scene& scene, ConfigWithOrigin& config);
+
+// "particles=50 scale=80".
+std::string setting_name(const std::vector<SweepKnob>& knobs, const SweepSetting& setting);
+
+// What `track` has to be told for it.
+struct SettingWords {
+  std::string config;                                           // file or preset; empty = none
+  std::vector<std::pair<std::string, std::string>> parameters;  // key, value
+  std::string cameras;                                          // to keep in the scene; empty = all
+};
+SettingWords setting_words(const std::vector<SweepKnob>& knobs, const SweepSetting& setting);
+
+}  // namespace walktrack

@@ -1,0 +1,50 @@
+// A film's next frame on its way to evidence: decoded and prepared by itself, or beside the
+// particles of the frame before, then completed.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "io/scene/scene.h"
+#include "io/video/scene_video.h"
+#include "jobs/track/stopwatch.h"
+#include "observation/observer.h"
+#include "tracker/scene.h"
+
+namespace walktrack {
+
+class NextFrame {
+ public:
+  // What fetching took; CPU of the threads that did it for a camera each.
+  struct Cost {
+    Spent decode, prepare;
+  };
+
+  // All have to outlive this.
+  NextFrame(const Scene& scene, SceneVideo& video, std::vector<Observer>& observers);
+
+  // Decodes the next frame and prepares it: where to look, by camera. Cameras are shared by
+  // `threads`, and the rows of a single one by `row_threads`. Changes no observer.
+  Cost fetch(std::span<const Region> regions, int threads, int row_threads);
+  // Prepares it again, to look elsewhere.
+  void prepare(std::span<const Region> regions, int threads, int row_threads);
+
+  bool fetched() const { return fetched_; }
+  // Whether fetching found a frame: there is none after the last.
+  bool there() const { return there_; }
+
+  // Its evidence, by camera; `time` in s since the film's first frame. The next one can be fetched
+  // then.
+  void complete(double time, int threads, SceneEvidence& out);
+
+ private:
+  const Scene& scene_;
+  SceneVideo& video_;
+  std::vector<Observer>& observers_;
+  SceneFrames images_;
+  std::vector<PreparedFrame> prepared_;
+  std::vector<double> cpu_seconds_;  // of preparing, by camera
+  bool fetched_ = false, there_ = false;
+};
+
+}  // namespace walktrack

@@ -1,0 +1,237 @@
+#include "jobs/track/track.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/errors.h"
+#include "io/archive/files.h"
+#include "io/archive/run_record.h"
+#include "io/archive/sha256.h"
+#include "io/video/scene_video.h"
+#include "jobs/track/planted_track.h"
+#include "jobs/track/report.h"
+#include "jobs/track/track_origin.h"
+#include "jobs/track/track_quality.h"
+#include "jobs/track/track_results.h"
+#include "jobs/track/track_run.h"
+
+namespace walktrack {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr size_t kMaxSceneBytes = size_t{1} << 24;
+
+struct Counts {
+  int tracked = 0, first = -1, lost = 0, fallen = 0, diverged = 0;
+};
+
+Counts count(const TrackedFrames& frames) {
+  Counts out;
+  int frame = 0;
+  for (const FrameRecord& record : frames.records) {
+    out.fallen += record.fallen;
+    out.diverged += record.diverged;
+    if (record.tracked) {
+      ++out.tracked;
+      if (out.first < 0) out.first = frame;
+    } else if (out.first >= 0) {
+      ++out.lost;
+    }
+    ++frame;
+  }
+  return out;
+}
+
+std::vector<double> by_frame(const TrackedFrames& frames, double (*value)(const FrameRecord&)) {
+  std::vector<double> out;
+  for (const FrameRecord& record : frames.records)
+    out.push_back(record.tracked ? value(record) : std::numeric_limits<double>::quiet_NaN());
+  return out;
+}
+
+std::string_view status_word(TrackStatus status) {
+  switch (status) {
+    case TrackStatus::kTracked:
+      return "tracked";
+    case TrackStatus::kNotFound:
+      return "not found";
+    case TrackStatus::kBelowGates:
+      return "below gates";
+    case TrackStatus::kInterrupted:
+      return "interrupted";
+    case TrackStatus::kCutShort:
+      return "cut short";
+  }
+  return "";
+}
+
+std::string pace_note(const BudgetConfig& budget) {
+  return fmt::format(
+      "not deterministic: {} to {} particles, as many as {:g} ms a frame allowed on this machine",
+      budget.least_particles, budget.most_particles, budget.frame_ms);
+}
+
+std::string size_note(const Stature& stature) {
+  return fmt::format(
+      "the scene does not say how tall the subject is: {:.2f} m, give or take {:.2f}, from the "
+      "images",
+      stature.height, stature.sd);
+}
+
+RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrames& frames,
+                    const TrackOutcome& outcome, const Quality& quality,
+                    const WrittenTables& tables, double seconds) {
+  const Counts counts = count(frames);
+  RunRecord out;
+  out.command = "track";
+  out.scene = job.scene.file.filename().string();
+  out.scene_digest = sha256(read_text_file(job.scene.file, kMaxSceneBytes));
+  out.config = job.config;
+  out.status = status_word(outcome.status);
+  if (!outcome.trouble.empty()) out.notes.push_back(outcome.trouble);
+  const bool paced = job.config.values.budget.frame_ms > 0;
+  if (paced) out.notes.push_back(pace_note(job.config.values.budget));
+  if (run.stature()) out.notes.push_back(size_note(*run.stature()));
+  out.numbers = {{"frames", double(frames.records.size())},
+                 {"tracked_frames", double(counts.tracked)},
+                 {"first_tracked_frame", double(counts.first)},
+                 {"lost_frames", double(counts.lost)},
+                 {"losses", double(run.losses())},
+                 {"foot_changes", double(foot_changes(frames))},
+                 {"fallen_particles", double(counts.fallen)},
+                 {"diverged_particles", double(counts.diverged)},
+                 {"distance_m", tables.totals.distance},
+                 {"positive_work_j", tables.totals.positive_work},
+                 {"negative_work_j", tables.totals.negative_work},
+                 {"cost_of_transport", tables.totals.cost_of_transport},
+                 {"peak_foot_load_body_weights", tables.totals.peak_load}};
+  if (run.stature()) {
+    out.numbers.emplace_back("estimated_height_m", run.stature()->height);
+    out.numbers.emplace_back("estimated_height_sd_m", run.stature()->sd);
+  }
+  out.quality = quality;
+  out.by_frame = {
+      {"ess", by_frame(frames, [](const FrameRecord& r) { return r.filter.ess; })},
+      {"log_evidence",
+       by_frame(frames, [](const FrameRecord& r) { return r.filter.log_evidence; })},
+      {"layers", by_frame(frames, [](const FrameRecord& r) { return double(r.filter.layers); })},
+      {"left_stance",
+       by_frame(frames, [](const FrameRecord& r) { return r.estimate.left_stance; })},
+      {"stride_phase", by_frame(frames, [](const FrameRecord& r) { return r.modes.phase; })},
+      {"legs_exchanged", by_frame(frames, [](const FrameRecord& r) { return r.modes.exchanged; })},
+      {"speed", by_frame(frames, [](const FrameRecord& r) { return r.estimate.speed; })}};
+  if (paced) out.by_frame.emplace_back("particles", run.particles_used());
+  out.digest = tables.digest;
+  out.command_line = job.command_line;
+  out.threads = run.threads();
+  out.resumed_at_frame = run.first_frame();
+  out.stage_seconds = run.watch().stages();
+  out.stage_cpu_seconds = run.watch().cpu_stages();
+  out.seconds = seconds;
+  return out;
+}
+
+TrackStatus judge(const TrackRun& run, const Quality& quality, const SceneVideo& video,
+                  bool interrupted, std::string& trouble) {
+  if (interrupted) return TrackStatus::kInterrupted;
+  trouble = video.trouble();
+  if (!trouble.empty()) return TrackStatus::kCutShort;
+  if (count(run.frames()).tracked == 0) {
+    trouble = "nobody was found walking";
+    return TrackStatus::kNotFound;
+  }
+  trouble = first_failure(quality);
+  return trouble.empty() ? TrackStatus::kTracked : TrackStatus::kBelowGates;
+}
+
+// With every term off there would be nothing but the walker's own gait.
+void require_a_term(const ObservationConfig& observation) {
+  if (observation.background.enabled || observation.foreground.enabled || observation.flow.enabled)
+    return;
+  throw UsageError(describe({"", 0, "observation"}, "no term that is enabled",
+                            "background, foreground or flow with enabled: true"));
+}
+
+// The checkpoint to go on from, if that is wanted and there is one that fits.
+std::optional<Checkpoint> checkpoint_for(const TrackJob& job, const Origin& origin,
+                                         const JobControl& control) {
+  if (!job.resume) return std::nullopt;
+  FoundCheckpoint found = read_checkpoint(job.output / kCheckpointFile, origin);
+  const fs::path frames = job.output / kFramesFile;
+  if (found.checkpoint &&
+      (!fs::exists(frames) || fs::file_size(frames) < found.checkpoint->record_bytes))
+    found = {{}, fmt::format("{}: lacks frames that the checkpoint counts on", frames.string())};
+  if (!found.unfit.empty()) {
+    if (!job.overwrite) throw UsageError(found.unfit + "; -y starts anew");
+    control.say(found.unfit + ": starting anew");
+  }
+  return std::move(found.checkpoint);
+}
+
+// Frame by frame to the film's end; whether it was told to stop before.
+bool follow_film(TrackRun& run, const SceneVideo& video, const JobControl& control,
+                 TrackOutcome& outcome) {
+  const auto total = static_cast<size_t>(std::max(0, video.frame_count()));
+  run.skip(control);
+  const auto start = Clock::now();
+  bool stopped = false;
+  while (!(stopped = control.stopping()) && run.step())
+    control.progress("tracking", static_cast<size_t>(run.frames_read()), total);
+  outcome.resumable = run.finish(stopped);
+  outcome.frames = run.frames_read();
+  outcome.frames_per_second = (outcome.frames - run.first_frame()) / seconds_since(start);
+  return stopped;
+}
+
+}  // namespace
+
+TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
+  const auto start = Clock::now();
+  require_a_term(job.config.values.observation);
+  SceneVideo video(job.scene);
+  const Origin origin = origin_of(job);
+  std::optional<Checkpoint> checkpoint = checkpoint_for(job, origin, control);
+  const ResultFolder folder(job.output, job.overwrite,
+                            checkpoint ? kFilesOfWork : std::span<const std::string_view>{});
+  TrackRun run(job, video, folder, origin, std::move(checkpoint), control);
+  TrackOutcome outcome;
+  const bool interrupted = follow_film(run, video, control, outcome);
+  const Moment writing;
+  const SmoothingConfig& smoothing = job.config.values.smoothing;
+  std::optional<TrackedFrames> light, still;
+  if (smoothing.lag > 0)
+    light.emplace(smoothed(run.frames(), smoothing, folder.file(std::string(kSmoothedFile))));
+  const TrackedFrames& moving = light ? *light : run.frames();
+  if (smoothing.plant) still.emplace(planted(moving, folder.file(std::string(kPlantedFile))));
+  const TrackedFrames& frames = still ? *still : moving;
+  const Quality quality = quality_of(frames, moving, job.config.values.gates);
+  outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
+  outcome.tracked = count(frames).tracked;
+  const Scene scene = with_stature(job.scene, run.stature());
+  if (run.stature()) control.say(size_note(*run.stature()));
+  const AnalysedMotion analysed =
+      analysed_motion(frames, scene, job.config.values.tracker.model_error);
+  const JointUncertainty uncertainty = uncertainty_of(frames);
+  KineticsConfig forces = job.config.values.kinetics;
+  forces.cutoff_hz = forces.tracked_cutoff_hz;
+  const WrittenTables tables = write_tables(analysed, uncertainty, forces, folder);
+  std::vector<ReportClip> clips;
+  if (job.overlay && outcome.frames > 0) clips = write_overlays(job, frames, folder, control);
+  run.watch().add("output", spent_since(writing));
+  const double seconds = seconds_since(start);
+  const std::string record =
+      run_json(record_of(job, run, frames, outcome, quality, tables, seconds));
+  outcome.look_at = write_report(
+      folder, {job.scene.file, analysed, uncertainty, job.scene.cameras, record, clips});
+  const bool partial =
+      outcome.status == TrackStatus::kInterrupted || outcome.status == TrackStatus::kCutShort;
+  if (!outcome.resumable) folder.remove(kFilesOfWork);
+  partial ? folder.finish_partial(record) : folder.finish(record);
+  return outcome;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,53 @@
+// `walktrack track`: one scene becomes a result folder:
+//   joints.csv, uncertainty.csv, the tables of jobs/track/motion_tables.h, overlay_<camera>.mp4,
+//   report.html, run.json
+// Frames are streamed and their records kept in a file (io/archive/frame_file.h): what grows in
+// memory with the film is what the tables are made of, some kilobytes a frame, at the end.
+//
+// While it works the folder also holds checkpoint.bin and frames.bin, from which another process
+// can go on after this one was killed or told to stop: it ends with the same bytes. Checkpoints are
+// made between frames in which the walker is tracked, not while they are searched for.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/job_control.h"
+#include "io/config/config.h"
+#include "io/scene/scene.h"
+
+namespace walktrack {
+
+struct TrackJob {
+  Scene scene;
+  ConfigWithOrigin config;
+  std::filesystem::path output;
+  bool overwrite = false;  // a complete result, and a checkpoint that does not fit
+  bool resume = false;     // go on from the folder's checkpoint, if there is one
+  bool overlay = true;
+  std::vector<std::string> command_line;
+};
+
+enum class TrackStatus {
+  kTracked,
+  kNotFound,     // nobody walks in this film
+  kBelowGates,   // tracked, but a quality gate of the configuration failed
+  kInterrupted,  // told to stop; what was done is kept
+  kCutShort,     // a video ended with trouble; what was done is kept
+};
+
+struct TrackOutcome {
+  TrackStatus status = TrackStatus::kTracked;
+  int frames = 0, tracked = 0;
+  double frames_per_second = 0;   // of tracking, without the overlay
+  bool resumable = false;         // for kInterrupted: there is a checkpoint to go on from
+  std::string trouble;            // for kCutShort and kBelowGates: what happened
+  std::filesystem::path look_at;  // the file to open first
+};
+
+// Throws UsageError, InputError for what cannot be started, also for a checkpoint that does not
+// fit.
+TrackOutcome track_scene(const TrackJob& job, const JobControl& control);
+
+}  // namespace walktrack

@@ -1,0 +1,14 @@
+// What a track depends on: a checkpoint of it is fit for another process only where all of it is
+// the same.
+#pragma once
+
+#include "io/archive/checkpoint_file.h"
+#include "jobs/track/track.h"
+
+namespace walktrack {
+
+// Program, scene with calibrations, configuration (threads change no result), and the films by
+// their sizes and times of change.
+Origin origin_of(const TrackJob& job);
+
+}  // namespace walktrack

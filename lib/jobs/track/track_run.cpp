@@ -1,0 +1,214 @@
+#include "jobs/track/track_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+
+#include "body/kinematics.h"
+#include "core/errors.h"
+#include "core/parallel_for.h"
+
+namespace walktrack {
+
+namespace {
+
+int threads_of(const TrackJob& job) {
+  const int threads = thread_count(job.config.values.threads);
+  cv::setNumThreads(threads);
+  return threads;
+}
+
+TrackSetup timed_set_up(const TrackJob& job, double frame_rate,
+                        const std::vector<ObserverState>& learned, const JobControl& control,
+                        Stopwatch& watch) {
+  const Moment start;
+  TrackSetup setup = set_up(job.scene, job.config.values, frame_rate, learned, control);
+  if (job.config.values.observation.background.enabled) watch.add("background", spent_since(start));
+  return setup;
+}
+
+}  // namespace
+
+bool CheckpointTimer::due() const {
+  constexpr double kMostShare = 0.01;  // of the time that checkpoints may take
+  return seconds_ == 0 || seconds_since(last_) >= std::max(seconds_, cost_ / kMostShare);
+}
+
+void CheckpointTimer::wrote(Clock::time_point since) {
+  cost_ = seconds_since(since);
+  last_ = Clock::now();
+}
+
+TrackRun::TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& folder,
+                   Origin origin, std::optional<Checkpoint> checkpoint, const JobControl& control)
+    : job_(job),
+      checkpoint_file_(folder.file(std::string(kCheckpointFile))),
+      origin_(std::move(origin)),
+      threads_(threads_of(job)),
+      setup_(timed_set_up(job, video.frame_rate(),
+                          checkpoint ? checkpoint->observers : std::vector<ObserverState>{},
+                          control, watch_)),
+      prior_(load_gait_prior()),
+      budget_(job.config.values.budget),
+      tracker_(setup_.scene, prior_, job.config.values.tracker, job.config.values.seed, threads_),
+      video_(video),
+      next_(job.scene, video, setup_.observers),
+      regions_(checkpoint ? checkpoint->regions : std::vector<Region>{}),
+      evidence_(setup_.observers.size()),
+      frames_{video.frame_rate(), FrameFile(folder.file(std::string(kFramesFile)),
+                                            checkpoint ? checkpoint->records : 0)},
+      first_frame_(checkpoint ? checkpoint->frames_read : 0),
+      frames_read_(first_frame_),
+      timer_(job.config.values.checkpoint.seconds) {
+  for (const Camera& camera : setup_.scene.cameras)
+    everywhere_.push_back(search_region(camera, job.scene.subject.height));
+  if (checkpoint) tracker_.resume(std::move(checkpoint->tracker));
+  if (!budget_.on()) return;
+  particles_used_.assign(first_frame_, std::numeric_limits<double>::quiet_NaN());
+  const size_t resumed = tracker_.particles().states.size();
+  tracker_.use_particles(budget_.bounded(resumed > 0 ? static_cast<double>(resumed)
+                                                     : job.config.values.tracker.filter.particles));
+}
+
+void TrackRun::skip(const JobControl& control) {
+  SceneFrames images;
+  for (uint64_t i = 0; i < first_frame_ && !control.stopping(); ++i) {
+    if (!video_.read(images)) {
+      throw InputError(fmt::format("{}: the film ends at frame {}, before the checkpoint's {}",
+                                   job_.scene.file.string(), i, first_frame_));
+    }
+    control.progress("skipping what is done", i + 1, first_frame_);
+  }
+}
+
+bool TrackRun::step() {
+  const Moment start;
+  if (!next_.fetched()) fetch();
+  if (!next_.there()) return false;
+  complete();
+  follow();
+  learn();
+  pace(start);
+  ++frames_read_;
+  if (tracker_.tracking() && timer_.due()) write_checkpoint();
+  return true;
+}
+
+bool TrackRun::finish(bool resumable) {
+  const bool noted = resumable && tracker_.tracking() && frames_read_ > first_frame_;
+  if (noted) write_checkpoint();
+  for (const FrameRecord& record : tracker_.finish()) frames_.records.append(record);
+  return noted || (resumable && std::filesystem::exists(checkpoint_file_));
+}
+
+Region TrackRun::region(size_t camera) const {
+  if (!tracker_.tracking()) {
+    Region region = everywhere_[camera];
+    region.picture = tracker_.wants_picture();
+    return region;
+  }
+  constexpr double kReach = 0.5;  // m around the last pose, for the limbs
+  constexpr double kHasty = 0.5;  // m/s by which the speed may be wrong
+  const double speed = frames_.records.back().estimate.speed;
+  return person_region(setup_.scene.cameras[camera], tracker_.mean_place(),
+                       tracker_.body().subject.height,
+                       kReach + 2 * setup_.scene.dt * (speed + kHasty));
+}
+
+std::vector<Region> TrackRun::regions() const {
+  std::vector<Region> out;
+  for (size_t c = 0; c < setup_.observers.size(); ++c) out.push_back(region(c));
+  return out;
+}
+
+// The first frame, of the film or from a checkpoint on.
+void TrackRun::fetch() {
+  const Moment start;
+  const NextFrame::Cost cost =
+      next_.fetch(regions_.empty() ? regions() : regions_, threads_, row_threads());
+  const Spent all = spent_since(start);
+  watch_.add("decode", cost.decode);
+  watch_.add("evidence",
+             {all.seconds - cost.decode.seconds, std::max(0.0, all.cpu - cost.decode.cpu)});
+}
+
+void TrackRun::complete() {
+  const Moment start;
+  next_.complete(static_cast<double>(frames_read_) / frames_.frame_rate, threads_, evidence_);
+  watch_.add("evidence", spent_since(start));
+}
+
+void TrackRun::push() {
+  for (const FrameRecord& record : tracker_.push(evidence_)) frames_.records.append(record);
+}
+
+// Works on this frame while the next one is fetched. The clock of decoding and evidence is what
+// this one had to wait for them.
+void TrackRun::follow() {
+  const bool tracked = tracker_.tracking();
+  regions_ = regions();
+  const Moment start;
+  NextFrame::Cost cost;
+  run_beside(
+      threads_,
+      [&] {
+        push();
+        filter_seconds_ = seconds_since(start.clock);
+      },
+      [&] { cost = next_.fetch(regions_, threads_, tracked ? 1 : row_threads()); });
+  const Spent all = spent_since(start);
+  const double waited = all.seconds - filter_seconds_;
+  const double decode = std::min(waited, cost.decode.seconds);
+  watch_.add("decode", {decode, cost.decode.cpu});
+  watch_.add("evidence", {waited - decode, cost.prepare.cpu});
+  watch_.add("filter",
+             {filter_seconds_, std::max(0.0, all.cpu - cost.decode.cpu - cost.prepare.cpu)});
+  if (!tracked || tracker_.tracking() || !next_.there()) return;
+  const Moment lost;
+  next_.prepare(regions(), threads_, row_threads());
+  watch_.add("evidence", spent_since(lost));
+}
+
+// Under a budget, as many particles for the next frame as there is time for. Frames of searching
+// and starting take what they take.
+void TrackRun::pace(const Moment& since) {
+  if (!budget_.on()) return;
+  if (!tracker_.tracking()) {
+    particles_used_.push_back(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  const auto used = static_cast<int>(tracker_.particles().states.size());
+  particles_used_.push_back(used);
+  tracker_.use_particles(
+      budget_.next(used, seconds_since(since.clock) - filter_seconds_, filter_seconds_));
+}
+
+// Once tracked, every frame teaches what the walker looks like: where the particles are, for
+// colours that follow the pose which they were used to find would confirm themselves.
+void TrackRun::learn() {
+  if (!tracker_.tracking() || !job_.config.values.observation.foreground.enabled) return;
+  const Moment start;
+  const Body& body = tracker_.body();
+  const PosedParts parts = pose_parts(body, forward_kinematics(body, tracker_.mean_pose()));
+  parallel_for(setup_.observers.size(), threads_, [&](size_t c) {
+    setup_.observers[c].learn(evidence_[c], project_parts(setup_.scene.cameras[c], parts));
+  });
+  watch_.add("appearance", spent_since(start));
+}
+
+void TrackRun::write_checkpoint() {
+  const Moment start;
+  Checkpoint checkpoint{origin_, frames_read_, frames_.records.size(), frames_.records.bytes(),
+                        {},      regions_,     tracker_.state()};
+  for (const Observer& observer : setup_.observers)
+    checkpoint.observers.push_back(observer.state());
+  frames_.records.flush();
+  walktrack::write_checkpoint(checkpoint_file_, checkpoint);
+  timer_.wrote(start.clock);
+  watch_.add("checkpoints", spent_since(start));
+}
+
+}  // namespace walktrack

@@ -1,0 +1,102 @@
+// One scene being tracked, frame by frame: observers, tracker, the records so far, and the
+// checkpoints from which another process could go on.
+//
+// The next frame is decoded and prepared beside the particles of this one. Where to look in it is
+// therefore known from the frame before this one; a walker who has just been lost is looked for in
+// the whole of it.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "io/archive/checkpoint_file.h"
+#include "io/archive/result_folder.h"
+#include "jobs/track/next_frame.h"
+#include "jobs/track/particle_budget.h"
+#include "jobs/track/stopwatch.h"
+#include "jobs/track/track.h"
+#include "jobs/track/track_results.h"
+#include "jobs/track/track_setup.h"
+
+namespace walktrack {
+
+// The files of unfinished work in a result folder.
+inline constexpr std::string_view kCheckpointFile = "checkpoint.bin", kFramesFile = "frames.bin";
+inline constexpr std::string_view kSmoothedFile = "smoothed_frames.bin",
+                                  kPlantedFile = "planted_frames.bin";
+inline constexpr std::array kFilesOfWork{kCheckpointFile, kFramesFile};
+
+// When a checkpoint is worth its time.
+class CheckpointTimer {
+ public:
+  explicit CheckpointTimer(double seconds) : seconds_(seconds) {}
+  bool due() const;
+  void wrote(Clock::time_point since);
+
+ private:
+  double seconds_, cost_ = 0;  // s
+  Clock::time_point last_ = Clock::now();
+};
+
+class TrackRun {
+ public:
+  // From the first frame or, in a folder that has kept kFilesOfWork, from the checkpoint.
+  TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& folder, Origin origin,
+           std::optional<Checkpoint> checkpoint, const JobControl& control);
+
+  // Takes the frames that came before the checkpoint from the video. InputError if it ends there.
+  void skip(const JobControl& control);
+  // The next frame: evidence, tracking, learning, and a checkpoint if one is due. False if there is
+  // none.
+  bool step();
+  // After the last frame. `resumable`: another process may go on here; false if it could not.
+  bool finish(bool resumable);
+
+  int first_frame() const { return static_cast<int>(first_frame_); }
+  int frames_read() const { return static_cast<int>(frames_read_); }
+  int losses() const { return tracker_.losses(); }
+  std::optional<Stature> stature() const { return tracker_.stature(); }
+  int threads() const { return threads_; }
+  const TrackedFrames& frames() const { return frames_; }
+  // By frame, NaN while not tracking; empty without a budget.
+  const std::vector<double>& particles_used() const { return particles_used_; }
+  Stopwatch& watch() { return watch_; }
+  const Stopwatch& watch() const { return watch_; }
+
+ private:
+  Region region(size_t camera) const;
+  std::vector<Region> regions() const;
+  // Several cameras share the threads among themselves.
+  int row_threads() const { return setup_.observers.size() == 1 ? threads_ : 1; }
+  void fetch();
+  void complete();
+  void push();
+  void follow();
+  void learn();
+  void pace(const Moment& since);
+  void write_checkpoint();
+
+  const TrackJob& job_;
+  std::filesystem::path checkpoint_file_;
+  Origin origin_;
+  int threads_;
+  Stopwatch watch_;
+  TrackSetup setup_;
+  GaitPrior prior_;
+  ParticleBudget budget_;
+  Tracker tracker_;
+  std::vector<Region> everywhere_;
+  SceneVideo& video_;
+  NextFrame next_;
+  // Of the next frame; a checkpoint holds them.
+  std::vector<Region> regions_;
+  SceneEvidence evidence_;
+  TrackedFrames frames_;
+  uint64_t first_frame_, frames_read_;  // of the film
+  CheckpointTimer timer_;
+  double filter_seconds_ = 0;  // of the newest frame
+  std::vector<double> particles_used_;
+};
+
+}  // namespace walktrack

@@ -1,0 +1,135 @@
+#include "jobs/track/track_setup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+
+#include "core/errors.h"
+#include "core/parallel_for.h"
+#include "io/video/video.h"
+#include "observation/background_sampler.h"
+#include "observation/shrink.h"
+#include "tracker/motion/planar_body.h"
+
+namespace walktrack {
+
+namespace {
+
+// Places nearer than most: a walker who comes this near must not be blurred away, one further off
+// is merely seen at a lower resolution.
+constexpr double kNearShare = 0.7;
+constexpr double kFallbackDistance = 10;  // m, where no place on the ground is in view
+
+double height_px(const Camera& camera, const Eigen::Vector2d& place, double height) {
+  const auto foot = project(camera, Eigen::Vector3d(place.x(), place.y(), 0));
+  const auto head = project(camera, Eigen::Vector3d(place.x(), place.y(), height));
+  return foot && head ? (*foot - *head).norm() : 0;
+}
+
+// How high the subject is expected to stand in the image.
+double expected_height_px(const Scene& scene, const Camera& camera, const SightingConfig& config) {
+  const double height = scene.subject.height;
+  if (scene.initial) {
+    const double there = height_px(camera, scene.initial->position, height);
+    if (there > 0) return there;
+  }
+  std::vector<double> heights;
+  for (const auto& place : standing_places({&camera, 1}, height, config))
+    heights.push_back(height_px(camera, place, height));
+  if (heights.empty()) return camera.focal_px.y() * height / kFallbackDistance;
+  const auto chosen = heights.begin() + static_cast<long>(kNearShare * double(heights.size() - 1));
+  std::nth_element(heights.begin(), chosen, heights.end());
+  return *chosen;
+}
+
+BackgroundModel learn_background(const SceneCamera& camera, const Config& config, int shrink,
+                                 const JobControl& control) {
+  const bool empty_frames = !camera.background.empty();
+  FrameSource source(empty_frames ? camera.background : camera.video,
+                     cv::Size(camera.camera.width_px, camera.camera.height_px));
+  BackgroundSampler sampler(config.observation.background, shrink);
+  const auto total = static_cast<size_t>(source.facts().frame_count);
+  cv::Mat frame;
+  for (size_t done = 0; source.read(frame); ++done) {
+    sampler.add(frame);
+    control.progress("learning the background", done, total);
+    if (control.stopping()) break;  // not before there is a frame, without which there is no model
+  }
+  return sampler.model(thread_count(config.threads));
+}
+
+Observer make_observer(const Scene& scene, const SceneCamera& camera, const Config& config,
+                       const Body& body, const ObserverState* learned, const JobControl& control) {
+  const ObservationConfig& observation = config.observation;
+  ObserverInput input;
+  input.camera = camera.camera;
+  input.shrink = working_scale(scene, camera.camera, config).shrink;
+  input.appearances = appearances_of(body);
+  // Several cameras share the threads among themselves.
+  input.threads = scene.cameras.size() == 1 ? thread_count(config.threads) : 1;
+  input.occluders = occluders_at(camera, 0);
+  if (learned) {
+    input.background = learned->background;
+  } else if (observation.background.enabled) {
+    input.background = learn_background(camera, config, input.shrink, control);
+  }
+  Observer observer(observation, std::move(input));
+  if (learned) observer.resume(*learned);
+  return observer;
+}
+
+void set_beginning(const Scene& scene, double frame_rate, TrackerScene& out) {
+  if (!scene.initial) return;
+  constexpr double kUsualSpeed = 1.25;  // m/s, where the scene does not say
+  const InitialState& given = *scene.initial;
+  const double speed = given.speed.value_or(kUsualSpeed);
+  out.initial = Sighting{
+      .position = given.position,
+      .velocity = speed * Eigen::Vector2d(std::cos(given.heading), std::sin(given.heading)),
+      .given = true};
+  out.initial_frame = static_cast<int>(std::lround(given.time * frame_rate));
+  out.initial_phase = given.phase;
+}
+
+}  // namespace
+
+WorkingScale working_scale(const Scene& scene, const Camera& camera, const Config& config) {
+  const double person_px = expected_height_px(scene, camera, config.tracker.sighting);
+  return {person_px, shrink_factor(person_px, config.observation.person_px)};
+}
+
+TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
+                  std::span<const ObserverState> learned, const JobControl& control) {
+  TrackSetup setup;
+  TrackerScene& out = setup.scene;
+  const double gravity = scene.gravity.norm();
+  out.size_known = scene.height_given;
+  out.model.body = make_body(scene.subject, config.body);
+  out.model.walker = kneed_model(kneed_parameters(scene.subject, gravity));
+  out.model.downhill = scene.gravity.head<2>();
+  out.model.path = config.tracker.motion.path;
+  if (!out.model.downhill.isZero()) out.model.walker.gravity.y() = scene.gravity.z();
+  out.observation = config.observation;
+  out.dt = 1.0 / frame_rate;
+  set_beginning(scene, frame_rate, out);
+  for (const SceneCamera& camera : scene.cameras) {
+    const ObserverState* known = learned.empty() ? nullptr : &learned[setup.observers.size()];
+    setup.observers.push_back(make_observer(scene, camera, config, out.model.body, known, control));
+    out.cameras.push_back(setup.observers.back().camera());
+  }
+  return setup;
+}
+
+Region search_region(const Camera& camera, double subject_height) {
+  std::vector<double> scales;
+  for (const auto& place : standing_places({&camera, 1}, subject_height, SightingConfig{}))
+    scales.push_back(subject_height / height_px(camera, place, subject_height));
+  if (scales.empty()) return whole_image(camera, kFallbackDistance / camera.focal_px.y());
+  std::nth_element(scales.begin(), scales.begin() + static_cast<long>(scales.size() / 2),
+                   scales.end());
+  return whole_image(camera, scales[scales.size() / 2]);
+}
+
+}  // namespace walktrack

@@ -1,0 +1,36 @@
+// From a scene and a configuration to a tracker's inputs: observers that know the empty scene, the
+// subject's body, where the walk begins.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/job_control.h"
+#include "io/config/config.h"
+#include "io/scene/scene.h"
+#include "observation/observer.h"
+#include "tracker/scene.h"
+
+namespace walktrack {
+
+struct TrackSetup {
+  std::vector<Observer> observers;  // by camera
+  TrackerScene scene;
+};
+
+// Learns each camera's background from its empty frames or, without them, from the film itself;
+// observers that have `learned` already go on with what they know (by camera, or none).
+TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
+                  std::span<const ObserverState> learned, const JobControl& control);
+
+// How large a camera's images are worked on.
+struct WorkingScale {
+  double person_px;  // height of the standing subject in the image as it is filmed
+  int shrink;        // factor by which images are shrunk
+};
+WorkingScale working_scale(const Scene& scene, const Camera& camera, const Config& config);
+
+// Where to look in the next frame: around the walker once tracked, everywhere before.
+Region search_region(const Camera& camera, double subject_height);
+
+}  // namespace walktrack

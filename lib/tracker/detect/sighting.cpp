@@ -1,0 +1,368 @@
+#include "tracker/detect/sighting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/conventions.h"
+#include "core/parallel_for.h"
+
+namespace walktrack {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kLeastHeight_px = 24;  // a smaller figure shows no gait
+constexpr size_t kScored = 12;          // frames that a climb looks at
+constexpr double kApart = 0.5;          // m, between figures that count as two
+
+struct Outline {
+  std::optional<Vector2d> foot, head;
+};
+
+Outline outline(const Camera& camera, const Vector2d& position, double height) {
+  return {project(camera, Vector3d(position.x(), position.y(), 0)),
+          project(camera, Vector3d(position.x(), position.y(), height))};
+}
+
+bool wholly_inside(const Camera& camera, const Outline& figure) {
+  const double half_width = 0.15 * (*figure.foot - *figure.head).norm();
+  for (const auto& pixel : {*figure.foot, *figure.head}) {
+    if (pixel.x() < half_width || pixel.x() > camera.width_px - half_width || pixel.y() < 0 ||
+        pixel.y() > camera.height_px)
+      return false;
+  }
+  return true;
+}
+
+bool visible_everywhere(std::span<const Camera> cameras, const Vector2d& position, double height) {
+  for (const Camera& camera : cameras) {
+    const Outline figure = outline(camera, position, height);
+    if (!figure.foot || !figure.head) continue;
+    if (!wholly_inside(camera, figure)) return false;
+    if ((*figure.foot - *figure.head).norm() < kLeastHeight_px) return false;
+  }
+  return true;
+}
+
+// A straight walk and how well it explains a frame in the mean, nats.
+struct Walk {
+  Sighting line;
+  double score;
+};
+
+// The frames that a walk is looked for in.
+struct Window {
+  const WindowScore& score;
+  size_t frames;
+  double dt;  // s
+  int threads;
+};
+
+// The figure's scores along a line, in every `stride`-th frame.
+std::vector<double> scores_along(const Window& window, const Sighting& line,
+                                 const Vector2d& velocity, size_t stride) {
+  std::vector<double> scores((window.frames + stride - 1) / stride);
+  parallel_for(scores.size(), window.threads, [&](size_t i) {
+    const double time = window.dt * double(i * stride);
+    scores[i] = window.score(i * stride, line.position + time * line.velocity, velocity);
+  });
+  return scores;
+}
+
+// How fast people walk, where nothing else is known: 1.25 +- .5 m/s. It matters along the viewing
+// rays, where images say little and a line may otherwise run off.
+double log_prior(const Sighting& line) {
+  const double strange = (line.velocity.norm() - 1.25) / 0.5;
+  return -0.5 * strange * strange;
+}
+
+// Log-posterior of a line, by frame: every frame counts alike, for where a line lies, above all how
+// far away, is a matter of all of them.
+double line_score(const Window& window, const Sighting& line, size_t stride = 1) {
+  const std::vector<double> scores = scores_along(window, line, line.velocity, stride);
+  return std::accumulate(scores.begin(), scores.end(), 0.0) / double(scores.size()) +
+         log_prior(line) / independent_looks(window.frames, window.dt);
+}
+
+double mean_of_worst_third(std::vector<double> scores) {
+  const size_t third = (scores.size() + 2) / 3;
+  std::nth_element(scores.begin(), scores.begin() + long(third - 1), scores.end());
+  return std::accumulate(scores.begin(), scores.begin() + long(third), 0.0) / double(third);
+}
+
+// Whether the line explains the frames where it fails better than standing in its middle explains
+// those where that fails: neither somebody who stands there, nor two things that are always there,
+// make a walk.
+bool moves(const Window& window, const Sighting& line) {
+  const double half = 0.5 * window.dt * double(window.frames - 1);
+  const Sighting still{line.position + half * line.velocity, Vector2d::Zero(), line.ray, 0, 0, 0};
+  const Vector2d& pace = line.velocity;
+  return mean_of_worst_third(scores_along(window, line, pace, 1)) >
+         std::max(0.0, mean_of_worst_third(scores_along(window, still, pace, 1)));
+}
+
+// Lines through a candidate of an early and one of a late frame, at a walking speed.
+std::vector<Walk> proposed_walks(const WindowCandidates& window, double dt,
+                                 const SightingConfig& config) {
+  const auto [early, late] = window_ends(window.frames);
+  const double time = dt * double(late - early);
+  std::vector<Walk> walks;
+  for (const Place& from : window.early) {
+    for (const Place& to : window.late) {
+      const Vector2d velocity = (to.position - from.position) / time;
+      if (velocity.norm() < config.slowest || velocity.norm() > config.fastest) continue;
+      walks.push_back({{from.position - dt * double(early) * velocity, velocity}, 0});
+    }
+  }
+  return walks;
+}
+
+// The pattern of a climb: shifts of the line's two ends, metres. The score is a ridge along the
+// viewing rays, so the pattern lies along and across each end's own.
+struct Shift {
+  Vector2d begin, end;
+};
+
+std::vector<Shift> shifts(const Shift& rays) {
+  const Shift across{{-rays.begin.y(), rays.begin.x()}, {-rays.end.y(), rays.end.x()}};
+  const Vector2d none = Vector2d::Zero();
+  std::vector<Shift> out;
+  for (const Shift& axes : {rays, across}) {
+    for (const double sign : {1.0, -1.0}) {
+      const Vector2d begin = sign * axes.begin, end = sign * axes.end;
+      out.insert(out.end(), {{begin, end}, {begin, none}, {none, end}, {begin, -end}});
+    }
+  }
+  return out;
+}
+
+// The steps of a climb's shrinking pattern, m.
+constexpr double kCoarseSteps[] = {0.24, 0.12}, kFineSteps[] = {0.06, 0.03, 0.015};
+
+Vector2d end_of(const Sighting& line, double time) { return line.position + time * line.velocity; }
+
+size_t stride_of_climb(const Window& window) {
+  return std::max<size_t>(1, window.frames / kScored);
+}
+
+// A walk whose score is that of a climb, which looks at some of the frames.
+Walk looked_at(const Window& window, const Sighting& line) {
+  return {line, line_score(window, line, stride_of_climb(window))};
+}
+
+// Climbs as far as a pattern of this step leads.
+Walk climbed(Walk walk, const Window& window, const std::vector<Shift>& pattern, double step) {
+  const double time = window.dt * double(window.frames - 1);
+  for (bool better = true; better;) {
+    better = false;
+    for (const Shift& shift : pattern) {
+      Sighting line{walk.line.position + step * shift.begin,
+                    walk.line.velocity + step / time * (shift.end - shift.begin),
+                    walk.line.ray,
+                    0,
+                    0,
+                    0};
+      const Walk tried = looked_at(window, line);
+      if (tried.score <= walk.score) continue;
+      walk = tried;
+      better = true;
+    }
+  }
+  return walk;
+}
+
+// Of walks that have come so close that they climb to the same top, the best.
+void drop_doubles(double apart, double time, std::vector<Walk>& walks) {
+  std::stable_sort(walks.begin(), walks.end(),
+                   [](const Walk& a, const Walk& b) { return a.score > b.score; });
+  std::vector<Walk> kept;
+  for (const Walk& walk : walks) {
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Walk& other) {
+      return (walk.line.position - other.line.position).norm() < apart &&
+             (end_of(walk.line, time) - end_of(other.line, time)).norm() < apart;
+    });
+    if (!known) kept.push_back(walk);
+  }
+  walks = std::move(kept);
+}
+
+// Climbs from each of them.
+void refine(const Window& window, const Vector2d& eye, std::span<const double> steps,
+            std::vector<Walk>& walks) {
+  const double time = window.dt * double(window.frames - 1);
+  for (const double step : steps) {
+    // One of them is climbed with by all threads, several by one each.
+    Window own = window;
+    if (walks.size() > 1) own.threads = 1;
+    parallel_for(walks.size(), window.threads, [&](size_t i) {
+      const Sighting& line = walks[i].line;
+      walks[i] = climbed(
+          walks[i], own,
+          shifts({(line.position - eye).normalized(), (end_of(line, time) - eye).normalized()}),
+          step);
+    });
+    drop_doubles(2 * step, time, walks);
+  }
+}
+
+// Standard deviation of a shift of the line's ends, of which `shift` is one step, in its own size:
+// from the curvature of the log-posterior over two steps.
+double spread_of(const Shift& shift, const Walk& walk, const Window& window) {
+  const double time = window.dt * double(window.frames - 1);
+  double bent = -2 * walk.score;
+  for (const double sign : {1.0, -1.0}) {
+    Sighting line = walk.line;
+    line.position += sign * shift.begin;
+    line.velocity += sign / time * (shift.end - shift.begin);
+    bent += line_score(window, line);
+  }
+  constexpr double kFlat = 0.05;  // nats: no less curved than this
+  return kStrangeFigure /
+         std::sqrt(independent_looks(window.frames - 1, window.dt) * std::max(kFlat, -bent));
+}
+
+// How uncertain a walk is along the ray.
+void measure_spread(const Vector2d& ray, const Window& window, Walk& walk) {
+  constexpr double kStep = 0.2;  // m
+  const double time = window.dt * double(window.frames - 1);
+  walk.line.ray = ray;
+  walk.line.position_sd = kStep * spread_of({kStep * ray, kStep * ray}, walk, window);
+  walk.line.velocity_sd = 2 * kStep / time * spread_of({-kStep * ray, kStep * ray}, walk, window);
+}
+
+// The least mean of `span` consecutive numbers.
+double least_mean(std::span<const double> values, size_t span) {
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i + span <= values.size(); ++i) {
+    const auto part = values.subspan(i, span);
+    least = std::min(least, std::accumulate(part.begin(), part.end(), 0.0) / double(span));
+  }
+  return least;
+}
+
+// The least score that a line has for a moment, nats, looking at every `stride`-th frame: for less
+// than that it may fail, as a person's long step has poses that no figure resembles.
+double worst_moment(std::span<const double> scores, double dt, size_t stride) {
+  constexpr double kMoment = 0.15;  // s
+  const auto moment =
+      static_cast<size_t>(std::max(1L, std::lround(kMoment / (dt * double(stride)))));
+  return least_mean(scores, std::min(moment, scores.size()));
+}
+
+// Nobody hidden or cut off: the score does not stay far below its median.
+bool seen_throughout(const Walk& walk, const Window& window, const SightingConfig& config) {
+  std::vector<double> scores = scores_along(window, walk.line, walk.line.velocity, 1);
+  const double least = worst_moment(scores, window.dt, 1);
+  std::nth_element(scores.begin(), scores.begin() + long(scores.size() / 2), scores.end());
+  return least >= config.least_score && least >= config.complete * scores[scores.size() / 2];
+}
+
+// What fits worse than an empty scene for a moment, half-way up, is of somebody who is hidden then:
+// the last steps do not change that.
+bool worth_refining(const Walk& walk, const Window& window) {
+  const size_t stride = stride_of_climb(window);
+  return worst_moment(scores_along(window, walk.line, walk.line.velocity, stride), window.dt,
+                      stride) >= 0;
+}
+
+bool walks_on(const Walk& walk, const Window& window, const SightingConfig& config) {
+  const double speed = walk.line.velocity.norm();
+  return speed >= config.slowest && speed <= config.fastest && moves(window, walk.line) &&
+         seen_throughout(walk, window, config);
+}
+
+}  // namespace
+
+double side_on_heading(const Camera& camera, const Vector2d& position) {
+  const Vector3d eye = camera_centre(camera);
+  return std::atan2(position.y() - eye.y(), position.x() - eye.x()) + 0.5 * kPi;
+}
+
+std::vector<Vector2d> standing_places(std::span<const Camera> cameras, double height,
+                                      const SightingConfig& config) {
+  const Camera& camera = cameras[0];
+  const double step = std::max(2.0, config.grid_px * camera.width_px / 640.0);
+  std::vector<Vector2d> places;
+  for (double v = 0; v < camera.height_px; v += 0.5 * step) {
+    for (double u = 0; u < camera.width_px; u += step) {
+      const auto ground = ground_point(camera, Vector2d(u, v));
+      if (ground && visible_everywhere(cameras, ground->head<2>(), height))
+        places.push_back(ground->head<2>());
+    }
+  }
+  return places;
+}
+
+std::vector<Place> find_figures(const PlaceScore& score, std::span<const Vector2d> places,
+                                const SightingConfig& config, int threads) {
+  std::vector<double> scores(places.size());
+  parallel_for(places.size(), threads, [&](size_t i) { scores[i] = score(places[i]); });
+  std::vector<size_t> order(places.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return scores[a] > scores[b]; });
+  std::vector<Place> found;
+  for (const size_t i : order) {
+    if (static_cast<int>(found.size()) >= config.candidates || scores[i] <= 0) break;
+    const bool apart = std::all_of(found.begin(), found.end(), [&](const Place& place) {
+      return (place.position - places[i]).norm() > kApart;
+    });
+    if (apart) found.push_back({places[i], scores[i]});
+  }
+  return found;
+}
+
+WindowEnds window_ends(size_t frames) {
+  const size_t early = frames / 6;
+  return {early, frames - 1 - early};
+}
+
+std::optional<Sighting> find_walk(const WindowCandidates& candidates, const WindowScore& score,
+                                  double dt, const Vector2d& eye, const SightingConfig& config,
+                                  int threads) {
+  constexpr size_t kRefined = 4, kStride = 3;
+  const Window window{score, candidates.frames, dt, threads};
+  std::vector<Walk> walks = proposed_walks(candidates, dt, config);
+  if (walks.empty()) return std::nullopt;
+  parallel_for(walks.size(), threads, [&](size_t i) {
+    walks[i].score = line_score({score, candidates.frames, dt, 1}, walks[i].line, kStride);
+  });
+  std::erase_if(walks, [&](const Walk& walk) { return walk.score < config.least_score; });
+  std::stable_sort(walks.begin(), walks.end(),
+                   [](const Walk& a, const Walk& b) { return a.score > b.score; });
+  walks.resize(std::min(walks.size(), kRefined));
+  for (Walk& walk : walks) walk = looked_at(window, walk.line);
+  refine(window, eye, kCoarseSteps, walks);
+  std::erase_if(walks, [&](const Walk& walk) { return !worth_refining(walk, window); });
+  refine(window, eye, kFineSteps, walks);
+  std::erase_if(walks, [&](const Walk& walk) { return !walks_on(walk, window, config); });
+  if (walks.empty()) return std::nullopt;
+  Walk& best = *std::max_element(walks.begin(), walks.end(),
+                                 [](const Walk& a, const Walk& b) { return a.score < b.score; });
+  best.score = line_score(window, best.line);
+  measure_spread((best.line.position - eye).normalized(), window, best);
+  best.line.score = best.score;
+  return best.line;
+}
+
+Sighting nearest_walk(const Sighting& walk, size_t frames, const WindowScore& score, double dt,
+                      const Vector2d& eye) {
+  const Window window{score, frames, dt, 1};
+  std::vector<Walk> walks{looked_at(window, walk)};
+  refine(window, eye, kCoarseSteps, walks);
+  refine(window, eye, kFineSteps, walks);
+  Sighting found = walks[0].line;
+  found.score = line_score(window, found);
+  return found;
+}
+
+double independent_looks(size_t frames, double dt) {
+  constexpr double kIndependent_s = 0.15;
+  return std::max(1.0, dt * double(frames) / kIndependent_s);
+}
+
+}  // namespace walktrack

@@ -1,0 +1,35 @@
+// How tall is the person who walks along a line that was found with figures of a usual height?
+//
+// Cameras over known ground see it: the feet show where somebody stands, the top of the head how
+// high that is. Figures taller and smaller, in steps, look for their own line near the one that was
+// found (tracker/detect/sighting.h). The peak of their log-posterior is the height, its curvature
+// the spread.
+#pragma once
+
+#include <functional>
+
+#include "tracker/detect/sighting.h"
+#include "tracker/motion/particle.h"
+
+namespace walktrack {
+
+struct Stature {
+  double height, sd;  // m
+};
+
+// The score of a figure of that height, m.
+using FigureScore = std::function<WindowScore(double height)>;
+
+struct SizedWalk {
+  Stature stature;
+  Sighting walk;  // its line for that height
+};
+
+// `walk`: of a window's frames, dt apart, as figures of `height` see it. `eye` as in find_walk.
+SizedWalk size_up(const Sighting& walk, double height, size_t frames, const FigureScore& score,
+                  double dt, const Eigen::Vector2d& eye);
+
+// The same person, all in proportion; lengths that a scene states stay, and so does the mass.
+BodyModel with_height(const BodyModel& model, double height);
+
+}  // namespace walktrack

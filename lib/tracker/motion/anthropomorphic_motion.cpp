@@ -1,0 +1,206 @@
+#include "tracker/motion/anthropomorphic_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/conventions.h"
+#include "tracker/motion/kneed_motion.h"
+#include "tracker/motion/markov_motion.h"
+#include "tracker/motion/noise_groups.h"
+#include "tracker/motion/support.h"
+
+namespace walktrack {
+
+namespace {
+
+// Of its five torques the walker feels those of the hip and of the ground under the standing foot.
+constexpr int kHipTorque = 1, kGroundTorque = 4;
+constexpr std::array<int, 3> kTorques{kTorqueNoise + kHipTorque, kTorqueNoise + kGroundTorque,
+                                      noise_of(kPace)};
+constexpr std::array<NoiseGroup, 6> kGroups{kTrunkNoise, kLeftLegNoise, kRightLegNoise,
+                                            kTorques,    kLeftArmNoise, kRightArmNoise};
+constexpr std::array<NoiseGroup, 6> kGroupsInPlane{
+    kTrunkInPlane, kLeftLegInPlane, kRightLegInPlane, kTorques, kLeftArmInPlane, kRightArmInPlane};
+
+StraightState straight(const KneedState& walker) {
+  return {{walker.q[kStanceThigh], walker.q[kSwingThigh]},
+          {walker.qd[kStanceThigh], walker.qd[kSwingThigh]},
+          walker.contact_x,
+          walker.since_transfer,
+          walker.transfers};
+}
+
+// Of two legs, all five.
+Vector5 spread_out(const Vector2& legs) {
+  Vector5 out = Vector5::Zero();
+  out[kStanceThigh] = out[kStanceShank] = legs[0];
+  out[kSwingThigh] = out[kSwingShank] = legs[1];
+  return out;
+}
+
+void set(const StraightState& state, KneedState& walker) {
+  walker.q = spread_out(state.q);
+  walker.qd = spread_out(state.qd);
+  walker.contact_x = state.contact_x;
+  walker.since_transfer = state.since_transfer;
+  walker.transfers = state.transfers;
+}
+
+StraightControls straight(const KneedControls& controls) {
+  return {controls.hip.stiffness, controls.toe_off_impulse};
+}
+
+void set(const StraightControls& straight, KneedControls& controls) {
+  controls = {};
+  controls.hip.stiffness = straight.stiffness;
+  controls.toe_off_impulse = straight.toe_off_impulse;
+}
+
+// The walker with a trunk, and with knees bent about the lines of its legs: thigh and shank are
+// about as long.
+KneedState shown_state(const KneedState& walker, Side stance, const Extras& extra) {
+  constexpr double kDeepestBend = 150 * kPi / 180;  // rad
+  KneedState shown = walker;
+  shown.q[kTorso] = extra[kTilt];
+  const auto bend = [&](Side side, int thigh, int shank) {
+    const auto i = static_cast<size_t>(side);
+    const double flexion = std::clamp(extra[kKneeFlexion + i], 0.0, kDeepestBend);
+    shown.q[thigh] += extra[kThigh + i] - 0.5 * flexion;
+    shown.q[shank] += extra[kThigh + i] + 0.5 * flexion;
+  };
+  bend(stance, kStanceThigh, kStanceShank);
+  bend(other(stance), kSwingThigh, kSwingShank);
+  return shown;
+}
+
+}  // namespace
+
+AnthropomorphicMotion::AnthropomorphicMotion(const BodyModel& model)
+    : parameters_(straight_walker(walker_units(model.walker.parameters))),
+      level_(straight_model(parameters_)),
+      prior_(load_straight_prior()) {}
+
+MarkovConstants AnthropomorphicMotion::constants(const MotionConfig& config, Extra extra) const {
+  switch (extra) {
+    case kCrouch:
+      return {0, 1, 0, 0, 0};  // knees are free
+    case kThigh:
+    case kThighRight:
+      return {0, 0.15, config.misfit * rad_from_deg(8), rad_from_deg(-30), rad_from_deg(30)};
+    case kTilt:
+    case kAnkle:
+    case kAnkleRight:
+    case kKneeFlexion:
+    case kKneeFlexion + 1:
+      return free_constants(extra);
+    default:
+      return markov_constants(extra);
+  }
+}
+
+void AnthropomorphicMotion::enter(const MotionContext& context, std::span<const double> phases,
+                                  std::span<WalkerParticle> particles) const {
+  for (size_t i = 0; i < particles.size(); ++i) {
+    WalkerParticle& p = particles[i];
+    enter_figure(context, phases[i], p);
+    for (Extras* extra : {&p.extra, &p.extra_before})
+      (*extra)[kCrouch] = (*extra)[kThigh] = (*extra)[kThighRight] = 0;
+    const StraightGait gait = gait_at(prior_, parameters_, p.aim.speed, p.aim.step_length);
+    p.aim = {gait.speed, gait.step_length};
+    set(gait.controls, p.controls);
+    set(state_at_phase(level_, gait, phases[i]), p.walker);
+    p.predicted = p.walker;
+    p.velocity_per_impulse.setZero();
+  }
+}
+
+void AnthropomorphicMotion::walk(const MotionContext& context, std::span<WalkerParticle> particles,
+                                 std::span<Rng> rngs, std::span<Outcome> outcomes) const {
+  for (size_t i = 0; i < particles.size(); ++i) outcomes[i] = walk(context, particles[i], rngs[i]);
+}
+
+Outcome AnthropomorphicMotion::walk(const MotionContext& context, WalkerParticle& particle,
+                                    Rng& rng) const {
+  const StraightModel model = model_on(context.model, particle.extra[kHeading]);
+  const double stray = context.config.clock * std::sqrt(context.dt) * rng.truncated_normal(3);
+  double left = std::max(0.0, context.dt * std::exp(particle.extra_before[kPace]) + stray);
+  while (left > 0) {
+    StraightState state = straight(particle.walker);
+    const StraightAdvance done =
+        straight_advance(model, straight(particle.controls), Vector2::Zero(), state, left);
+    set(state, particle.walker);
+    left -= done.elapsed;
+    switch (done.event) {
+      case KneedEvent::kNone:
+        return Outcome::kAlive;
+      case KneedEvent::kTransfer:
+        change_support(context, particle, rng);
+        break;
+      case KneedEvent::kFallen:
+        catch_step(model, particle);
+        return Outcome::kFallen;
+      case KneedEvent::kDiverged:
+        catch_step(model, particle);
+        return Outcome::kDiverged;
+    }
+  }
+  return Outcome::kAlive;
+}
+
+void AnthropomorphicMotion::change_support(const MotionContext& context, WalkerParticle& particle,
+                                           Rng& rng) const {
+  change_feet(context.model, shown_state(particle.walker, other(particle.stance), particle.extra),
+              particle);
+  const MotionConfig& config = context.config;
+  vary_aim(config, particle.aim, rng);
+  const StraightGait gait =
+      gait_at(prior_, parameters_, particle.aim.speed, particle.aim.step_length);
+  particle.aim = {gait.speed, gait.step_length};  // within the table
+  set(draw_controls(rng, next_controls(gait, straight(particle.walker), config.feedback),
+                    {.relative = config.control_noise, .rest = 0, .torque = 0}),
+      particle.controls);
+}
+
+// Who stumbles goes on as the gait that it aims at would at this moment of the step.
+void AnthropomorphicMotion::catch_step(const StraightModel& model, WalkerParticle& particle) const {
+  const StraightGait gait =
+      gait_at(prior_, parameters_, particle.aim.speed, particle.aim.step_length);
+  const double phase = std::clamp(particle.walker.since_transfer / gait.period, 0.0, 0.95);
+  set(gait.controls, particle.controls);
+  set(state_at_phase(model, gait, phase), particle.walker);
+}
+
+StraightModel AnthropomorphicMotion::model_on(const BodyModel& model, double heading) const {
+  StraightModel out = level_;
+  out.gravity_x = model.downhill.dot(Eigen::Vector2d(std::cos(heading), std::sin(heading)));
+  out.gravity_z = model.walker.gravity.y();
+  return out;
+}
+
+bool AnthropomorphicMotion::expect(const MotionContext& context, WalkerParticle& particle) const {
+  const StraightState state = straight(particle.walker);
+  const auto rates = [&](double stance, double swing) {
+    return straight_accelerations(level_, 0, Vector2(stance, swing), state);
+  };
+  const Vector2 still = rates(0, 0);
+  particle.velocity_per_impulse.setZero();
+  particle.velocity_per_impulse.col(kHipTorque) = spread_out(rates(-1, 1) - still);
+  particle.velocity_per_impulse.col(kGroundTorque) = spread_out(rates(1, 0) - still);
+  particle.ball_sigma = foot_sigma(context, particle);
+  return particle.velocity_per_impulse.allFinite();
+}
+
+void AnthropomorphicMotion::realise(const MotionContext& context, WalkerParticle& particle) const {
+  const Extras now = particle.extra, before = particle.extra_before;
+  realise_walker(context.model, context.scale, particle);
+  if (particle.arriving) keep_rates(now, before, particle);
+  particle.pose =
+      pose_showing(context.model, shown_state(particle.walker, particle.stance, particle.extra),
+                   particle.walker.q[kStanceShank], particle.stance, particle.ball, particle.extra);
+}
+
+std::span<const NoiseGroup> AnthropomorphicMotion::noise_groups(Path path) const {
+  return path == Path::kSpatial ? kGroups : kGroupsInPlane;
+}
+
+}  // namespace walktrack

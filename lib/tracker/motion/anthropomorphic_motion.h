@@ -1,0 +1,38 @@
+// The motion model `anthropomorphic`: McGeer's and Kuo's walker of two straight legs
+// (walker/straight_walker.h) under the prior over its gaits drives the lines from hips to ankles
+// and, over the standing foot, the root. What it does not have, knees and a trunk, follows the
+// Markov processes of tracker/motion/markov_motion.h; pelvis, hips' abduction and rotation, and
+// arms those of the kneed model. One of the trackers before the kneed walker's was built like this.
+//
+// The walker's state sits in a kneed walker's with the trunk upright and the knees straight.
+#pragma once
+
+#include "gait/straight_prior.h"
+#include "tracker/motion/motion_model.h"
+
+namespace walktrack {
+
+class AnthropomorphicMotion : public MotionModel {
+ public:
+  explicit AnthropomorphicMotion(const BodyModel& model);
+  MarkovConstants constants(const MotionConfig& config, Extra extra) const override;
+  void enter(const MotionContext& context, std::span<const double> phases,
+             std::span<WalkerParticle> particles) const override;
+  void walk(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,
+            std::span<Outcome> outcomes) const override;
+  bool expect(const MotionContext& context, WalkerParticle& particle) const override;
+  void realise(const MotionContext& context, WalkerParticle& particle) const override;
+  std::span<const NoiseGroup> noise_groups(Path path) const override;
+
+ private:
+  Outcome walk(const MotionContext& context, WalkerParticle& particle, Rng& rng) const;
+  void change_support(const MotionContext& context, WalkerParticle& particle, Rng& rng) const;
+  void catch_step(const StraightModel& model, WalkerParticle& particle) const;
+  StraightModel model_on(const BodyModel& model, double heading) const;
+
+  StraightLeggedParameters parameters_;
+  StraightModel level_;
+  StraightPrior prior_;
+};
+
+}  // namespace walktrack

@@ -1,0 +1,160 @@
+#include "tracker/motion/kneed_motion.h"
+
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "core/conventions.h"
+#include "tracker/motion/noise_groups.h"
+#include "tracker/motion/support.h"
+#include "tracker/motion/walk_on.h"
+#include "tracker/moves/rephase.h"
+#include "walker/kneed_batch.h"
+
+namespace walktrack {
+
+namespace {
+
+// Rows: q's coordinates; columns: torques between torso and stance thigh, hip, stance knee, swing
+// knee, and of the ground on the stance shank.
+// clang-format off
+Matrix5 torque_distribution() {
+  Matrix5 b;
+  b <<  1,  0,  0,  0, 0,
+       -1, -1, -1,  0, 0,
+        0,  1,  0, -1, 0,
+        0,  0,  1,  0, 1,
+        0,  0,  0,  1, 0;
+  return b;
+}
+// clang-format on
+
+// The aimed gait's first moment and its controls. Returns when in the step its `phase` is, s.
+double enter_gait(const MotionContext& context, double phase, WalkerParticle& particle) {
+  const PriorGait gait = gait_at(context.prior, context.model.walker.parameters, particle.aim.speed,
+                                 particle.aim.step_length);
+  particle.aim = {gait.speed, gait.step_length};
+  particle.controls = gait.controls;
+  particle.walker = gait.start;
+  return phase * gait.period;
+}
+
+// Every walker on to its own moment, all in one batch: a step is as long as many frames.
+void walk_to(const KneedModel& model, std::span<const double> times,
+             std::span<WalkerParticle> particles) {
+  std::vector<KneedState> states;
+  std::vector<KneedControls> controls;
+  for (const WalkerParticle& p : particles) {
+    states.push_back(p.walker);
+    controls.push_back(p.controls);
+  }
+  const std::vector<Vector5> noise(states.size(), Vector5::Zero());
+  std::vector<KneedAdvance> done(states.size());
+  kneed_advance_batch(model, controls, noise, times, states, done);
+  for (size_t i = 0; i < states.size(); ++i) {
+    particles[i].walker = particles[i].predicted = states[i];
+    particles[i].velocity_per_impulse.setZero();
+  }
+}
+
+constexpr std::array<NoiseGroup, 6> kGroups{kTrunkNoise,  kLeftLegNoise, kRightLegNoise,
+                                            kWalkerNoise, kLeftArmNoise, kRightArmNoise};
+constexpr std::array<NoiseGroup, 6> kGroupsInPlane{kTrunkInPlane,    kLeftLegInPlane,
+                                                   kRightLegInPlane, kWalkerNoise,
+                                                   kLeftArmInPlane,  kRightArmInPlane};
+
+}  // namespace
+
+MarkovConstants markov_constants(Extra extra) {
+  const auto deg = [](double angle) { return rad_from_deg(angle); };
+  switch (extra) {
+    case kHeading:
+      return {0, 0.5, 0.3, -1e9, 1e9};
+    case kList:
+      return {0, 0.15, deg(3), deg(-15), deg(15)};
+    case kAbduction:
+    case kAbductionRight:
+      return {deg(-2.5), 0.15, deg(3.5), deg(-20), deg(30)};
+    case kRotation:
+    case kRotationRight:
+      return {deg(-5), 0.2, deg(6), deg(-40), deg(40)};
+    case kAnkle:
+    case kAnkleRight:
+      return {deg(-3), 0.08, deg(12), deg(-45), deg(30)};
+    case kPace:
+      return {0, 0.5, 0.12, -0.4, 0.4};
+    case kCrouch:
+      return {deg(8), 3, deg(3), deg(-10), deg(40)};
+    case kTilt:
+      return {0, 1, deg(9), deg(-20), deg(40)};
+    case kThigh:
+    case kThighRight:
+      return {0, 0.15, deg(6), deg(-30), deg(30)};
+    case kShank:
+    case kShankRight:
+      return {0, 0.12, deg(8), deg(-40), deg(40)};
+    case kShoulder:
+    case kShoulderRight:
+      return {0, 0.2, deg(15), deg(-60), deg(120)};
+    case kShoulderAbduction:
+    case kShoulderAbductionRight:
+      return {deg(6), 0.2, deg(6), deg(-10), deg(60)};
+    case kElbow:
+    case kElbowRight:
+    case kExtraCount:
+      break;
+  }
+  return {deg(22), 0.2, deg(15), 0, deg(130)};
+}
+
+Pose pose_in_gait(const BodyModel& model, const PriorGait& gait, Side stance, double phase) {
+  Extras extra{};
+  for (int k = 0; k < kExtraCount; ++k)
+    extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).rest;
+  Pose pose = pose_of(model, state_at_phase(model.walker, gait, phase), stance,
+                      {gait.speed, gait.step_length}, Eigen::Vector2d::Zero(), extra);
+  pose.root.head<2>().setZero();
+  return pose;
+}
+
+MarkovConstants KneedMotion::constants(const MotionConfig& config, Extra extra) const {
+  MarkovConstants c = markov_constants(extra);
+  if (extra >= kTilt && extra <= kShankRight) c.spread *= config.misfit;
+  return c;
+}
+
+void KneedMotion::enter(const MotionContext& context, std::span<const double> phases,
+                        std::span<WalkerParticle> particles) const {
+  std::vector<double> times;
+  for (size_t i = 0; i < particles.size(); ++i)
+    times.push_back(enter_gait(context, phases[i], particles[i]));
+  walk_to(context.model.walker, times, particles);
+}
+
+void KneedMotion::reconsider(const MotionContext& context, WalkerParticle& particle,
+                             Rng& rng) const {
+  if (rng.uniform() < context.config.rephasing * context.dt)
+    rephase(context, steps_, particle, rng);
+}
+
+void KneedMotion::walk(const MotionContext& context, std::span<WalkerParticle> particles,
+                       std::span<Rng> rngs, std::span<Outcome> outcomes) const {
+  walk_on(context, particles, rngs, outcomes);
+}
+
+bool KneedMotion::expect(const MotionContext& context, WalkerParticle& particle) const {
+  const Matrix5 mass = kneed_mass_matrix(context.model.walker, particle.walker.q);
+  particle.velocity_per_impulse = mass.llt().solve(torque_distribution());
+  particle.ball_sigma = foot_sigma(context, particle);
+  return particle.velocity_per_impulse.allFinite();
+}
+
+void KneedMotion::realise(const MotionContext& context, WalkerParticle& particle) const {
+  walktrack::realise(context.model, context.scale, particle);
+}
+
+std::span<const NoiseGroup> KneedMotion::noise_groups(Path path) const {
+  return path == Path::kSpatial ? kGroups : kGroupsInPlane;
+}
+
+}  // namespace walktrack

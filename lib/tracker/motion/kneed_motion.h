@@ -1,0 +1,36 @@
+// The motion model `kneed`: the kneed walker under its springs (tracker/motion/walk_on.h) drives
+// trunk and legs, people's angles stray from its own, and who has missed a strike reads the pose
+// anew (tracker/moves/rephase.h).
+#pragma once
+
+#include "gait/gait_prior.h"
+#include "tracker/motion/motion_model.h"
+#include "tracker/motion/step_book.h"
+
+namespace walktrack {
+
+// Without the configuration's share in it, MotionConfig::misfit.
+MarkovConstants markov_constants(Extra extra);
+
+// A person in a gait of the prior, at a share of the step of the standing foot: the root above the
+// origin, heading 0, everything that the walker does not drive at rest.
+Pose pose_in_gait(const BodyModel& model, const PriorGait& gait, Side stance, double phase);
+
+class KneedMotion : public MotionModel {
+ public:
+  KneedMotion(const BodyModel& model, const GaitPrior& prior) : steps_(model.walker, prior) {}
+  MarkovConstants constants(const MotionConfig& config, Extra extra) const override;
+  void enter(const MotionContext& context, std::span<const double> phases,
+             std::span<WalkerParticle> particles) const override;
+  void reconsider(const MotionContext& context, WalkerParticle& particle, Rng& rng) const override;
+  void walk(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,
+            std::span<Outcome> outcomes) const override;
+  bool expect(const MotionContext& context, WalkerParticle& particle) const override;
+  void realise(const MotionContext& context, WalkerParticle& particle) const override;
+  std::span<const NoiseGroup> noise_groups(Path path) const override;
+
+ private:
+  StepBook steps_;  // what rephasing reads poses as
+};
+
+}  // namespace walktrack

@@ -1,0 +1,162 @@
+#include "tracker/motion/markov_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "body/kinematics.h"
+#include "core/conventions.h"
+#include "tracker/motion/kneed_motion.h"
+#include "tracker/motion/motion.h"
+#include "tracker/motion/noise_groups.h"
+
+namespace walktrack {
+
+namespace {
+
+// How the root's velocity wanders, m/s per sqrt(s), along and across the heading: root mean square
+// of its changes from frame to frame.
+constexpr double kAlong = 0.5, kAcross = 0.3;
+
+constexpr std::array<NoiseGroup, 5> kGroups{kTrunkNoise, kLeftLegNoise, kRightLegNoise,
+                                            kLeftArmNoise, kRightArmNoise};
+constexpr std::array<NoiseGroup, 5> kGroupsInPlane{kTrunkInPlane, kLeftLegInPlane, kRightLegInPlane,
+                                                   kLeftArmInPlane, kRightArmInPlane};
+
+Pose pose_at(const Body& body, const Extras& extra, const Eigen::Vector2d& root) {
+  Pose pose;
+  pose.root << root, extra[kRootHeight];
+  pose.heading = extra[kHeading];
+  pose.list = extra[kList];
+  pose.tilt = extra[kTilt];
+  for (size_t i = 0; i < 2; ++i) {
+    pose.legs[i] = {extra[kHipFlexion + i], extra[kAbduction + i], extra[kRotation + i],
+                    std::max(0.0, extra[kKneeFlexion + i]), extra[kAnkle + i]};
+    if (body.groups.arms)
+      pose.arms[i] = {extra[kShoulder + i], extra[kShoulderAbduction + i], extra[kElbow + i]};
+  }
+  return pose;
+}
+
+void set_angles(const Pose& pose, Extras& extra) {
+  extra[kRootHeight] = pose.root.z();
+  extra[kTilt] = pose.tilt;
+  for (size_t i = 0; i < 2; ++i) {
+    extra[kHipFlexion + i] = pose.legs[i].hip_flexion;
+    extra[kKneeFlexion + i] = pose.legs[i].knee_flexion;
+  }
+}
+
+// How far a foot goes ahead of the root in a frame, m.
+double foot_advance(const Body& body, const WalkerParticle& particle, Side side) {
+  const Eigen::Vector3d ahead(std::cos(particle.pose.heading), std::sin(particle.pose.heading), 0);
+  return ahead.dot(ankle_from_root(body, particle.pose, side) -
+                   ankle_from_root(body, particle.pose_before, side));
+}
+
+}  // namespace
+
+MarkovConstants free_constants(Extra extra) {
+  const auto deg = [](double angle) { return rad_from_deg(angle); };
+  switch (extra) {
+    case kList:
+      return {0, 0.3, deg(2.6), deg(-15), deg(15), 0.55};
+    case kAbduction:
+    case kAbductionRight:
+      return {0, 0.35, deg(6), deg(-20), deg(30), 0.9};
+    case kRotation:
+    case kRotationRight:
+      return {deg(-5), 0.08, deg(6.4), deg(-40), deg(40)};
+    case kAnkle:
+    case kAnkleRight:
+      return {deg(-3), 0.2, deg(14), deg(-45), deg(30), 0.77};
+    case kPace:
+      return {0, 1, 0, 0, 0};
+    case kRootHeight:
+      return {0.96, 1.4, 0.025, 0.3, 1.2, 0.65};
+    case kTilt:
+      return {0, 0.25, deg(6), deg(-20), deg(40)};
+    case kHipFlexion:
+    case kHipFlexion + 1:
+      return {deg(11), 0.7, deg(16.5), deg(-45), deg(110), 0.96};
+    case kKneeFlexion:
+    case kKneeFlexion + 1:
+      return {deg(30), 0.95, deg(21), 0, deg(150), 0.61};
+    default:
+      return markov_constants(extra);
+  }
+}
+
+void enter_figure(const MotionContext& context, double phase, WalkerParticle& particle) {
+  const PriorGait gait = gait_at(context.prior, context.model.walker.parameters, particle.aim.speed,
+                                 particle.aim.step_length);
+  // A frame ago is a frame ahead, mirrored in time, where the step has only begun.
+  const double frame = context.dt / gait.period;
+  const double sign = phase < frame ? -1 : 1;
+  set_angles(pose_in_gait(context.model, gait, particle.stance, phase), particle.extra);
+  set_angles(pose_in_gait(context.model, gait, particle.stance, phase - sign * frame),
+             particle.extra_before);
+  for (size_t k = 0; sign < 0 && k < particle.extra.size(); ++k)
+    particle.extra_before[k] = 2 * particle.extra[k] - particle.extra_before[k];
+}
+
+void keep_rates(const Extras& now, const Extras& before, WalkerParticle& particle) {
+  for (size_t k = 0; k < now.size(); ++k)
+    particle.extra_before[k] = particle.extra[k] - (now[k] - before[k]);
+}
+
+MarkovConstants MarkovMotion::constants(const MotionConfig& config, Extra extra) const {
+  MarkovConstants c = free_constants(extra);
+  c.spread *= config.unrest;
+  if (extra != kRootHeight) return c;
+  return {leg_ * c.rest, c.time, leg_ * c.spread, leg_ * c.lowest, leg_ * c.highest, c.period};
+}
+
+void MarkovMotion::enter(const MotionContext& context, std::span<const double> phases,
+                         std::span<WalkerParticle> particles) const {
+  for (size_t i = 0; i < particles.size(); ++i) {
+    enter_figure(context, phases[i], particles[i]);
+    particles[i].velocity_per_impulse.setZero();
+  }
+}
+
+void MarkovMotion::walk(const MotionContext& context, std::span<WalkerParticle> particles,
+                        std::span<Rng>, std::span<Outcome> outcomes) const {
+  std::fill(outcomes.begin(), outcomes.end(), Outcome::kAlive);
+  for (WalkerParticle& p : particles) {
+    const Eigen::Vector3d moved = p.pose.root - p.pose_before.root;
+    p.ball = (p.pose.root + moved).head<2>();
+    // The foot stands that goes back under the root, as far as the last frame can tell.
+    const Body& body = context.model.body;
+    const bool left = foot_advance(body, p, Side::kLeft) < foot_advance(body, p, Side::kRight);
+    const Side stance = left ? Side::kLeft : Side::kRight;
+    p.walker.since_transfer = stance == p.stance ? p.walker.since_transfer + context.dt : 0;
+    p.stance = stance;
+  }
+}
+
+bool MarkovMotion::expect(const MotionContext& context, WalkerParticle& particle) const {
+  const double change = context.config.unrest * context.dt * std::sqrt(context.dt);
+  particle.ball_sigma = change * Eigen::Vector2d(kAlong, kAcross);
+  if (particle.arriving) particle.ball_sigma.setConstant(context.config.arrival);
+  return true;
+}
+
+void MarkovMotion::realise(const MotionContext& context, WalkerParticle& particle) const {
+  const Extras now = particle.extra, before = particle.extra_before;
+  realise_walker(context.model, context.scale, particle);
+  const Body& body = context.model.body;
+  particle.pose = pose_at(body, particle.extra, particle.ball);
+  if (!particle.arriving) return;
+  // Whoever is first seen is on the way already.
+  keep_rates(now, before, particle);
+  const double heading = particle.extra[kHeading];
+  const Eigen::Vector2d way =
+      particle.aim.speed * context.dt * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+  particle.pose_before = pose_at(body, particle.extra_before, particle.ball - way);
+}
+
+std::span<const NoiseGroup> MarkovMotion::noise_groups(Path path) const {
+  return path == Path::kSpatial ? kGroups : kGroupsInPlane;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,201 @@
+#include "tracker/motion/motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "core/conventions.h"
+
+namespace walktrack {
+
+namespace {
+
+using Eigen::Vector2d;
+
+// Arms swing against the legs: forward with the other side's thigh.
+double rest_of(Extra extra, const MarkovStep& step, const WalkerParticle& particle) {
+  if (extra != kShoulder && extra != kShoulderRight) return step.rest;
+  constexpr double kArmPerLeg = 0.6;  // walking at 1.3 m/s, Murray et al. 1967
+  const size_t other_leg = 1 - static_cast<size_t>(extra - kShoulder);
+  return step.rest + kArmPerLeg * particle.pose.legs[other_leg].hip_flexion;
+}
+
+void predict_extras(const MotionContext& context, WalkerParticle& particle) {
+  const ExtraRange free = free_extras(context.model);
+  for (int k = free.first; k < free.end; ++k) {
+    const auto extra = static_cast<Extra>(k);
+    const size_t i = static_cast<size_t>(k);
+    const MarkovStep& step = context.markov[i];
+    const double now = particle.extra[i];
+    const double next = now + step.momentum * (now - particle.extra_before[i]) +
+                        step.pull * (rest_of(extra, step, particle) - now);
+    particle.extra_before[i] = now;
+    particle.predicted_extra[i] = std::clamp(next, step.lowest, step.highest);
+  }
+}
+
+Vector2d turned(const Vector2d& v, double angle) { return Eigen::Rotation2Dd(angle) * v; }
+
+// The way of the last frame becomes part of that of the last step.
+void remember_way(const MotionContext& context, WalkerParticle& particle) {
+  const Pose &now = particle.pose, &before = particle.pose_before;
+  const Vector2d velocity = (now.root - before.root).head<2>() / context.dt;
+  const double kept = std::exp(-context.dt / particle.aim.duration());
+  particle.way =
+      kept * particle.way + (1 - kept) * turned(velocity, -0.5 * (now.heading + before.heading));
+}
+
+// The prediction turns to the way; that is no turning which goes on.
+void face_the_way(const MotionContext& context, WalkerParticle& particle) {
+  // Who hardly goes faces anywhere.
+  const double ahead = std::max(particle.way.x(), 0.25 * particle.aim.speed);
+  const double off = std::atan2(particle.way.y(), ahead);
+  const double turn = off * (1 - std::exp(-context.dt / context.config.facing));
+  particle.predicted_extra[kHeading] += turn;
+  particle.extra_before[kHeading] += turn;
+  particle.way = turned(particle.way, -turn);
+}
+
+void draw_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  const ExtraRange free = free_extras(context.model);
+  const auto draw = [&](int k) {
+    particle.noise[static_cast<size_t>(k)] = rng.truncated_normal(4);
+  };
+  for (int k = 0; k < kExtraNoise; ++k) draw(k);
+  for (int k = free.first; k < free.end; ++k) draw(kExtraNoise + k);
+}
+
+// The walker as it is becomes the frame's prediction, and its noise is drawn.
+bool predict(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  if (!context.moves.expect(context, particle)) return false;
+  particle.predicted = particle.walker;
+  particle.predicted_ball = particle.ball;
+  draw_noise(context, particle, rng);
+  context.moves.realise(context, particle);
+  return true;
+}
+
+}  // namespace
+
+MarkovSteps markov_steps(const MotionModel& moves, const MotionConfig& config, double dt) {
+  MarkovSteps steps;
+  for (int k = 0; k < kExtraCount; ++k) {
+    const MarkovConstants c = moves.constants(config, static_cast<Extra>(k));
+    const double r = std::exp(-dt / c.time);
+    const double swing = 1 - std::cos(2 * kPi * dt / c.period);
+    MarkovStep& step = steps[static_cast<size_t>(k)];
+    step = {r * r, (1 - r) * (1 - r) + 2 * r * swing, c.rest, c.lowest, c.highest};
+    if (k == kHeading) step = {r, 0, 0, c.lowest, c.highest};
+  }
+  return steps;
+}
+
+MotionConfig to_scale(const MotionConfig& config, double height) {
+  const double length = height / kAdultHeight, time = std::sqrt(length);
+  MotionConfig scaled = config;
+  scaled.torque_noise_scale *= std::sqrt(time);  // of a share of M g L per root second
+  scaled.clock *= std::sqrt(time);
+  scaled.turning /= time;
+  scaled.facing *= time;
+  scaled.ball_drift *= length / std::sqrt(time);
+  scaled.ball_slip *= length / std::sqrt(time);
+  scaled.landing *= length;
+  scaled.settling *= time;
+  scaled.arrival *= length;
+  scaled.given *= length;
+  scaled.rephasing /= time;
+  return scaled;
+}
+
+NoiseScale noise_scale(const MotionModel& moves, const MotionConfig& config, const BodyModel& model,
+                       double dt) {
+  const KneedParameters& p = model.walker.parameters;
+  const double leg = leg_length(model.body.lengths);
+  const double unit = config.torque_noise_scale * model.walker.total_mass * p.gravity * leg;
+  const double root = std::sqrt(dt);
+  NoiseScale scale;
+  const std::array<double, 5> shares{config.torso_torque, config.hip_torque,
+                                     config.stance_knee_torque, config.swing_knee_torque,
+                                     config.ankle_torque};
+  for (size_t k = 0; k < 5; ++k) scale.impulse[k] = shares[k] * unit * root;
+  scale.elapsed = dt;
+  for (int k = 0; k < kExtraCount; ++k) {
+    const MarkovConstants c = moves.constants(config, static_cast<Extra>(k));
+    const double r = std::exp(-dt / c.time), rr = r * r;
+    const double sine = std::sin(2 * kPi * dt / c.period);
+    scale.extra[static_cast<size_t>(k)] =
+        k == kHeading ? config.turning * dt * std::sqrt(1 - rr)
+                      : c.spread * std::sqrt(((1 - rr) * (1 - rr) + 4 * rr * sine * sine) *
+                                             (1 - rr) / (1 + rr));
+  }
+  return scale;
+}
+
+MotionContext motion_context(const BodyModel& model, const GaitPrior& prior,
+                             const MotionModel& moves, const MotionConfig& config, double dt) {
+  return {model,
+          prior,
+          moves,
+          config,
+          noise_scale(moves, config, model, dt),
+          markov_steps(moves, config, dt),
+          dt};
+}
+
+Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  particle.arriving = true;
+  particle.way = {particle.aim.speed, 0};
+  return predict(context, particle, rng) ? Outcome::kAlive : Outcome::kDead;
+}
+
+void propagate(const MotionContext& context, std::span<WalkerParticle> particles,
+               std::span<Rng> rngs, std::span<Outcome> outcomes) {
+  const bool turn = turns(context.model);
+  for (size_t i = 0; i < particles.size(); ++i) {
+    WalkerParticle& p = particles[i];
+    const bool came = std::exchange(p.arriving, false);
+    if (turn && !came) remember_way(context, p);
+    context.moves.reconsider(context, p, rngs[i]);
+    predict_extras(context, p);
+    if (turn) face_the_way(context, p);
+  }
+  context.moves.walk(context, particles, rngs, outcomes);
+  for (size_t i = 0; i < particles.size(); ++i) {
+    particles[i].pose_before = particles[i].pose;
+    if (!predict(context, particles[i], rngs[i])) outcomes[i] = Outcome::kDead;
+  }
+}
+
+Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  Outcome outcome;
+  propagate(context, {&particle, 1}, {&rng, 1}, {&outcome, 1});
+  return outcome;
+}
+
+void perturb(const MotionContext& context, double boldness, WalkerParticle& particle, Rng& rng) {
+  // A quarter of the proposals changes everything a little, the others one part of the body.
+  const double keep = std::sqrt(1 - boldness * boldness);
+  const ExtraRange free = free_extras(context.model);
+  const auto change = [&](int k) {
+    double& z = particle.noise[static_cast<size_t>(k)];
+    z = keep * z + boldness * rng.normal();
+  };
+  if (rng.uniform() < 0.25) {
+    for (int k = 0; k < kExtraNoise + free.end; ++k) {
+      if (k == kExtraNoise) k += free.first;
+      change(k);
+    }
+  } else {
+    const std::span<const NoiseGroup> groups = context.moves.noise_groups(context.model.path);
+    constexpr size_t kArms = 2;
+    const size_t count = groups.size() - (context.model.body.groups.arms ? 0 : kArms);
+    const size_t chosen = static_cast<size_t>(rng.uniform() * static_cast<double>(count));
+    for (const int k : groups[chosen]) change(k);
+  }
+  context.moves.realise(context, particle);
+}
+
+}  // namespace walktrack

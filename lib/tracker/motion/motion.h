@@ -1,0 +1,91 @@
+// How a particle gets from one frame to the next: a walker goes on (tracker/motion/motion_model.h),
+// and what it does not drive follows damped second-order Markov processes.
+//
+//   k_t = k_(t-1) + a (k_(t-1) - k_(t-2)) + b (k0 - k_(t-1)) + noise,
+//   r = exp(-dt / time), w = 2 pi dt / period, a = r^2, b = 1 + r^2 - 2 r cos w,
+//   noise ~ N(0, s^2 (1 - r^2) ((1 - r^2)^2 + 4 r^2 sin^2 w) / (1 + r^2)):
+//   s is the process's own standard deviation
+// so that the process does not depend on the frame rate; truncated at anatomical limits. Without a
+// period w = 0: critically damped. The heading has no rest: b = 0, and its rate has the standard
+// deviation s; but people face the way that they go: it comes back to that of about the last step
+// within MotionConfig::facing. On a sagittal path it stays what it is.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "gait/gait_prior.h"
+#include "tracker/motion/motion_model.h"
+
+namespace walktrack {
+
+// For an adult of kAdultHeight.
+struct MotionConfig {
+  MotionKind model = MotionKind::kKneed;
+  Path path = Path::kSpatial;  // BodyModel::path
+  // Torque noise as shares of M g L per sqrt(s), L the leg's length: torso, hip, knees and, for the
+  // ground under the stance foot, ankle.
+  double torso_torque = 0.010;
+  double hip_torque = 0.012;
+  double stance_knee_torque = 0.008;
+  double swing_knee_torque = 0.004;
+  double ankle_torque = 0.040;
+  double clock = 0.05;          // s per sqrt(s): how far people's phase strays from the walker's
+  double turning = 0.08;        // rad/s: the usual rate of turning
+  double facing = 0.3;          // s in which a heading comes back to the way by 1 - 1/e
+  double misfit = 0.7;          // multiplies how far people's angles stray from the walker's
+  double ball_drift = 0.03;     // m per sqrt(s): the drawn foot does not roll as the walker's does
+  double ball_slip = 0.012;     // m per sqrt(s): nor does a standing foot quite keep its line
+  double landing = 0.02;        // m, along and across: where a foot comes down
+  double settling = 0.05;       // s after the strike in which that uncertainty dies away
+  double arrival = 0.15;        // m, the same when a walker is first found
+  double given = 0.1;           // m, the same when the scene says where
+  double control_noise = 0.05;  // relative, per step (gait/gait_prior.h)
+  double feedback = 1;          // strength of the correction of controls at a support transfer
+  double aim_drift = 0.06;      // relative, per step, of the speed and the step length aimed at
+  double rephasing = 30;  // 1/s: how often a particle reads its pose anew (tracker/moves/rephase.h)
+  double torque_noise_scale = 0.15;  // multiplies all five torques
+  double unrest = 1.5;  // multiplies the noise of model kMarkov; tuned on the demo, 1 = as fitted
+};
+
+// The same for somebody larger or smaller, who walks to scale: lengths grow in proportion to the
+// height, times with its square root, as gravity is what it is.
+inline constexpr double kAdultHeight = 1.75;  // m
+MotionConfig to_scale(const MotionConfig& config, double height);
+
+// The process of one extra coordinate from frame to frame.
+struct MarkovStep {
+  double momentum = 0, pull = 0;             // a, b
+  double rest = 0, lowest = 0, highest = 0;  // rad
+};
+using MarkovSteps = std::array<MarkovStep, kExtraCount>;
+MarkovSteps markov_steps(const MotionModel& moves, const MotionConfig& config, double dt);
+
+NoiseScale noise_scale(const MotionModel& moves, const MotionConfig& config, const BodyModel& model,
+                       double dt);
+
+struct MotionContext {
+  const BodyModel& model;
+  const GaitPrior& prior;
+  const MotionModel& moves;
+  MotionConfig config;
+  NoiseScale scale;
+  MarkovSteps markov;
+  double dt;  // s
+};
+
+MotionContext motion_context(const BodyModel& model, const GaitPrior& prior,
+                             const MotionModel& moves, const MotionConfig& config, double dt);
+
+// The first frame of a particle: nothing moves, but its noise is drawn.
+Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng);
+// One frame forward and its noise drawn, everybody's from their own stream (spans of one size). A
+// particle's result does not depend on those that go with it, the time that it takes does.
+void propagate(const MotionContext& context, std::span<WalkerParticle> particles,
+               std::span<Rng> rngs, std::span<Outcome> outcomes);
+Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& rng);
+
+// Changes some of the frame's noise, reversibly with respect to its prior, and realises it.
+void perturb(const MotionContext& context, double boldness, WalkerParticle& particle, Rng& rng);
+
+}  // namespace walktrack

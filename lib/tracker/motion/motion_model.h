@@ -1,0 +1,75 @@
+// What moves particles from frame to frame, chosen once by the configuration:
+//   kneed            the kneed walker, and Markov processes for what it does not drive
+//                    (tracker/motion/kneed_motion.h)
+//   anthropomorphic  two straight legs; knees and trunk are Markov processes as well
+//                    (tracker/motion/anthropomorphic_motion.h)
+//   markov           no walker: every coordinate is a Markov process
+//   (tracker/motion/markov_motion.h)
+// The other two are there to measure what physics is worth: README.md.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "core/rng.h"
+#include "gait/gait_prior.h"
+#include "tracker/motion/particle.h"
+
+namespace walktrack {
+
+struct MotionConfig;
+struct MotionContext;
+
+enum class MotionKind { kKneed, kAnthropomorphic, kMarkov };
+
+// Constants of the Markov process of one extra coordinate, which tracker/motion/motion.h describes.
+struct MarkovConstants {
+  double rest, time, spread;                                // rad, s, rad (the heading: rad/s)
+  double lowest, highest;                                   // rad
+  double period = std::numeric_limits<double>::infinity();  // s, of its swinging; infinite: none
+};
+
+// Who falls, or whose state grows beyond bounds, is caught (goes on as the prior's gait); dead is
+// only who has no state left to go on from.
+enum class Outcome { kAlive, kFallen, kDiverged, kDead };
+
+// Indices of WalkerParticle::noise that are changed together.
+using NoiseGroup = std::span<const int>;
+
+class MotionModel {
+ public:
+  virtual ~MotionModel() = default;
+
+  // Of an extra coordinate. One without spread stays at its rest.
+  virtual MarkovConstants constants(const MotionConfig& config, Extra extra) const = 0;
+
+  // Particles whose aim, standing foot, heading and rest angles are set go on from the moments
+  // `phases` of their steps, as shares of a step.
+  virtual void enter(const MotionContext& context, std::span<const double> phases,
+                     std::span<WalkerParticle> particles) const = 0;
+
+  // Before a frame: a particle may take another view of how it came to its pose.
+  virtual void reconsider(const MotionContext&, WalkerParticle&, Rng&) const {}
+
+  // A frame without its noise: the walkers go on, feet come down. outcomes[i] is never kDead. What
+  // becomes of one particle does not depend on the others. Spans of one size.
+  virtual void walk(const MotionContext& context, std::span<WalkerParticle> particles,
+                    std::span<Rng> rngs, std::span<Outcome> outcomes) const = 0;
+
+  // What the frame's noise will do to a particle: predicted, velocity_per_impulse, predicted_ball
+  // and ball_sigma. False when it has no state to go on from.
+  virtual bool expect(const MotionContext& context, WalkerParticle& particle) const = 0;
+
+  // Sets the realised part of a particle from the predicted part and the noise.
+  virtual void realise(const MotionContext& context, WalkerParticle& particle) const = 0;
+
+  // Noise that moves one part of the body; those of the arms, two, come last.
+  virtual std::span<const NoiseGroup> noise_groups(Path path) const = 0;
+};
+
+// Of that body, with the prior's gaits where the model walks like them.
+std::unique_ptr<const MotionModel> make_motion_model(MotionKind kind, const BodyModel& model,
+                                                     const GaitPrior& prior);
+
+}  // namespace walktrack

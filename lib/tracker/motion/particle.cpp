@@ -1,0 +1,134 @@
+#include "tracker/motion/particle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "body/kinematics.h"
+#include "core/conventions.h"
+#include "tracker/motion/stride.h"
+
+namespace walktrack {
+
+namespace {
+
+size_t index(Side side) { return static_cast<size_t>(side); }
+
+// Knees do not bend backwards, nor further than until the heel meets the thigh: there the leg's
+// shank follows its thigh.
+void keep_knees(KneedState& s) {
+  constexpr double kDeepestBend = 150 * kPi / 180;  // rad
+  const auto keep = [&](int shank, int thigh) {
+    s.q[shank] = std::clamp(s.q[shank], s.q[thigh], s.q[thigh] + kDeepestBend);
+  };
+  keep(kStanceShank, kStanceThigh);
+  keep(kSwingShank, kSwingThigh);
+}
+
+// A normal number made heavy-tailed: people mostly walk straight on, but when they turn, they turn.
+double heavy_tailed(double normal) { return std::sinh(normal); }
+
+void set_leg(const KneedState& s, bool stance, const Extras& extra, Side side, Pose& pose) {
+  const double thigh = s.q[stance ? kStanceThigh : kSwingThigh];
+  const double shank = s.q[stance ? kStanceShank : kSwingShank];
+  const size_t i = index(side);
+  pose.legs[i] = {s.q[kTorso] - thigh, extra[kAbduction + i], extra[kRotation + i], shank - thigh,
+                  extra[kAnkle + i]};
+}
+
+}  // namespace
+
+KneedState shown_state(const KneedState& walker, Side stance, const StepAim& aim,
+                       const Extras& extra) {
+  const size_t standing = index(stance), swinging = 1 - standing;
+  const double half_stride = 0.5 * std::min(1.0, walker.since_transfer / aim.duration());
+  const LegDifference stands = leg_difference(half_stride);
+  const LegDifference swings = leg_difference(0.5 + half_stride);
+  // Thigh and shank are about as long: the hip sinks straight down.
+  const double crouch = 0.5 * extra[kCrouch];
+  KneedState shown = walker;
+  shown.q[kTorso] += extra[kTilt];
+  shown.q[kStanceThigh] += stands.thigh + extra[kThigh + standing] - crouch;
+  shown.q[kStanceShank] += stands.shank + extra[kShank + standing] + crouch;
+  shown.q[kSwingThigh] += swings.thigh + extra[kThigh + swinging] - crouch;
+  shown.q[kSwingShank] += swings.shank + extra[kShank + swinging] + crouch;
+  keep_knees(shown);
+  return shown;
+}
+
+Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance, const StepAim& aim,
+             const Eigen::Vector2d& ball, const Extras& extra) {
+  return pose_showing(model, shown_state(walker, stance, aim, extra), walker.q[kStanceShank],
+                      stance, ball, extra);
+}
+
+Pose pose_showing(const BodyModel& model, const KneedState& shown, double shank, Side stance,
+                  const Eigen::Vector2d& ball, const Extras& extra) {
+  Pose pose;
+  pose.heading = extra[kHeading];
+  pose.list = extra[kList];
+  pose.tilt = shown.q[kTorso];
+  set_leg(shown, true, extra, stance, pose);
+  set_leg(shown, false, extra, other(stance), pose);
+  for (size_t i = 0; model.body.groups.arms && i < 2; ++i)
+    pose.arms[i] = {extra[kShoulder + i], extra[kShoulderAbduction + i], extra[kElbow + i]};
+  stand_on(model.body, stance, Eigen::Vector3d(ball.x(), ball.y(), 0), rolled_ankle(model, shank),
+           pose);
+  return pose;
+}
+
+void realise_walker(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle) {
+  const auto& z = particle.noise;
+  Vector5 impulse;
+  for (int k = 0; k < 5; ++k) impulse[k] = scale.impulse[size_t(k)] * z[size_t(kTorqueNoise + k)];
+  // A torque held through the frame moves the angle half as far as its final rate would.
+  const Vector5 kick = particle.velocity_per_impulse * impulse;
+  KneedState& walker = particle.walker;
+  walker = particle.predicted;
+  walker.qd += kick;
+  walker.q += 0.5 * scale.elapsed * kick;
+  keep_knees(walker);
+  particle.extra[kHeading] = particle.predicted_extra[kHeading];
+  const ExtraRange free = free_extras(model);
+  for (int k = free.first; k < free.end; ++k) {
+    const size_t i = size_t(k);
+    const double noise = z[size_t(kExtraNoise) + i];
+    particle.extra[i] = particle.predicted_extra[i] +
+                        scale.extra[i] * (i == kHeading ? heavy_tailed(noise) : noise);
+  }
+  if (particle.arriving) particle.extra_before = particle.extra;
+  const double heading = particle.extra[kHeading];
+  const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
+  particle.ball =
+      particle.predicted_ball + particle.ball_sigma.x() * z[kBallNoise] * ahead +
+      particle.ball_sigma.y() * z[kBallNoise + 1] * Eigen::Vector2d(-ahead.y(), ahead.x());
+}
+
+void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle) {
+  realise_walker(model, scale, particle);
+  particle.pose =
+      pose_of(model, particle.walker, particle.stance, particle.aim, particle.ball, particle.extra);
+}
+
+Eigen::Vector2d rolled_ankle(const BodyModel& model, double shank) {
+  const KneedParameters& p = model.walker.parameters;
+  const double c = std::cos(shank), s = std::sin(shank);
+  return {p.foot_radius * shank - p.foot_up * s - p.foot_forward * (c - 1) -
+              model.body.lengths.ball_forward,
+          p.foot_radius - p.foot_up * c + p.foot_forward * s};
+}
+
+Eigen::Vector2d landing_ball(const BodyModel& model, const Pose& pose, Side landed, double shank) {
+  const Eigen::Vector3d ankle = pose.root + ankle_from_root(model.body, pose, landed);
+  const double outward = landed == Side::kLeft ? 1 : -1;
+  const double toes = pose.heading - outward * pose.legs[index(landed)].hip_rotation;
+  return ankle.head<2>() -
+         rolled_ankle(model, shank).x() * Eigen::Vector2d(std::cos(toes), std::sin(toes));
+}
+
+KneedModel in_plane(const BodyModel& model, double heading) {
+  KneedModel out = model.walker;
+  out.gravity.x() = model.downhill.dot(Eigen::Vector2d(std::cos(heading), std::sin(heading)));
+  return out;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,157 @@
+// One hypothesis: a kneed walker in its vertical plane, where that plane stands, and the angles
+// that the walker does not drive. The one place where a planar state becomes a 3-D pose.
+//
+// A frame's state is what physics predicted plus standardised normal noise brought in by `realise`.
+// Keeping the noise apart lets the filter's moves explore it reversibly (preconditioned
+// Crank-Nicolson: z' = sqrt(1 - s^2) z + s n leaves N(0, 1) invariant), without simulating again.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "body/body.h"
+#include "body/pose.h"
+#include "core/rng.h"
+#include "walker/kneed_walker.h"
+
+namespace walktrack {
+
+// The coordinates that follow a damped second-order Markov process, in this order: those that the
+// walker does not drive, and how far those that it drives stray from it. The walker itself never
+// feels them: its gait stays the stable one that the prior knows. What is sideways comes first and
+// last, the arms last, so that those that a scene has are a range (free_extras).
+enum Extra {
+  kHeading,
+  kList,
+  kAbduction,  // of the left leg; the right one's follows, and so for all pairs
+  kAbductionRight,
+  kRotation,
+  kRotationRight,
+  kAnkle,  // dorsiflexion; a standing foot's follows from its sole instead
+  kAnkleRight,
+  kPace,    // logarithm of how much faster the person walks than the walker
+  kCrouch,  // how much further both knees are bent than the walker's
+  kTilt,    // from here to the shanks: how far a person's angles stray from the walker's
+  kThigh,
+  kThighRight,
+  kShank,
+  kShankRight,
+  kShoulder,  // flexion
+  kShoulderRight,
+  kElbow,
+  kElbowRight,
+  kShoulderAbduction,
+  kShoulderAbductionRight,
+  kExtraCount
+};
+using Extras = std::array<double, kExtraCount>;  // rad
+
+// Where walkers may go and what shows of them:
+//   spatial   anywhere over the ground, turning
+//   sagittal  straight on: everything moves in upright planes of one heading, found at the start,
+//             and only where feet come to stand may be off to the side; what one camera sees of a
+//             walk from the side
+enum class Path { kSpatial, kSagittal };
+
+// Where the noise of a frame acts.
+enum NoiseIndex {
+  kTorqueNoise,                   // 5: torso, hip, stance knee, swing knee, stance ankle
+  kBallNoise = kTorqueNoise + 5,  // 2: the standing foot's place, along and across
+  kExtraNoise = kBallNoise + 2,
+  kNoiseCount = kExtraNoise + kExtraCount
+};
+
+// Standard deviations of one frame's noise, derived from MotionConfig and the frame's length.
+struct NoiseScale {
+  std::array<double, 5> impulse{};  // N m s
+  double elapsed = 0;               // s, the frame's length
+  Extras extra{};                   // rad
+};
+
+// What the present step aims at; chosen anew at every support transfer.
+struct StepAim {
+  double speed = 0;        // m/s
+  double step_length = 0;  // m
+
+  double duration() const { return step_length / speed; }  // s
+};
+
+struct WalkerParticle {
+  // As predicted, before this frame's noise.
+  KneedState predicted;
+  Eigen::Matrix<double, 5, 5> velocity_per_impulse;  // rad/s per N m s of each torque noise
+  Eigen::Vector2d predicted_ball = Eigen::Vector2d::Zero();
+  // Of the standing foot's place in this frame, along and across the heading, m.
+  Eigen::Vector2d ball_sigma = Eigen::Vector2d::Zero();
+  Extras predicted_extra{};
+  std::array<double, kNoiseCount> noise{};  // standard normal
+
+  // As realised.
+  KneedState walker;
+  Side stance = Side::kLeft;
+  Eigen::Vector2d ball = Eigen::Vector2d::Zero();  // of the standing foot, on the ground, m
+  Extras extra{}, extra_before{};                  // now and one frame ago
+  Pose pose, pose_before;                          // now and one frame ago
+  // How the root has moved in about the last step, forward and to the left, m/s.
+  Eigen::Vector2d way = Eigen::Vector2d::Zero();
+  bool arriving = false;  // the first frame: there is no frame before, extras start at rest
+
+  KneedControls controls;
+  StepAim aim;
+};
+
+// What all particles of a scene share.
+struct BodyModel {
+  Body body;
+  KneedModel walker;                                   // on level ground
+  Eigen::Vector2d downhill = Eigen::Vector2d::Zero();  // horizontal gravity, m/s^2; 0 on the level
+  Path path = Path::kSpatial;
+};
+
+// The coordinates that have a process in this model. One that has none keeps the value that it was
+// given at the start, and is neither predicted nor drawn.
+struct ExtraRange {
+  int first, end;
+};
+inline ExtraRange free_extras(const BodyModel& model) {
+  const bool arms = model.body.groups.arms;
+  if (model.path == Path::kSpatial) return {kHeading, arms ? kExtraCount : kShoulder};
+  return {kAnkle, arms ? kShoulderAbduction : kShoulder};
+}
+
+// Whether walkers may turn.
+inline bool turns(const BodyModel& model) { return model.path == Path::kSpatial; }
+
+// Sets the realised part (walker, ball, extra, pose) from the predicted part and the noise: of a
+// kneed walker, and of any walker but for the pose.
+void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle);
+void realise_walker(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle);
+
+// The walker's state as the person shows it: with a person's legs (tracker/motion/stride.h),
+// strayed by the extras.
+KneedState shown_state(const KneedState& walker, Side stance, const StepAim& aim,
+                       const Extras& extra);
+
+// The pose of a walker whose standing foot has its ball at `ball`.
+Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance, const StepAim& aim,
+             const Eigen::Vector2d& ball, const Extras& extra);
+
+// The same of a walker whose state as the person shows it is `shown` and whose own standing shank
+// leans by `shank`, rad.
+Pose pose_showing(const BodyModel& model, const KneedState& shown, double shank, Side stance,
+                  const Eigen::Vector2d& ball, const Extras& extra);
+
+// The standing ankle relative to its ball's place, (forward, up), m, when the walker's round foot
+// has rolled to where its shank leans by `shank`, rad. The foot is flat at 0, its ball
+// BodyLengths::ball_forward ahead of the ankle; the hip goes on as smoothly as the walker's.
+Eigen::Vector2d rolled_ankle(const BodyModel& model, double shank);
+
+// Where the ball of the `landed` foot comes to stand: the place from which its ankle, with the
+// shank leaning by `shank`, has rolled to where it is in `pose`.
+Eigen::Vector2d landing_ball(const BodyModel& model, const Pose& pose, Side landed, double shank);
+
+// The model's gravity in the plane of `heading`.
+KneedModel in_plane(const BodyModel& model, double heading);
+
+}  // namespace walktrack

@@ -1,0 +1,40 @@
+#include "tracker/motion/support.h"
+
+#include <cmath>
+
+#include "body/kinematics.h"
+
+namespace walktrack {
+
+Eigen::Vector2d foot_sigma(const MotionContext& context, const WalkerParticle& particle) {
+  const MotionConfig& config = context.config;
+  if (particle.arriving) return Eigen::Vector2d::Constant(config.arrival);
+  const double fresh = config.landing * std::exp(-particle.walker.since_transfer / config.settling);
+  const double root = std::sqrt(context.dt);
+  return {std::hypot(config.ball_drift * root, fresh), std::hypot(config.ball_slip * root, fresh)};
+}
+
+void change_feet(const BodyModel& model, const KneedState& shown, WalkerParticle& particle) {
+  const Side landed = other(particle.stance);
+  // Posed by the new roles on the old place, which is where the leg that now swings still stands.
+  particle.stance = landed;
+  Pose pose = particle.pose;
+  pose.tilt = shown.q[kTorso];
+  const auto set = [&](Side side, int thigh, int shank) {
+    LegPose& leg = pose.legs[static_cast<size_t>(side)];
+    leg.hip_flexion = pose.tilt - shown.q[thigh];
+    leg.knee_flexion = shown.q[shank] - shown.q[thigh];
+  };
+  set(landed, kStanceThigh, kStanceShank);
+  set(other(landed), kSwingThigh, kSwingShank);
+  stand_on(model.body, other(landed), Eigen::Vector3d(particle.ball.x(), particle.ball.y(), 0),
+           rolled_ankle(model, particle.walker.q[kSwingShank]), pose);
+  particle.ball = landing_ball(model, pose, landed, particle.walker.q[kStanceShank]);
+}
+
+void vary_aim(const MotionConfig& config, StepAim& aim, Rng& rng) {
+  aim.speed *= std::exp(config.aim_drift * rng.truncated_normal(3));
+  aim.step_length *= std::exp(config.aim_drift * rng.truncated_normal(3));
+}
+
+}  // namespace walktrack

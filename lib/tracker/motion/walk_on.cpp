@@ -1,0 +1,143 @@
+#include "tracker/motion/walk_on.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/scratch.h"
+#include "tracker/motion/support.h"
+#include "walker/kneed_batch.h"
+
+namespace walktrack {
+
+namespace {
+
+// The longest steps of the prior lower the hip by a sixth. A walker that goes down further has been
+// pushed to where its legs can hide from the images, and will not come up again.
+constexpr KneedLimits kWalks{.min_hip_height = 0.8};
+
+// The new step's controls start from the gait of its aim, corrected for the state that the strike
+// has left.
+void choose_controls(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  const MotionConfig& config = context.config;
+  StepAim& aim = particle.aim;
+  vary_aim(config, aim, rng);
+  const PriorGait gait =
+      gait_at(context.prior, context.model.walker.parameters, aim.speed, aim.step_length);
+  aim = {gait.speed, gait.step_length};  // within the table
+  particle.controls = draw_controls(
+      rng, next_controls(gait, particle.walker, config.feedback),
+      {.relative = config.control_noise, .rest = 0.5 * config.control_noise, .torque = 0});
+}
+
+// The swing foot has come down: it carries the body from here, and a new step begins.
+void change_support(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  change_feet(context.model,
+              shown_state(particle.walker, other(particle.stance), particle.aim, particle.extra),
+              particle);
+  choose_controls(context, particle, rng);
+}
+
+// Who stumbles catches the step: the walker goes on as the gait that it aims at would at this
+// moment of the step.
+void catch_step(const MotionContext& context, WalkerParticle& particle) {
+  const KneedModel& model = context.model.walker;
+  const PriorGait gait =
+      gait_at(context.prior, model.parameters, particle.aim.speed, particle.aim.step_length);
+  const double phase = std::clamp(particle.walker.since_transfer / gait.period, 0.0, 0.95);
+  particle.controls = gait.controls;
+  particle.walker = state_at_phase(model, gait, phase);
+}
+
+// What the batch kernel takes of a group of particles.
+struct Group {
+  std::pmr::vector<KneedState> states;
+  std::pmr::vector<KneedControls> controls;
+  std::pmr::vector<Vector5> noise;
+  std::pmr::vector<double> left;  // s of the frame; 0 = has arrived
+  std::pmr::vector<KneedAdvance> done;
+
+  Group(size_t count, std::pmr::memory_resource* memory)
+      : states(memory),
+        controls(memory),
+        noise(count, Vector5::Zero(), memory),
+        left(memory),
+        done(count, memory) {
+    states.reserve(count);
+    controls.reserve(count);
+    left.reserve(count);
+  }
+};
+
+KneedModel model_of(const MotionContext& context, const WalkerParticle& particle) {
+  const bool sloped = !context.model.downhill.isZero();
+  return sloped ? in_plane(context.model, particle.extra[kHeading]) : context.model.walker;
+}
+
+void gather(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,
+            Group& group) {
+  for (size_t i = 0; i < particles.size(); ++i) {
+    WalkerParticle& p = particles[i];
+    settle_knee_stops(model_of(context, p), p.controls, Vector5::Zero(), p.walker);
+    group.states.push_back(p.walker);
+    group.controls.push_back(p.controls);
+    const double stray = context.config.clock * std::sqrt(context.dt) * rngs[i].truncated_normal(3);
+    const double time = context.dt * std::exp(p.extra_before[kPace]) + stray;
+    group.left.push_back(std::max(0.0, time));
+  }
+}
+
+// To the end of everybody's time, or to the next event. On a slope gravity depends on the heading,
+// so that everybody has a model of their own there.
+void advance(const MotionContext& context, std::span<const WalkerParticle> particles,
+             Group& group) {
+  if (context.model.downhill.isZero())
+    return kneed_advance_batch(context.model.walker, group.controls, group.noise, group.left,
+                               group.states, group.done, kWalks);
+  for (size_t i = 0; i < particles.size(); ++i)
+    if (group.left[i] > 0)
+      group.done[i] = kneed_advance(model_of(context, particles[i]), group.controls[i],
+                                    group.noise[i], group.states[i], group.left[i], kWalks);
+}
+
+// What the event at which a walker stopped does to it; the time that it has left.
+double resolve(const MotionContext& context, const KneedAdvance& done, double left,
+               WalkerParticle& particle, Rng& rng, Outcome& outcome) {
+  switch (done.event) {
+    case KneedEvent::kNone:
+      return 0;
+    case KneedEvent::kTransfer:
+      change_support(context, particle, rng);
+      return left - done.elapsed;
+    case KneedEvent::kFallen:
+    case KneedEvent::kDiverged:
+      break;
+  }
+  outcome = done.event == KneedEvent::kFallen ? Outcome::kFallen : Outcome::kDiverged;
+  catch_step(context, particle);
+  return 0;
+}
+
+}  // namespace
+
+void walk_on(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,
+             std::span<Outcome> outcomes) {
+  std::fill(outcomes.begin(), outcomes.end(), Outcome::kAlive);
+  Scratch<32 * 1024> scratch;
+  Group group(particles.size(), scratch.memory());
+  gather(context, particles, rngs, group);
+  const auto has_time = [](double left) { return left > 0; };
+  while (std::any_of(group.left.begin(), group.left.end(), has_time)) {
+    advance(context, particles, group);
+    for (size_t i = 0; i < particles.size(); ++i) {
+      if (!has_time(group.left[i])) continue;
+      WalkerParticle& p = particles[i];
+      p.walker = group.states[i];
+      group.left[i] = resolve(context, group.done[i], group.left[i], p, rngs[i], outcomes[i]);
+      group.states[i] = p.walker;
+      group.controls[i] = p.controls;
+    }
+  }
+}
+
+}  // namespace walktrack

@@ -1,0 +1,94 @@
+#include "tracker/moves/course.h"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "core/log_weights.h"
+
+namespace walktrack {
+
+namespace {
+
+using Eigen::Vector2d;
+using Matrix = Eigen::Matrix<double, 5, 5>;
+
+// The course's angles among the extras, in its order.
+constexpr std::array<Extra, 3> kAngles{kHeading, kCrouch, kTilt};
+
+Course course(const WalkerParticle& particle) {
+  Course out;
+  out << particle.pose.root.head<2>(), particle.extra[kHeading], particle.extra[kCrouch],
+      particle.extra[kTilt];
+  return out;
+}
+
+// Lower triangular factor of a covariance that may be singular.
+Matrix factor_of(const Matrix& covariance) {
+  Matrix factor = Matrix::Zero();
+  for (int j = 0; j < 5; ++j) {
+    const double left = covariance(j, j) - factor.row(j).head(j).squaredNorm();
+    if (left <= 1e-12) continue;
+    factor(j, j) = std::sqrt(left);
+    for (int i = j + 1; i < 5; ++i) {
+      const double shared = factor.row(i).head(j).dot(factor.row(j).head(j));
+      factor(i, j) = (covariance(i, j) - shared) / factor(j, j);
+    }
+  }
+  return factor;
+}
+
+// The pose a frame ago, changed by what its successor has changed from `was` to `is`.
+void follow(const Pose& was, const Pose& is, Pose& before) {
+  const double turn = is.heading - was.heading;
+  const Vector2d arm = before.root.head<2>() - was.root.head<2>();
+  before.root.head<2>() = is.root.head<2>() + Eigen::Rotation2Dd(turn) * arm;
+  before.root.z() += is.root.z() - was.root.z();
+  before.heading += turn;
+  before.tilt += is.tilt - was.tilt;
+  for (size_t i = 0; i < 2; ++i) {
+    before.legs[i].hip_flexion += is.legs[i].hip_flexion - was.legs[i].hip_flexion;
+    before.legs[i].knee_flexion += is.legs[i].knee_flexion - was.legs[i].knee_flexion;
+  }
+}
+
+}  // namespace
+
+CourseSpread course_spread(std::span<const WalkerParticle> particles,
+                           std::span<const double> log_weights) {
+  const std::vector<double> weights = normalised_weights(log_weights);
+  CourseSpread out;
+  for (size_t i = 0; i < particles.size(); ++i)
+    if (weights[i] > 0) out.mean += weights[i] * course(particles[i]);
+  Matrix covariance = Matrix::Zero();
+  for (size_t i = 0; i < particles.size(); ++i) {
+    if (!(weights[i] > 0)) continue;
+    const Course away = course(particles[i]) - out.mean;
+    covariance += weights[i] * away * away.transpose();
+  }
+  out.factor = factor_of(covariance);
+  return out;
+}
+
+void change_course(const MotionContext& context, const CourseSpread& spread, double boldness,
+                   WalkerParticle& particle, Rng& rng) {
+  const Course now = course(particle);
+  Course normal;
+  for (double& z : normal) z = rng.normal();
+  const Course wanted = spread.mean + std::sqrt(1 - boldness * boldness) * (now - spread.mean) +
+                        boldness * (spread.factor * normal);
+  const Pose was = particle.pose;
+  for (size_t k = 0; k < kAngles.size(); ++k) {
+    const double change = wanted[2 + int(k)] - now[2 + int(k)];
+    particle.predicted_extra[kAngles[k]] += change;
+    particle.extra_before[kAngles[k]] += change;
+  }
+  context.moves.realise(context, particle);
+  const Vector2d shift = wanted.head<2>() - particle.pose.root.head<2>();
+  particle.predicted_ball += shift;
+  particle.ball += shift;
+  particle.pose.root.head<2>() += shift;
+  follow(was, particle.pose, particle.pose_before);
+}
+
+}  // namespace walktrack

@@ -1,0 +1,112 @@
+#include "tracker/moves/exchange.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace walktrack {
+
+namespace {
+
+// Legs that reach across the pelvis to each other's feet: abductions become this much less than
+// the negative of the other leg's, rad (to first order).
+double reach(const Body& body) { return body.lengths.hip_width / leg_length(body.lengths); }
+
+void exchange_extras(Extras& extra) {
+  for (const Extra left :
+       {kAbduction, kRotation, kAnkle, kThigh, kShank, kShoulder, kShoulderAbduction, kElbow})
+    std::swap(extra[size_t(left)], extra[size_t(left) + 1]);
+}
+
+void reach_across(double reach, Extras& extra) {
+  for (const size_t i : {size_t{kAbduction}, size_t{kAbductionRight}}) extra[i] = -extra[i] - reach;
+}
+
+// Below the hips and the shoulders.
+constexpr std::pair<Joint, Joint> kPairs[] = {{Joint::kLeftKnee, Joint::kRightKnee},
+                                              {Joint::kLeftAnkle, Joint::kRightAnkle},
+                                              {Joint::kLeftToe, Joint::kRightToe},
+                                              {Joint::kLeftElbow, Joint::kRightElbow},
+                                              {Joint::kLeftWrist, Joint::kRightWrist}};
+
+void exchange_joints(JointPositions& joints) {
+  for (const auto& [left, right] : kPairs) std::swap(joints[left], joints[right]);
+}
+
+// `middle`: of the exchanged pose. About them the angles spread as the other leg's did.
+void exchange_angles(const JointAngles& middle, std::array<Spread, kJointAngleCount>& angles) {
+  constexpr int kOther = kHipFlexionL - kHipFlexionR;
+  for (int i = kHipFlexionR; i <= kAnkleAngleR; ++i)
+    std::swap(angles[size_t(i)], angles[size_t(i + kOther)]);
+  for (const JointAngle i : {kHipAdductionR, kHipAdductionL}) {
+    Spread& each = angles[size_t(i)];
+    each = {-each.mean, each.sd, -each.p95, -each.p05};
+  }
+  for (int i = kHipFlexionR; i <= kAnkleAngleL; ++i) {
+    Spread& each = angles[size_t(i)];
+    const double shift = middle[size_t(i)] - each.mean;
+    each = {middle[size_t(i)], each.sd, each.p05 + shift, each.p95 + shift};
+  }
+}
+
+Pose swapped_limbs(const Pose& pose) {
+  Pose out = pose;
+  std::swap(out.legs[0], out.legs[1]);
+  std::swap(out.arms[0], out.arms[1]);
+  return out;
+}
+
+// Legs that do not reach sideways: the pelvis stays where it is, and the feet change their places.
+void exchange_feet(const MotionContext& context, WalkerParticle& particle) {
+  const Eigen::Vector2d root = particle.pose.root.head<2>();
+  context.moves.realise(context, particle);
+  particle.predicted_ball += root - particle.pose.root.head<2>();
+  context.moves.realise(context, particle);
+  particle.pose_before = swapped_limbs(particle.pose_before);
+}
+
+}  // namespace
+
+Pose exchanged_legs(const Body& body, const Pose& pose) {
+  Pose out = swapped_limbs(pose);
+  for (LegPose& leg : out.legs) leg.hip_abduction = -leg.hip_abduction - reach(body);
+  return out;
+}
+
+void exchange_legs(const MotionContext& context, WalkerParticle& particle) {
+  const Body& body = context.model.body;
+  const bool reaches = context.model.path == Path::kSpatial;
+  particle.stance = other(particle.stance);
+  for (Extras* extra : {&particle.predicted_extra, &particle.extra_before, &particle.extra}) {
+    exchange_extras(*extra);
+    if (reaches) reach_across(reach(body), *extra);
+  }
+  Extras noise;
+  std::copy_n(particle.noise.begin() + kExtraNoise, kExtraCount, noise.begin());
+  exchange_extras(noise);
+  if (reaches) reach_across(0, noise);
+  std::copy_n(noise.begin(), kExtraCount, particle.noise.begin() + kExtraNoise);
+  if (!reaches) return exchange_feet(context, particle);
+  context.moves.realise(context, particle);
+  particle.pose_before = exchanged_legs(body, particle.pose_before);
+}
+
+void exchange_legs(const MotionContext& context, WalkerFilter& filter) {
+  FilterState<WalkerParticle> state = filter.state();
+  for (WalkerParticle& particle : state.set.states) exchange_legs(context, particle);
+  filter.resume(std::move(state));
+}
+
+void exchange_legs(const Body& body, FrameRecord& record) {
+  FrameEstimate& estimate = record.estimate;
+  estimate.pose = exchanged_legs(body, estimate.pose);
+  exchange_joints(estimate.joints);
+  for (const auto& [left, right] : kPairs)
+    std::swap(estimate.spread[size_t(left)], estimate.spread[size_t(right)]);
+  exchange_angles(joint_angles(estimate.pose), estimate.angles);
+  estimate.left_stance = 1 - estimate.left_stance;
+  for (JointPositions& sample : record.samples) exchange_joints(sample);
+  record.modes.phase = std::fmod(record.modes.phase + 0.5, 1.0);
+}
+
+}  // namespace walktrack

@@ -1,0 +1,23 @@
+// The same walk with the legs exchanged: the left leg does what the right one did, half a stride
+// away, and each foot stays where a foot was. Arms swing against the legs and are exchanged with
+// them; the pelvis stays as it is, so each leg now starts from the other hip and reaches its place
+// by another abduction. Seen from the side nothing changes.
+#pragma once
+
+#include "tracker/motion/motion.h"
+#include "tracker/walker_filter.h"
+
+namespace walktrack {
+
+Pose exchanged_legs(const Body& body, const Pose& pose);
+
+// Now and a frame ago, with the frame's noise; the particle is realised.
+void exchange_legs(const MotionContext& context, WalkerParticle& particle);
+
+// All of them.
+void exchange_legs(const MotionContext& context, WalkerFilter& filter);
+
+// What was estimated of a frame, its samples, and its place in the stride.
+void exchange_legs(const Body& body, FrameRecord& record);
+
+}  // namespace walktrack
