@@ -194,11 +194,13 @@ ObserverState Observer::state() const {
 
 void Observer::resume(ObserverState state) {
   State& s = *state_;
-  const auto pixels = static_cast<size_t>(s.camera.width_px) * size_t(s.camera.height_px);
+  const auto of_the_camera = [&](int width, int height) {
+    return width == s.camera.width_px && height == s.camera.height_px;
+  };
   const bool fits =
       state.background.has_value() == s.background.has_value() &&
-      (!state.background || state.background->luma.size() == s.background->luma.size()) &&
-      (state.grey_before.empty() || state.grey_before.size() == pixels) &&
+      (!state.background || of_the_camera(state.background->width, state.background->height)) &&
+      (state.grey_before.empty() || of_the_camera(state.grey_width, state.grey_height)) &&
       state.appearance.size() == s.appearance.states().size();
   if (!fits) throw InputError("an observer's state is of other images or classes than its camera");
   s.background = std::move(state.background);
