@@ -187,9 +187,11 @@ SilhouetteTerm::State SilhouetteTerm::Memory::state() const {
   return {background_, appearance_.states(), scene_, frames_};
 }
 
-bool SilhouetteTerm::Memory::fits(const ObserverSetting&, const State& state) const {
-  return state.background.has_value() == background_.has_value() &&
-         (!state.background || state.background->luma.size() == background_->luma.size()) &&
+bool SilhouetteTerm::Memory::fits(const ObserverSetting& setting, const State& state) const {
+  const auto& background = state.background;
+  return background.has_value() == background_.has_value() &&
+         (!background || (background->width == setting.camera.width_px &&
+                          background->height == setting.camera.height_px)) &&
          state.appearance.size() == appearance_.states().size();
 }
 

@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "core/errors.h"
 #include "io/archive/files.h"
 #include "io/archive/sha256.h"
+#include "io/archive/state_checks.h"
 #include "io/archive/state_fields.h"
 
 namespace walktrack {
@@ -30,14 +32,19 @@ std::string difference(const Origin& found, const Origin& wanted) {
 
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+std::string checkpoint_bytes(const Checkpoint& checkpoint) {
   ArchiveWriter archive;
   archive(checkpoint.origin);
   state_fields(archive, checkpoint);
+  return archive.bytes();
+}
+
+void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+  const std::string bytes = checkpoint_bytes(checkpoint);
   AtomicFile file(path);
   file.write(kFormat);
-  file.write(sha256(archive.bytes()));
-  file.write(archive.bytes());
+  file.write(sha256(bytes));
+  file.write(bytes);
   file.commit();
 }
 
@@ -51,14 +58,23 @@ FoundCheckpoint read_checkpoint(const std::filesystem::path& path, const Origin&
   if (headed) rest.remove_prefix(kDigestBytes);
   if (!headed || sha256(rest) != digest)
     return {{}, fmt::format("{}: found no sound checkpoint of this format", path.string())};
+  return parse_checkpoint(rest, path.native(), origin);
+}
+
+FoundCheckpoint parse_checkpoint(std::string_view bytes, std::string_view file,
+                                 const Origin& origin) try {
   Checkpoint checkpoint;
-  ArchiveReader archive(rest, path.native());
+  ArchiveReader archive(bytes, file);
   archive(checkpoint.origin);
   const std::string other = difference(checkpoint.origin, origin);
-  if (!other.empty())
-    return {{}, fmt::format("{}: the checkpoint is of another {}", path.string(), other)};
+  if (!other.empty()) return {{}, fmt::format("{}: the checkpoint is of another {}", file, other)};
   state_fields(archive, checkpoint);
+  if (!archive.at_end()) archive.fail("more than it announces");
+  if (const std::string_view trouble = trouble_of(checkpoint); !trouble.empty())
+    archive.fail(trouble);
   return {std::move(checkpoint), {}};
+} catch (const InputError& error) {
+  return {{}, error.what()};
 }
 
 }  // namespace walktrack

@@ -5,13 +5,15 @@
 // "walktrack checkpoint 3", the SHA-256 of what follows, and the bytes of io/archive/archive.h:
 // what it was made of, then the state. The file is only fit for the program that wrote it, on a
 // machine of the same kind; results of machines whose vector instructions differ may differ in the
-// last digits.
+// last digits. The digest finds damage; what made its own digest is still read field by field
+// (io/archive/state_checks.h).
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -43,5 +45,10 @@ struct FoundCheckpoint {
 
 // `origin`: what the checkpoint has to be made of.
 FoundCheckpoint read_checkpoint(const std::filesystem::path& path, const Origin& origin);
+
+// What follows the digest, to and fro. `file` is what messages call it.
+std::string checkpoint_bytes(const Checkpoint& checkpoint);
+FoundCheckpoint parse_checkpoint(std::string_view bytes, std::string_view file,
+                                 const Origin& origin);
 
 }  // namespace walktrack

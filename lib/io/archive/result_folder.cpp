@@ -23,8 +23,8 @@ bool is_result_file(const std::string& name) {
   if (is_temporary_name(name)) return true;
   for (const char* known :
        {"joints.csv", "joints.trc", "angles.mot", "uncertainty.csv", "angles.csv", "gait.json",
-        "gait.csv", "kinetics.csv", "ground_reaction.mot", "joint_moments.sto", "report.html",
-        "checkpoint.bin", "frames.bin", "smoothed_frames.bin"}) {
+        "gait.csv", "kinetics.csv", "tables.json", "ground_reaction.mot", "joint_moments.sto",
+        "report.html", "checkpoint.bin", "frames.bin", "smoothed_frames.bin"}) {
     if (name == known) return true;
   }
   return name.starts_with("overlay_") && name.ends_with(".mp4");

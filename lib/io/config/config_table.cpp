@@ -16,7 +16,8 @@ void add_run(ParameterTable& table) {
   ParameterGroup<Config> top(table, "", "the run");
   top.integer("seed", &Config::seed, 0, std::numeric_limits<int64_t>::max(),
               "seed of all random numbers");
-  top.integer("threads", &Config::threads, 0, kMostThreads, "threads, 0 = all of the machine");
+  top.integer("threads", &Config::threads, 0, kMostThreads,
+              "threads, 0 = all that the process may use");
 }
 
 // Where likelihood terms write down the keys of their configuration.

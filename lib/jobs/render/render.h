@@ -21,7 +21,7 @@ struct RenderJob {
   RenderOptions options;
   std::filesystem::path output;
   bool overwrite = false;
-  int threads = 0;  // 0 = all of the machine
+  int threads = 0;  // 0 = all that the process may use
 };
 
 // scene.yaml is written last: a folder that holds one is complete. UsageError if it is there

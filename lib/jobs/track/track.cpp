@@ -161,15 +161,23 @@ void require_a_term(const ObservationConfig& observation) {
                fmt::format("one or more of {} with enabled: true", fmt::join(names, ", "))));
 }
 
+// Why a sound checkpoint is of no use for this job; "": it is.
+std::string trouble_with(const Checkpoint& checkpoint, const TrackJob& job) {
+  const fs::path file = job.output / kCheckpointFile;
+  if (checkpoint.observers.size() != job.scene.cameras.size())
+    return fmt::format("{}: the checkpoint is of another number of cameras", file.string());
+  return frame_file_trouble(job.output / kFramesFile, checkpoint.records, checkpoint.record_bytes);
+}
+
 // The checkpoint to go on from, if that is wanted and there is one that fits.
 std::optional<Checkpoint> checkpoint_for(const TrackJob& job, const Origin& origin,
                                          const JobControl& control) {
   if (!job.resume) return std::nullopt;
   FoundCheckpoint found = read_checkpoint(job.output / kCheckpointFile, origin);
-  const fs::path frames = job.output / kFramesFile;
-  if (found.checkpoint &&
-      (!fs::exists(frames) || fs::file_size(frames) < found.checkpoint->record_bytes))
-    found = {{}, fmt::format("{}: lacks frames that the checkpoint counts on", frames.string())};
+  if (found.checkpoint) {
+    const std::string trouble = trouble_with(*found.checkpoint, job);
+    if (!trouble.empty()) found = {{}, trouble};
+  }
   if (!found.unfit.empty()) {
     if (!job.overwrite) throw UsageError(found.unfit + "; -y starts anew");
     control.say(found.unfit + ": starting anew");

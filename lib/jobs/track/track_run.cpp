@@ -17,7 +17,8 @@ namespace {
 
 int threads_of(const TrackJob& job) {
   const int threads = thread_count(job.config.values.threads);
-  cv::setNumThreads(threads);
+  // More than there are would make its own library complain on the terminal.
+  cv::setNumThreads(std::min(threads, hardware_threads()));
   return threads;
 }
 
