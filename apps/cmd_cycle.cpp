@@ -48,11 +48,9 @@ int run_cycle(const Arguments& arguments) {
       "s, longest step")("save-model", po::value(&model_file)->value_name("FILE"),
                          "write the model with the cycle as its start");
   if (!line.parse(arguments)) return kDone;
-  options.require_positive({{"--max-time", job.options.max_time}});
-  if (job.settling_steps < 0) {
-    throw UsageError(describe({"", 0, "--settle"}, fmt::format("{}", job.settling_steps),
-                              "a number of steps, 0 or more"));
-  }
+  ModelOptions::require("--max-time", job.options.max_time, 1e-6, 1e4);
+  line.config_of_run();  // checks --seed and --threads, which a cycle does not depend on
+  ModelOptions::require("--settle", job.settling_steps, 0, 1e6);
   job.model = options.model(line);
   job.options.simulation = options.simulation();
   set_follow(follow, job);

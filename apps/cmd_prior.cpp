@@ -78,8 +78,15 @@ int run_prior(const Arguments& arguments) {
       "sweeps", po::value(&job.grid.sweeps)->value_name("N"),
       "build: how often every gait is tried again from its neighbours");
   if (!line.parse(arguments)) return kDone;
+  if (show) {
+    line.refuse({"earlier", "level", "sweeps"}, "without --show, for building a table");
+  } else {
+    line.refuse({"table", "height", "mass", "walkers"}, "with --show, for showing a table");
+  }
   if (!(shown.height > 0.3 && shown.height < 3 && shown.mass > 1 && shown.mass < 500))
-    throw UsageError("--height is in metres (0.3 to 3), --mass in kilograms (1 to 500)");
+    throw UsageError(describe({"", 0, "--height, --mass"},
+                              fmt::format("{:g} m, {:g} kg", shown.height, shown.mass),
+                              "0.3 to 3 m, 1 to 500 kg"));
   if (job.grid.sweeps < 0 || job.grid.sweeps > 100)
     throw UsageError(fmt::format("--sweeps: found {}, allowed 0 to 100", job.grid.sweeps));
   if (shown.walkers < 1 || shown.walkers > 1'000'000)
@@ -87,6 +94,7 @@ int run_prior(const Arguments& arguments) {
   shown.prior = table;
   job.earlier = earlier;
   const Model walker = model_named(model);
+  if (walker == Model::kAnthropomorphic) line.refuse({"earlier", "sweeps"}, "with --model kneed");
   if (walker == Model::kAnthropomorphic) job.grid.slopes = StraightPriorGrid().slopes;
   if (level) job.grid.slopes = {0};
   return show ? report(line, walker, shown) : build(line, walker, job);

@@ -22,22 +22,28 @@ namespace {
 
 // The table of --extremes, to --output or stdout.
 void write_extremes(const CommandLine& line) {
+  line.refuse({"model", "config", "set", "integrator", "step", "duration", "seconds", "steps",
+               "sample", "slow", "no-pictures", "prior"},
+              "none of it with --extremes, whose walkers are fixed");
   StabilityJob job;
-  job.threads = hardware_threads();
+  job.threads = thread_count(line.config_of_run().values.threads);
   const std::string& output = line.common().output;
   if (!output.empty()) refuse_existing(output, line.common().overwrite);
   line.hand_over(stability_csv(job, stability_table(job)));
 }
 
 // The body in 3-D takes the same options as far as they mean something to it.
-std::string simulate_articulated(const CommandLine& line, const SimulateJob& shared,
-                                 const std::vector<std::string>& command_line) {
+SimulationEnd simulate_articulated(const CommandLine& line, const SimulateJob& shared,
+                                   const std::vector<std::string>& command_line) {
+  line.refuse({"steps", "prior", "speed", "speed-at", "step-length", "feedback"},
+              "none of it with the articulated body, which does not walk");
   ArticulatedJob job;
   apply_model_settings(entries(job.spec), line.common().config_file, line.common().settings);
   job.duration = shared.duration;
   job.step = shared.simulation.max_step;
   job.integrator = shared.simulation.integrator;
   job.sample_interval = shared.sample_interval;
+  job.slow_motion = shared.slow_motion;
   job.pictures = shared.pictures;
   return simulate_articulated_into(line.required_output(), line.common().overwrite, job,
                                    command_line);
@@ -62,14 +68,13 @@ class PriorOptions {
   }
 
   // Kuo's anthropomorphic walker has units of its own; whoever names no other walks as an adult.
-  void apply(SimulateJob& job, const CommonOptions& common) {
-    if (wanted_ && common.config_file.empty() && common.settings.empty())
+  void apply(SimulateJob& job, const CommandLine& line) {
+    const CommonOptions& common = line.common();
+    if (!wanted_)
+      return line.refuse({"speed", "speed-at", "step-length", "feedback"}, "together with --prior");
+    if (common.config_file.empty() && common.settings.empty())
       job.model.anthropomorphic = adult_straight_walker(1.75, 70);
-    if (!wanted_) {
-      if (changes_.empty() && std::isnan(speed_)) return;
-      throw UsageError(
-          describe({"", 0, "--speed, --speed-at"}, "no --prior", "together with --prior"));
-    }
+    for (const std::string& setting : common.settings) refuse_what_the_table_sets(setting);
     if (!std::isnan(speed_)) walk_.speed = speed_;
     for (const std::string& text : changes_) walk_.changes.push_back(change_from(text));
     std::stable_sort(walk_.changes.begin(), walk_.changes.end(),
@@ -86,6 +91,13 @@ class PriorOptions {
   }
 
  private:
+  static void refuse_what_the_table_sets(const std::string& setting) {
+    for (const char* group : {"controls.", "style.", "start."})
+      if (setting.starts_with(group))
+        throw UsageError(describe({"", 0, "--set"}, fmt::format("'{}'", setting),
+                                  "parameters.* with --prior: the rest comes out of its table"));
+  }
+
   static SpeedChange change_from(const std::string& text) {
     const size_t colon = std::min(text.find(':'), text.size());
     const auto time = number_from_text(text.substr(0, colon));
@@ -102,6 +114,28 @@ class PriorOptions {
   std::vector<std::string> changes_;
 };
 
+// What can be simulated, kept and drawn in memory and before anybody loses patience.
+void check_sizes(const CommandLine& line, const SimulateJob& job) {
+  line.config_of_run();  // checks --seed and --threads, which a simulation does not depend on
+  if (line.given("duration") && line.given("seconds"))
+    throw UsageError(describe({"", 0, "--seconds"}, "--duration as well", "one of them"));
+  ModelOptions::require("--duration", job.duration, 1e-6, 1e6);
+  ModelOptions::require("--steps", job.steps, 0, 1e9);
+  ModelOptions::require("--sample", job.sample_interval, 1e-6, 1e6);
+  ModelOptions::require("--slow", job.slow_motion, 1e-3, 1e3);
+  ModelOptions::require_few("--step", job.duration, job.simulation.max_step, 1e8, "steps");
+  ModelOptions::require_few("--sample", job.duration, job.sample_interval, 1e6, "rows");
+  if (job.pictures)
+    ModelOptions::require_few("--slow", job.duration, 1 / (job.frame_rate * job.slow_motion), 1e5,
+                              "frames of animation");
+}
+
+// Says how it ended; a walker that did not hold out has its own exit code.
+int told(const JobControl& control, const SimulationEnd& end) {
+  control.say(end.text);
+  return end.health == Health::kSound ? kDone : kDegraded;
+}
+
 }  // namespace
 
 int run_simulate(const Arguments& arguments) {
@@ -115,7 +149,8 @@ int run_simulate(const Arguments& arguments) {
        .operands = "",
        .about = "Simulates a walker. --config names a model file, --set changes one "
                 "value of the model.\nWrites states.csv, events.csv, model.yaml, "
-                "strip.svg, strip.png, animation.mp4 and run.json.",
+                "strip.svg, strip.png, animation.mp4 and run.json.\nExit code 4 when the walker "
+                "fell or its simulation diverged; the files are written all the same.",
        .example =
            "walktrack simulate --model kneed --prior --speed 1.3 --speed-at 5:1.6 -o out/gait"});
   options.declare(line);
@@ -127,7 +162,7 @@ int run_simulate(const Arguments& arguments) {
       "stop after so many steps; 0: no limit")(
       "sample",
       po::value(&job.sample_interval)->default_value(job.sample_interval)->value_name("S"),
-      "s between rows of states.csv")(
+      "s between rows of states.csv, a whole number of --step for the articulated body")(
       "slow", po::value(&job.slow_motion)->default_value(job.slow_motion)->value_name("N"),
       "the animation is so many times slower than life")(
       "no-pictures", po::bool_switch(&no_pictures), "tables only")(
@@ -139,23 +174,19 @@ int run_simulate(const Arguments& arguments) {
     write_extremes(line);
     return kDone;
   }
-  options.require_positive({{"--duration", job.duration},
-                            {"--sample", job.sample_interval},
-                            {"--slow", job.slow_motion}});
   job.simulation = options.simulation();
   job.pictures = !no_pictures;
+  check_sizes(line, job);
   const auto command_line = options.command_line("simulate", arguments);
   Terminal terminal(line.common());
   const JobControl control = terminal.control();
   if (options.name(line) == "articulated") {
-    control.say(simulate_articulated(line, job, command_line));
-    return kDone;
+    return told(control, simulate_articulated(line, job, command_line));
   }
   job.model = options.model(line);
-  prior.apply(job, line.common());
-  control.say(
-      simulate_into(line.required_output(), line.common().overwrite, job, command_line, control));
-  return kDone;
+  prior.apply(job, line);
+  return told(control, simulate_into(line.required_output(), line.common().overwrite, job,
+                                     command_line, control));
 }
 
 }  // namespace walktrack

@@ -51,6 +51,11 @@ po::variables_map parse_words(const Arguments& arguments, const po::options_desc
   return values;
 }
 
+void apply_run_options(const CommonOptions& common, ConfigWithOrigin& config) {
+  if (!common.seed.empty()) apply_setting(config, "seed=" + common.seed, "--seed");
+  if (!common.threads.empty()) apply_setting(config, "threads=" + common.threads, "--threads");
+}
+
 }  // namespace
 
 po::options_description common_options(CommonOptions& common) {
@@ -115,6 +120,8 @@ bool CommandLine::parse(const Arguments& arguments) {
     print_help();
     return false;
   }
+  for (const auto& [name, value] : values)
+    if (!value.defaulted()) given_.insert(name);
   if (common_.quiet && common_.verbose)
     throw UsageError("--quiet and --verbose exclude each other");
   take_operands(values.count(kWords) > 0 ? values[kWords].as<std::vector<std::string>>()
@@ -147,9 +154,20 @@ ConfigWithOrigin CommandLine::config() const {
   ConfigWithOrigin config;
   if (!common_.config_file.empty()) apply_config_file(config, common_.config_file);
   for (const std::string& setting : common_.settings) apply_setting(config, setting, "--set");
-  if (!common_.seed.empty()) apply_setting(config, "seed=" + common_.seed, "--seed");
-  if (!common_.threads.empty()) apply_setting(config, "threads=" + common_.threads, "--threads");
+  apply_run_options(common_, config);
   return config;
+}
+
+ConfigWithOrigin CommandLine::config_of_run() const {
+  ConfigWithOrigin config;
+  apply_run_options(common_, config);
+  return config;
+}
+
+void CommandLine::refuse(const std::vector<std::string>& options,
+                         const std::string& allowed) const {
+  for (const std::string& option : options)
+    if (given(option)) throw UsageError(describe({"", 0, "--" + option}, "it", allowed));
 }
 
 std::string CommandLine::required_output() const {

@@ -4,6 +4,7 @@
 // fills a job struct, calls the library and returns an exit code. It is listed in main.cpp.
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,7 @@ enum ExitCode {
   kFailed = 1,
   kUsage = 2,          // usage or configuration
   kUnreadable = 3,     // an input cannot be read or does not fit
-  kDegraded = 4,       // done, but lost or below a quality gate
+  kDegraded = 4,       // done, but lost, fallen, diverged or below a quality gate
   kInterrupted = 130,  // stopped by a signal; what was done is kept
 };
 
@@ -69,8 +70,14 @@ class CommandLine {
   bool parse(const Arguments& arguments);
 
   const CommonOptions& common() const { return common_; }
+  // Whether an option was given on the line.
+  bool given(const std::string& option) const { return given_.contains(option); }
+  // UsageError that names the first of these options that was given: here it would mean nothing.
+  void refuse(const std::vector<std::string>& options, const std::string& allowed) const;
   // The defaults, changed by --config, then --set, then --seed and --threads.
   ConfigWithOrigin config() const;
+  // The same where --config and --set mean a model.
+  ConfigWithOrigin config_of_run() const;
   // --output, or UsageError when it is missing.
   std::string required_output() const;
   // Writes a result that is one text to --output, or prints it where that is missing.
@@ -90,6 +97,7 @@ class CommandLine {
   CommonOptions common_;
   boost::program_options::options_description own_;
   std::vector<Operand> operands_;
+  std::set<std::string> given_;
   std::vector<std::string>* rest_ = nullptr;
   std::string rest_name_;
 };

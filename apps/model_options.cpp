@@ -14,7 +14,7 @@ void ModelOptions::declare(CommandLine& line) {
       "model", po::value(&model_)->value_name("NAME"),
       "monopode, rimless_wheel, anthropomorphic, kneed; simulate also articulated")(
       "step", po::value(&step_)->default_value(step_, "0.001")->value_name("S"),
-      "s, largest time step")(
+      "s, largest time step, 1e-6 to 1")(
       "integrator", po::value(&integrator_)->default_value(integrator_)->value_name("NAME"),
       "euler, rk4 or midpoint");
 }
@@ -28,7 +28,8 @@ ModelSpec ModelOptions::model(const CommandLine& line) const {
 }
 
 SimulationOptions ModelOptions::simulation() const {
-  require_positive({{"--step", step_}});
+  // Events are located to 1e-12 s: steps have to be longer by far.
+  require("--step", step_, 1e-6, 1);
   SimulationOptions options;
   options.max_step = step_;
   if (integrator_ == "euler") {
@@ -42,12 +43,19 @@ SimulationOptions ModelOptions::simulation() const {
   return options;
 }
 
-void ModelOptions::require_positive(
-    const std::vector<std::pair<std::string, double>>& numbers) const {
-  for (const auto& [name, value] : numbers) {
-    if (value > 0 && value < 1e9) continue;
-    throw UsageError(describe({"", 0, name}, shortest_number(value), "a number above 0"));
-  }
+void ModelOptions::require(const std::string& option, double value, double lowest, double highest) {
+  if (value >= lowest && value <= highest) return;
+  throw UsageError(describe({"", 0, option}, shortest_number(value),
+                            fmt::format("a number from {:g} to {:g}", lowest, highest)));
+}
+
+void ModelOptions::require_few(const std::string& option, double time, double piece, double most,
+                               const std::string& pieces) {
+  if (time / piece <= most) return;
+  throw UsageError(describe({"", 0, option},
+                            fmt::format("{} s for {} s: {:.3g} {}", shortest_number(piece),
+                                        shortest_number(time), time / piece, pieces),
+                            fmt::format("at most {:g} {}", most, pieces)));
 }
 
 std::vector<std::string> ModelOptions::command_line(const std::string& name,

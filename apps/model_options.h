@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "command.h"
@@ -19,8 +18,11 @@ class ModelOptions {
   // The model that --model, --config and --set describe.
   ModelSpec model(const CommandLine& line) const;
   SimulationOptions simulation() const;
-  // UsageError where a number is not above zero.
-  void require_positive(const std::vector<std::pair<std::string, double>>& numbers) const;
+  // UsageError where the option's number is not in its range.
+  static void require(const std::string& option, double value, double lowest, double highest);
+  // UsageError where a time is divided into more pieces than `most`.
+  static void require_few(const std::string& option, double time, double piece, double most,
+                          const std::string& pieces);
   static std::vector<std::string> command_line(const std::string& name, const Arguments& arguments);
 
  private:

@@ -44,6 +44,7 @@ PriorGait gait_at(const GaitPrior& prior, const KneedParameters& parameters, dou
   }
   gait.speed = at.speed * gait.units.speed();
   gait.step_length = at.step_length * gait.units.length;
+  gait.slope = at.slope;
   gait.period = gait.step_length / gait.speed;
   gait.controls = scaled(controls_from(node.gait.head<kControlSize>()), WalkerUnits{}, gait.units);
   const KneedModel model = kneed_model(unit_walker(at.slope));

@@ -31,6 +31,7 @@ GaitPrior load_gait_prior();
 struct PriorGait {
   double speed = 0;        // m/s, as asked but within the table
   double step_length = 0;  // m, the same
+  double slope = 0;        // rad, downhill, the same
   double period = 0;       // s, of a step
   KneedControls controls;
   KneedState start;  // just after a support transfer, contact at x0 = 0

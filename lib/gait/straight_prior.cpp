@@ -83,6 +83,7 @@ StraightGait gait_at(const StraightPrior& prior, const StraightLeggedParameters&
   const StraightNode node = blended(prior, at);
   gait.speed = at.speed * gait.units.speed();
   gait.step_length = at.step_length * gait.units.length;
+  gait.slope = at.slope;
   gait.period = gait.step_length / gait.speed;
   gait.controls = in_units(node.gait, gait.units);
   gait.start = straight_state_from(node.gait.tail<kStraightSectionSize>());

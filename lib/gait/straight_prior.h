@@ -47,6 +47,7 @@ WalkerUnits walker_units(const StraightLeggedParameters& parameters);
 struct StraightGait {
   double speed = 0;        // m/s, as asked but within the table
   double step_length = 0;  // m, the same
+  double slope = 0;        // rad, downhill, the same
   double period = 0;       // s, of a step
   StraightControls controls;
   StraightState start;  // just after a support transfer, contact at x0 = 0

@@ -20,11 +20,12 @@ int frames_in(double seconds, double dt) {
   return std::max(2, static_cast<int>(std::lround(seconds / dt)));
 }
 
-std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed) {
+std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed,
+                                  double heading) {
   constexpr int kFigures = 6;
   const double leg = leg_length(model.body.lengths);
   const double unit_speed = std::sqrt(model.walker.parameters.gravity * leg);
-  const PriorGait gait = gait_at(prior, model.walker.parameters, speed,
+  const PriorGait gait = gait_at(prior, in_plane(model, heading).parameters, speed,
                                  leg * preferred_step_length(speed / unit_speed));
   std::vector<Pose> figures;
   for (int k = 0; k < kFigures; ++k)
@@ -32,14 +33,16 @@ std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior
   return figures;
 }
 
-FigureBook::FigureBook(const BodyModel& model, const GaitPrior& prior) {
-  for (int k = 0; k < kPages; ++k)
-    pages_.push_back(walking_figures(model, prior, kSlowestPage + k * kPageStep));
+FigureBook::FigureBook(const BodyModel& model, const GaitPrior& prior) : downhill_(model.downhill) {
+  for (const double heading : table_headings(downhill_))
+    for (int k = 0; k < kPages; ++k)
+      pages_.push_back(walking_figures(model, prior, kSlowestPage + k * kPageStep, heading));
 }
 
-std::span<const Pose> FigureBook::at(double speed) const {
+std::span<const Pose> FigureBook::at(double speed, double heading) const {
   const long page = std::lround((speed - kSlowestPage) / kPageStep);
-  return pages_[static_cast<size_t>(std::clamp(page, 0L, long{kPages - 1}))];
+  const auto of_speed = static_cast<size_t>(std::clamp(page, 0L, long{kPages - 1}));
+  return pages_[table_heading(downhill_, heading) * kPages + of_speed];
 }
 
 double place_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,

@@ -30,18 +30,21 @@ int frames_in(double seconds, double dt);
 // By camera, in the order of TrackerScene::cameras.
 using SceneEvidence = std::vector<CameraEvidence>;
 
-// A walker's poses through a step of the usual gait of a speed (m/s), root above the origin,
-// heading 0: one of them resembles any such walker in any frame, whichever foot stands.
-std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed);
+// A walker's poses through a step of the usual gait of a speed (m/s) on the slope that `heading`
+// meets, root above the origin, the pose's own heading 0: one of them resembles any such walker in
+// any frame, whichever foot stands.
+std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed,
+                                  double heading);
 
-// The same for all speeds of walking.
+// The same for all speeds of walking and all headings.
 class FigureBook {
  public:
   FigureBook(const BodyModel& model, const GaitPrior& prior);
-  std::span<const Pose> at(double speed) const;
+  std::span<const Pose> at(double speed, double heading) const;
 
  private:
-  std::vector<std::vector<Pose>> pages_;
+  Eigen::Vector2d downhill_;
+  std::vector<std::vector<Pose>> pages_;  // by slope and speed, which runs fastest
 };
 
 // The log-likelihood of the figure that fits best, its root above `position`. `body`: the figures'.

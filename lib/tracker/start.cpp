@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/conventions.h"
-#include "tracker/motion/kneed_motion.h"
 
 namespace walktrack {
 
@@ -72,10 +71,11 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
   return out;
 }
 
-NoiseScale start_scale(const StartConfig& config, const NoiseScale& frame) {
+NoiseScale start_scale(const StartConfig& config, const MotionModel& moves,
+                       const MotionConfig& motion, const NoiseScale& frame) {
   NoiseScale scale = frame;
   for (int k = 0; k < kExtraCount; ++k)
-    scale.extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).spread;
+    scale.extra[static_cast<size_t>(k)] = moves.start_spread(motion, static_cast<Extra>(k));
   scale.extra[kHeading] = rad_from_deg(config.heading_deg);
   return scale;
 }

@@ -32,7 +32,8 @@ std::vector<PhaseRange> phase_ranges(const StartConfig& config, double stride_ph
 std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfig& config,
                                   const Sighting& sighting, const PhaseRange& range, uint64_t seed);
 
-// The noise of a first frame: as wide as the sighting is coarse.
-NoiseScale start_scale(const StartConfig& config, const NoiseScale& frame);
+// The noise of a first frame: as wide as the sighting is coarse. `motion`: to the body's scale.
+NoiseScale start_scale(const StartConfig& config, const MotionModel& moves,
+                       const MotionConfig& motion, const NoiseScale& frame);
 
 }  // namespace walktrack

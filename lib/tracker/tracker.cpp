@@ -103,8 +103,9 @@ void Tracker::consume(const SceneEvidence& evidence, std::vector<FrameRecord>& o
 }
 
 WalkerFilterContext Tracker::context(bool first) const {
-  const NoiseScale scale = first ? start_scale(config_.start, kit_.frame_scale) : kit_.frame_scale;
   MotionConfig motion = kit_.motion;
+  const NoiseScale scale =
+      first ? start_scale(config_.start, *kit_.moves, motion, kit_.frame_scale) : kit_.frame_scale;
   if (first && start_is_given_) motion.arrival = motion.given;
   return {scene_,
           {scene_.model, prior_, *kit_.moves, motion, scale, kit_.markov, scene_.dt},

@@ -64,8 +64,9 @@ void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& ou
 
 WindowScore Tracker::window_score(const Body& body, const FigureBook& figures) const {
   return [&](size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d& velocity) {
-    return place_score(scene_, window_[frame], body, figures.at(velocity.norm()), place,
-                       std::atan2(velocity.y(), velocity.x()));
+    const double heading = std::atan2(velocity.y(), velocity.x());
+    return place_score(scene_, window_[frame], body, figures.at(velocity.norm(), heading), place,
+                       heading);
   };
 }
 
@@ -145,9 +146,10 @@ std::vector<Place> Tracker::places_in_frame(size_t index, const Body& body,
   const auto score = [&](const Eigen::Vector2d& place) {
     if (!within_reach(place, frame_ + static_cast<uint32_t>(index))) return 0.0;
     // Half of the figures, half a step, will do for a first look.
-    const std::span<const Pose> figures = book.at(kUsualSpeed);
+    const double heading = side_on_heading(scene_.cameras[0], place);
+    const std::span<const Pose> figures = book.at(kUsualSpeed, heading);
     return place_score(scene_, window_[index], body, figures.first(figures.size() / 2), place,
-                       side_on_heading(scene_.cameras[0], place));
+                       heading);
   };
   return find_figures(score, places_, config_.sighting, threads_);
 }
@@ -251,8 +253,9 @@ double Tracker::figure_score(const SceneEvidence& evidence, const FrameEstimate&
   double best = -std::numeric_limits<double>::infinity();
   for (int k = 0; k < kHeadings; ++k) {
     const double heading = estimate.pose.heading + 2 * kPi * k / kHeadings;
-    best = std::max(best, place_score(scene_, evidence, body(), kit_.figures.at(kUsualSpeed),
-                                      estimate.pose.root.head<2>(), heading));
+    best =
+        std::max(best, place_score(scene_, evidence, body(), kit_.figures.at(kUsualSpeed, heading),
+                                   estimate.pose.root.head<2>(), heading));
   }
   return best;
 }

@@ -13,10 +13,12 @@ using Eigen::VectorXd;
 
 enum GuardId { kSwingFoot, kPassing, kNormalForce, kHip, kStanceFoot, kFirstLimit };
 
-// A limit touches when its gap is within rounding of an event's location, and rests when its rate
-// is what a plastic impulse leaves of it.
+// A limit touches when its gap is within rounding of an event's location. It rests when its rate is
+// what a plastic impulse leaves of it, or the tiny rebound after it: one of 1e-6 rad/s lasts
+// nanoseconds and rises 1e-14 rad where a knee is pushed back at 100 rad/s^2.
 constexpr double kTouching = 1e-9;  // rad
-constexpr double kResting = 1e-9;   // rad/s
+constexpr double kResting = 1e-6;   // rad/s
+constexpr double kStill = 1e-9;     // rad/s, rounding of an impulse
 
 // A foot is ahead when it leads by more than an event's location leaves uncertain: straight legs
 // meet at ground level exactly when they pass each other.
@@ -86,9 +88,16 @@ WalkerState LinkageWalker::settled(WalkerState state) const {
   }
   const TmtSystem now = system(state);
   const LimitedMotion motion = solve_limited(now.mass, now.force, limits_for(state), roles);
+  bool rebounds = false;
   for (size_t i = 0; i < roles.size(); ++i) {
     const bool on = roles[i] == LimitRole::kLatched || motion.force(static_cast<Index>(i)) > 0;
     state.active = (state.active & ~(1u << i)) | (on ? 1u << i : 0u);
+    rebounds = rebounds || (on && std::abs(gap_rate(state, i)) > kStill);
+  }
+  // Who rests does so from now on: what is left of the rebound is taken away.
+  if (rebounds) {
+    state.qd =
+        solve_limited(now.mass, now.mass * state.qd, limits_for(state), acting_roles(state)).rate;
   }
   if (linkage_.may_fly && state.phase == kStance && normal_force(state) < 0) {
     double work = 0;

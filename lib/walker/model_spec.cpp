@@ -230,7 +230,9 @@ VectorXd start_point(const ModelSpec& spec, const Walker& walker) {
 
 std::optional<VectorXd> at_energy(const ModelSpec& spec, const VectorXd& x) {
   if (spec.model != "monopode" || spec.start.energy == 0) return x;
-  return Monopode(spec.monopode).apex(x(1), x(0), spec.start.energy);
+  auto apex = Monopode(spec.monopode).apex(x(1), x(0), spec.start.energy);
+  if (apex) (*apex)(2) = std::copysign((*apex)(2), x(2));
+  return apex;
 }
 
 }  // namespace walktrack

@@ -42,7 +42,8 @@ struct ModelEntry {
   double* number = nullptr;
   bool* flag = nullptr;
   std::vector<double>* list = nullptr;
-  double lowest = 0, highest = 0;  // of the number
+  double lowest = 0, highest = 0;  // of the number, and of each in the list
+  size_t count = 0;                // of the list; 0: any
 };
 std::vector<ModelEntry> entries(ModelSpec& spec);
 

@@ -58,14 +58,14 @@ class Crossing {
     return guard ? guard->value : std::numeric_limits<double>::quiet_NaN();
   }
 
-  // The time of a crossing between `low` (value > 0) and `high` (value <= 0): regula falsi with
-  // Illinois' halving, bisection where it stalls. Returns the end behind the crossing.
-  double locate(double low, double high) const {
-    double f_low = value(low), f_high = value(high);
+  // The time of a crossing of `level` between `low` (above it) and `high` (not above): regula falsi
+  // with Illinois' halving, bisection where it stalls. Returns the end behind the crossing.
+  double locate(double low, double high, double level = 0) const {
+    double f_low = value(low) - level, f_high = value(high) - level;
     for (int i = 0; i < 200 && high - low > options_.event_tolerance; ++i) {
       double middle = (f_low * high - f_high * low) / (f_low - f_high);
       if (i % 4 == 3 || !(middle > low && middle < high)) middle = (low + high) / 2;
-      const double f = value(middle);
+      const double f = value(middle) - level;
       if (f > 0) {
         low = middle;
         f_low = f;
@@ -94,14 +94,19 @@ class Crossing {
     return (low + high) / 2;
   }
 
-  // For a guard that starts at zero: the last piece of the step in which it falls through zero, or
-  // no time at all when it never rose.
+  // For a guard that starts within kTouching of zero and ends below: the last piece of the step in
+  // which it falls through zero; of a rebound shorter than a piece, its end. One that does not even
+  // rise out of rounding fires where it is surely below, so that time goes on.
   double locate_after_rise(double h) const {
     for (int i = kScanPieces - 1; i > 0; --i) {
       const double t = h * i / kScanPieces;
       if (value(t) > 0) return locate(t, h);
     }
-    return 0;
+    const double shortest = options_.event_tolerance;
+    for (double t = h / kScanPieces / 2; t > shortest; t /= 2) {
+      if (value(t) > 0) return locate(t, 2 * t);
+    }
+    return locate(0, h, -kTouching / 2);  // still touching: it may fire again
   }
 
  private:

@@ -1,5 +1,6 @@
 // simulate and cycle from outside.
 #include <filesystem>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -87,6 +88,88 @@ TEST(SimulateCommand, DrawsGiants) {
                      "--duration", "0.2", "-o", folder});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(std::filesystem::exists(folder + "/animation.mp4"));
+}
+
+TEST(SimulateCommand, HasAnExitCodeForWhoDoesNotHoldOut) {
+  const TemporaryFolder temporary;
+  const ProgramResult fallen =
+      run_walktrack({"simulate", "--model", "rimless_wheel", "--set", "start.qd=-0.5", "--duration",
+                     "30", "--no-pictures", "-o", temporary / "fallen"});
+  EXPECT_EQ(fallen.exit_code, 4) << fallen.err;
+  EXPECT_THAT(fallen.err, HasSubstr("fallen"));
+  EXPECT_TRUE(std::filesystem::exists(temporary / "fallen/run.json"));
+  const ProgramResult diverged = run_walktrack(
+      {"simulate", "--model", "articulated", "--set", "start.spin=[900000,900000,0]", "--step",
+       "0.05", "--integrator", "euler", "--no-pictures", "-o", temporary / "diverged"});
+  EXPECT_EQ(diverged.exit_code, 4) << diverged.err;
+  EXPECT_THAT(diverged.err, HasSubstr("diverged"));
+}
+
+// Nothing is clamped, ignored or tried for ever: one line says what is allowed.
+TEST(SimulateCommand, RefusesWhatItWouldNotDo) {
+  const TemporaryFolder temporary;
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& message) {
+    std::vector<std::string> all{"simulate", "-o", temporary / "out"};
+    all.insert(all.end(), words.begin(), words.end());
+    const ProgramResult result = run_walktrack(all);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(message));
+  };
+  const std::vector<std::string> kneed{"--model", "kneed"}, prior{"--model", "kneed", "--prior"};
+  const auto with = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  refused(with(kneed, {"--step", "1e-12"}), "--step: found 1e-12, allowed: a number from 1e-06");
+  refused(with(kneed, {"--step", "1e-6", "--duration", "1000"}), "1e+09 steps");
+  refused(with(kneed, {"--steps", "-5"}), "--steps: found -5");
+  refused(with(kneed, {"--sample", "1e-6", "--duration", "100"}), "1e+08 rows");
+  refused(with(kneed, {"--slow", "1000", "--duration", "1000"}), "frames of animation");
+  refused(with(kneed, {"--duration", "1", "--seconds", "2"}), "one of them");
+  refused(with(kneed, {"--feedback", "0.5"}),
+          "--feedback: found it, allowed: together with --prior");
+  refused(with(kneed, {"--threads", "many"}), "threads");
+  refused(with(prior, {"--set", "slope=0.2"}), "0.2 rad of slope, allowed: -0.08 to 0.08");
+  refused(with(prior, {"--step-length", "0.35"}), "0.35 m at 1.3 m/s, allowed: 0.");
+  refused(with(prior, {"--set", "controls.hip.rest=0.2"}), "allowed: parameters.*");
+  refused({"--model", "articulated", "--steps", "3"}, "--steps");
+  refused({"--model", "articulated", "--prior"}, "--prior");
+  refused({"--extremes", "--model", "kneed"}, "--model");
+}
+
+TEST(PriorCommand, RefusesOptionsOfItsOtherHalf) {
+  const TemporaryFolder temporary;
+  const std::string out = temporary / "out";
+  EXPECT_EQ(run_walktrack({"prior", "--show", "--level", "-o", out}).exit_code, 2);
+  EXPECT_EQ(run_walktrack({"prior", "--height", "1.6", "-o", out}).exit_code, 2);
+  EXPECT_EQ(
+      run_walktrack({"prior", "--model", "anthropomorphic", "--sweeps", "2", "-o", out}).exit_code,
+      2);
+}
+
+// A model file that is wrong is not a model that is missing.
+TEST(WalkerCommands, NameWhatIsWrongInAModelFile) {
+  const TemporaryFolder temporary;
+  const std::string file = temporary / "model.yaml";
+  const auto message = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    const ProgramResult result = run_walktrack({"cycle", "--config", file});
+    EXPECT_GE(result.exit_code, 2);
+    EXPECT_LE(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr(file));
+    return result.err;
+  };
+  EXPECT_THAT(message("\nmodle: kneed\n"), HasSubstr(":2: modle: found an unknown key, did you"));
+  EXPECT_THAT(message("model: kneeed\n"), HasSubstr(":1: model: found 'kneeed', allowed: mono"));
+  EXPECT_THAT(message("parameters: {slope: 0.1}\n"), HasSubstr("model: found nothing"));
+  EXPECT_THAT(message("- kneed\n"), HasSubstr(":1: found a list, allowed: a map"));
+  EXPECT_THAT(message("model: kneed\nstart: {q: [1, 2]}\n"),
+              HasSubstr(":2: start.q: found 2 numbers, allowed: 5"));
+  EXPECT_THAT(message("model: kneed\nparameters: {slope: }\n"),
+              HasSubstr(":2: parameters.slope: found nothing"));
+  EXPECT_THAT(message("model: kneed\nmodel: monopode\n"),
+              HasSubstr(":2: model: found the key twice"));
+  EXPECT_THAT(message("model: kneed\n---\nmodel: monopode\n"), HasSubstr("a second YAML document"));
 }
 
 }  // namespace

@@ -39,6 +39,11 @@ TEST(CycleJob, FollowsAParameter) {
   EXPECT_NEAR(found.gait.start.q(1), .153389565, 2e-7);
   EXPECT_EQ(found.model.anthropomorphic.slope, .004);
   EXPECT_NEAR(found.model.start.q[1], .153389565, 2e-7);
+  EXPECT_TRUE(nlohmann::json::parse(cycle_json(found))["branch_changes"].empty());
+  FoundCycle jumped = found;
+  jumped.branch_changes = {{.006, .005}};
+  EXPECT_EQ(nlohmann::json::parse(cycle_json(jumped))["branch_changes"][0]["to"], .005);
+  EXPECT_NE(cycle_text(jumped).find("between slope = 0.006 and 0.005"), std::string::npos);
 }
 
 // A monopode that is given an energy keeps it on the way, whatever its springs become.
@@ -50,12 +55,37 @@ TEST(CycleJob, FollowsAtTheEnergyOfTheModel) {
   job.follow_to = 15000;
   const FoundCycle followed = find_cycle(job);
   const auto walker = make_walker(followed.model);
-  // RK4 drifts by 1e-8 of the energy in a step of the walker, Newton takes a few dozen.
-  EXPECT_NEAR(walker->energy(followed.gait.start).total(), 816.192, 1e-6 * 816);
+  EXPECT_NEAR(walker->energy(followed.gait.start).total(), 816.192, 1e-9 * 816);
+  EXPECT_TRUE(followed.branch_changes.empty());
   CycleJob direct = job;
   direct.follow_key.clear();
   direct.model.monopode.stiffness = 15000;
   EXPECT_LT((find_cycle(direct).gait.start.q - followed.gait.start.q).norm(), 1e-5);
+}
+
+// Whatever the guess, the cycle is the one of the energy that was asked for.
+TEST(CycleJob, MonopodesKeepTheirEnergyFromEveryGuess) {
+  std::vector<FoundCycle> found;
+  for (const double apex : {.960, .965, .970, .975, .980, .985}) {
+    CycleJob job;
+    job.model = read_model(
+        "", std::string(WALKTRACK_SOURCE_DIR) + "/configs/models/monopode_walking.yaml", {});
+    job.model.start.energy = 820;
+    job.model.start.q[1] = apex;
+    found.push_back(find_cycle(job));
+    EXPECT_NEAR(found.back().energy, 820, 1e-9 * 820) << apex;
+    EXPECT_LT((found.back().gait.start.q - found[0].gait.start.q).norm(), 1e-8) << apex;
+    EXPECT_NE(cycle_json(found.back()).find("\"energy\": 820.0"), std::string::npos);
+  }
+  // Without a stated energy it is the guess's own.
+  CycleJob job;
+  job.model = found[0].model;
+  job.model.start.energy = 0;
+  job.model.start.q[1] += 1e-3;
+  const auto walker = make_walker(job.model);
+  const Eigen::VectorXd guess = start_point(job.model, *walker);
+  const double energy = walker->energy(walker->section_state(guess.head(2), guess.tail(2))).total();
+  EXPECT_NEAR(find_cycle(job).energy, energy, 1e-9 * energy);
 }
 
 // Gaits with a flight phase: on the other foot (running) and on the same one first (leaping). The

@@ -119,5 +119,20 @@ TEST(PriorWalk, IsForWalkersWithATable) {
   EXPECT_THROW(with_prior(job, {}), UsageError);
 }
 
+TEST(PriorWalk, RefusesWhatTheTableWouldReplace) {
+  const auto message = [](double slope, double step_length) {
+    SimulateJob job;
+    job.model = default_model("kneed");
+    job.model.kneed.slope = slope;
+    WalkPlan plan;
+    plan.step_length = step_length;
+    return message_of<UsageError>([&] { with_prior(job, plan); });
+  };
+  EXPECT_EQ(message(0.08, 0), "");
+  EXPECT_EQ(message(0, 0.7), "");
+  EXPECT_THAT(message(0.2, 0), testing::HasSubstr("found 0.2 rad of slope"));
+  EXPECT_THAT(message(0, 0.35), testing::HasSubstr("found 0.35 m at 1.3 m/s"));
+}
+
 }  // namespace
 }  // namespace walktrack

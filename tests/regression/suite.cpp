@@ -54,6 +54,7 @@ fs::path rendered_scene(std::string_view name, const fs::path& folder) {
   RenderFile file = read_render_file(suite_file(name, ".yaml"));
   job.walker = std::move(file.subject);
   job.options = std::move(file.options);
+  job.gait = std::move(file.gait);
   job.output = scene;
   render_scene(job, {});
   return scene;

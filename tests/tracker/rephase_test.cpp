@@ -22,7 +22,7 @@ MotionConfig with_rephasing(double rate) {
 // Walkers on their way, each rephased once if it is in a hundred attempts; how many were.
 template <typename Check>
 int rephase_each(const Walking& walking, int count, const Check& check) {
-  const StepBook steps(walking.model.walker, walking.prior);
+  const StepBook steps(walking.model, walking.prior);
   const MotionContext context = walking.context(kDt, with_rephasing(0));
   int accepted = 0;
   uint32_t i = 0;
@@ -83,7 +83,7 @@ void stray(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
 // Metropolis-Hastings: strays that have their distribution keep it, of now and of their change.
 TEST(Rephase, LeavesTheStraysDistribution) {
   const Walking walking;
-  const StepBook steps(walking.model.walker, walking.prior);
+  const StepBook steps(walking.model, walking.prior);
   const MotionContext context = walking.context(kDt, with_rephasing(0));
   constexpr int kParticles = 2000;
   int accepted = 0;
@@ -110,7 +110,7 @@ TEST(Rephase, LeavesTheStraysDistribution) {
 // A set whose walkers still swing a leg that has come down finds the new step.
 TEST(Rephase, FindsAMissedStrike) {
   const Walking walking;
-  const StepBook steps(walking.model.walker, walking.prior);
+  const StepBook steps(walking.model, walking.prior);
   const MotionContext context = walking.context(kDt, with_rephasing(0));
   const KneedModel& model = context.model.walker;
   const PriorGait gait = gait_at(context.prior, model.parameters, 1.3, 0.7);
@@ -139,7 +139,7 @@ TEST(Rephase, FindsAMissedStrike) {
 
 TEST(Rephase, WalkersThatMayNotStrayAreLeftAlone) {
   const Walking walking;
-  const StepBook steps(walking.model.walker, walking.prior);
+  const StepBook steps(walking.model, walking.prior);
   MotionConfig config = with_rephasing(0);
   config.misfit = 0;
   const MotionContext context = walking.context(kDt, config);

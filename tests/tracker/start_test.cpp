@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
+#include "tracker/motion/markov_motion.h"
 
 namespace walktrack {
 namespace {
@@ -40,6 +41,21 @@ TEST(Spawn, WalkersStandOverTheSightingAndLookAhead) {
     EXPECT_EQ(p.stance, Side::kRight);
     EXPECT_GT(p.pose.root.z(), 0.7);
     EXPECT_LT(p.pose.root.z(), 1.0);
+  }
+}
+
+// A Markov walker keeps the root's height, in metres, where the others keep an angle.
+TEST(StartScale, IsInTheUnitsOfTheModel) {
+  const StartConfig config;
+  for (const MotionKind kind : {MotionKind::kKneed, MotionKind::kMarkov}) {
+    const Walking walking(kind);
+    const MotionContext context = walking.context(1.0 / 30);
+    const NoiseScale scale = start_scale(config, context.moves, context.config, context.scale);
+    const double height = context.moves.constants(context.config, kRootHeight).spread;
+    EXPECT_EQ(scale.extra[kRootHeight],
+              kind == MotionKind::kMarkov ? height : markov_constants(kCrouch).spread);
+    EXPECT_EQ(scale.extra[kList], markov_constants(kList).spread);
+    EXPECT_EQ(scale.extra[kHeading], rad_from_deg(config.heading_deg));
   }
 }
 

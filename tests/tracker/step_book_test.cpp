@@ -18,10 +18,10 @@ Rng stream(uint32_t i) { return {5, Purpose::kTest, 0, i}; }
 // The book holds what a simulation from the support transfer gives.
 TEST(StepBook, MomentsAreThoseOfTheGait) {
   const Walking walking;
-  const StepBook steps(walking.model.walker, walking.prior);
+  const StepBook steps(walking.model, walking.prior);
   const KneedModel& model = walking.model.walker;
   Rng rng = stream(0);
-  const BookedStep* step = steps.near(kUsual, rng);
+  const BookedStep* step = steps.near(kUsual, 0, rng);
   ASSERT_NE(step, nullptr);
   const PriorGait gait =
       gait_at(walking.prior, model.parameters, step->aim.speed, step->aim.step_length);
@@ -36,11 +36,11 @@ TEST(StepBook, MomentsAreThoseOfTheGait) {
 
 TEST(StepBook, NearStepsAreNearAndSeveral) {
   const Walking walking;
-  const StepBook steps(walking.model.walker, walking.prior);
+  const StepBook steps(walking.model, walking.prior);
   std::set<const BookedStep*> found;
   for (uint32_t i = 0; i < 200; ++i) {
     Rng rng = stream(i);
-    const BookedStep* step = steps.near(kUsual, rng);
+    const BookedStep* step = steps.near(kUsual, 0, rng);
     ASSERT_NE(step, nullptr);
     EXPECT_NEAR(step->aim.speed, kUsual.speed, 0.25);
     EXPECT_NEAR(step->aim.step_length, kUsual.step_length, 0.25);
@@ -52,20 +52,20 @@ TEST(StepBook, NearStepsAreNearAndSeveral) {
 // Metropolis-Hastings asks for it: as likely there as back.
 TEST(StepBook, DrawsAsLikelyThereAndBack) {
   const Walking walking;
-  const StepBook steps(walking.model.walker, walking.prior);
+  const StepBook steps(walking.model, walking.prior);
   Rng first = stream(0);
-  const BookedStep* here = steps.near(kUsual, first);
+  const BookedStep* here = steps.near(kUsual, 0, first);
   constexpr int kDraws = 4000;
   std::map<const BookedStep*, int> there;
   for (uint32_t i = 0; i < kDraws; ++i) {
     Rng rng = stream(i);
-    ++there[steps.near(here->aim, rng)];
+    ++there[steps.near(here->aim, 0, rng)];
   }
   for (const auto& [step, count] : there) {
     int back = 0;
     for (uint32_t i = 0; i < kDraws; ++i) {
       Rng rng = stream(kDraws + i);
-      back += steps.near(step->aim, rng) == here;
+      back += steps.near(step->aim, 0, rng) == here;
     }
     // Both are a ninth: four standard deviations of the difference.
     EXPECT_NEAR(count, back, 4 * std::sqrt(2.0 * kDraws / 9));
@@ -74,10 +74,10 @@ TEST(StepBook, DrawsAsLikelyThereAndBack) {
 
 TEST(StepBook, NothingBeyondTheTable) {
   const Walking walking;
-  const StepBook steps(walking.model.walker, walking.prior);
+  const StepBook steps(walking.model, walking.prior);
   for (const StepAim aim : {StepAim{0.1, 0.7}, StepAim{9, 0.7}, StepAim{1.3, 5}}) {
     Rng rng = stream(0);
-    EXPECT_EQ(steps.near(aim, rng), nullptr) << aim.speed << ' ' << aim.step_length;
+    EXPECT_EQ(steps.near(aim, 0, rng), nullptr) << aim.speed << ' ' << aim.step_length;
   }
 }
 

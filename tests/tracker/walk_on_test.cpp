@@ -1,5 +1,7 @@
 #include "tracker/motion/walk_on.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tests/tracker/fixture.h"
@@ -123,6 +125,64 @@ TEST(WalkOn, EverybodyFeelsTheSlopeOfTheirOwnHeading) {
   // The standing leg falls forwards faster, but for a few whose knee gives way to it.
   EXPECT_GT(compared, kWalkers / 2);
   EXPECT_GT(faster, 0.95 * compared);
+}
+
+// 8 % downhill along x.
+BodyModel sloped(BodyModel model) {
+  const double slope = std::atan(0.08);
+  model.downhill = kStandardGravity * Eigen::Vector2d(std::sin(slope), 0);
+  model.walker.gravity.y() = -kStandardGravity * std::cos(slope);
+  return model;
+}
+
+TEST(AimedGait, MeetsTheSlopeOfItsHeading) {
+  Walking walking;
+  walking.model = sloped(walking.model);
+  const MotionContext context = walking.context(kDt);
+  WalkerParticle p;
+  p.aim = {1.25, 0.7};
+  const std::vector<std::pair<double, double>> slopes{
+      {0, 0.07983}, {kPi, -0.07983}, {kPi / 2, 0}, {-kPi / 3, 0.03988}};
+  for (const auto& [heading, slope] : slopes) {
+    p.extra[kHeading] = heading;
+    EXPECT_NEAR(aimed_gait(context, p).slope, slope, 1e-4) << heading;
+  }
+  const Walking level;
+  const MotionContext flat = level.context(kDt);
+  EXPECT_EQ(aimed_gait(flat, p).slope, 0);
+}
+
+// Everybody at their gait goes on in it, up and down: nobody stumbles, and the speed is the one
+// aimed at. With the gaits of level ground a third stumbled in a second.
+TEST(WalkOn, OnASlopeNobodyStumbles) {
+  for (const double heading : {0.0, kPi}) {
+    Walking walking;
+    walking.model = sloped(walking.model);
+    walking.moves = make_motion_model(MotionKind::kKneed, walking.model, walking.prior);
+    MotionConfig quiet;
+    quiet.clock = quiet.control_noise = quiet.aim_drift = 0;
+    const MotionContext context = walking.context(kDt, quiet);
+    StartConfig start;
+    start.particles = kWalkers;
+    start.speed = start.step_length = 0.05;
+    const Sighting sighting{.position = {0, 0}, .velocity = {1.25 * std::cos(heading), 0}};
+    Crowd all{spawn(context, start, sighting, {Side::kLeft, 0, 1}, 7), {}, {}};
+    all.outcomes.resize(kWalkers);
+    for (uint32_t i = 0; i < kWalkers; ++i) all.rngs.emplace_back(2, Purpose::kTest, 0, i);
+    int stumbled = 0;
+    double steps = 0, expected = 0;
+    for (WalkerParticle& p : all.particles) p.walker.transfers = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+      walk_on(context, all.particles, all.rngs, all.outcomes);
+      for (const Outcome outcome : all.outcomes) stumbled += outcome != Outcome::kAlive;
+    }
+    for (const WalkerParticle& p : all.particles) {
+      steps += p.walker.transfers;
+      expected += 60 * kDt / p.aim.duration();
+    }
+    EXPECT_EQ(stumbled, 0) << heading;
+    EXPECT_NEAR(steps / expected, 1, 0.03) << heading;
+  }
 }
 
 }  // namespace

@@ -74,6 +74,7 @@ TEST(LimitCycle, FollowsAFamilyAndStopsAtItsFold) {
   ASSERT_TRUE(there.arrived);
   EXPECT_EQ(there.reached, 1.4);
   EXPECT_NEAR(there.cycle->point(0), henon_fixed_point(1.4, 0.3), 1e-11);
+  EXPECT_TRUE(there.changes.empty());
   // The fixed points meet at a = -(1 - b)^2 / 4 = -.1225, where a multiplier is 1. The last share
   // of the way that is tried is 1/512 of .4.
   const auto lost = follow_limit_cycle(family, Vector2d(x, 0.3 * x), 0.2, -0.2);
@@ -82,6 +83,48 @@ TEST(LimitCycle, FollowsAFamilyAndStopsAtItsFold) {
   EXPECT_NEAR(lost.reached, -.1225, 1e-3);
   EXPECT_NEAR(lost.cycle->largest_multiplier(), 1, .1);
   EXPECT_FALSE(follow_limit_cycle(family, Vector2d(50, 50), -3, 1).cycle);
+}
+
+// Fixed points x^3 - x = a: one branch folds at a = 2 / sqrt(27) = .3849, from where Newton falls
+// onto the other. There it has to be said.
+TEST(LimitCycle, SaysWhereItChangedTheBranch) {
+  const MapFamily family{[](double a) -> ReturnMap {
+                           return [a](const VectorXd& x) -> std::optional<VectorXd> {
+                             return x.array() + 0.1 * (a - x.array().cube() + x.array());
+                           };
+                         },
+                         [](double) { return no_rows(1); }};
+  const auto over = follow_limit_cycle(family, VectorXd::Constant(1, -1.3), -1, 1);
+  ASSERT_TRUE(over.arrived);
+  EXPECT_NEAR(over.cycle->point(0), 1.324718, 1e-6);
+  ASSERT_EQ(over.changes.size(), 1u);
+  EXPECT_LT(over.changes[0].from, 0.3849);
+  EXPECT_GT(over.changes[0].to, 0.3849);
+  EXPECT_LT(over.changes[0].to - over.changes[0].from, 0.02);
+  const auto before = follow_limit_cycle(family, VectorXd::Constant(1, -1.3), -1, 0.38);
+  ASSERT_TRUE(before.arrived);
+  EXPECT_TRUE(before.changes.empty());
+  EXPECT_LT(before.cycle->point(0), -0.57);
+}
+
+// The circle x^2 + y^2 = 1, on which a map turns towards a point and which it leaves unharmed, as
+// an energy: whatever the guess, the fixed point is to lie on it.
+TEST(LimitCycle, KeepsWhatIsConserved) {
+  const ReturnMap map = [](const VectorXd& p) -> std::optional<VectorXd> {
+    const double angle = std::atan2(p(1), p(0));
+    return p.norm() * Vector2d(std::cos(0.5 * angle), std::sin(0.5 * angle));
+  };
+  const SectionRows rows = [](const VectorXd& p) -> MatrixXd { return p.transpose(); };
+  const SectionProjection onto = [](const VectorXd& p) -> std::optional<VectorXd> {
+    return p.normalized();
+  };
+  for (const double guess : {0.3, 0.6, 0.9}) {
+    const Vector2d start(std::cos(guess), std::sin(guess));
+    const auto cycle = find_limit_cycle(map, rows, start, {}, onto);
+    ASSERT_TRUE(cycle);
+    EXPECT_LT((cycle->point - Vector2d(1, 0)).norm(), 1e-10);
+    EXPECT_NEAR(cycle->multipliers(0).real(), 0.5, 1e-7);
+  }
 }
 
 TEST(LimitCycle, NullSpaceIsOrthonormal) {

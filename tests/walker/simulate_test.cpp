@@ -155,5 +155,24 @@ TEST(Simulate, NoTimeIsNoStep) {
   EXPECT_FALSE(take_step(balls, state, {}, 5).has_value());  // bounces never complete a step
 }
 
+// A rebound far shorter than a step: up at 1e-5 m/s under g = 1, back after 2e-5 s.
+TEST(Advance, LocatesTheEndOfATinyRebound) {
+  for (const double rate : {1e-3, 1e-5, 1e-7}) {
+    Balls balls = bouncing(0);
+    const auto bounce = balls.event_of;
+    balls.event_of = [&](int id, const WalkerState& state) {
+      auto landed = bounce(id, state);
+      landed->completes_step = true;
+      return landed;
+    };
+    WalkerState state;
+    state.q = VectorXd::Zero(1);
+    state.qd = VectorXd::Constant(1, rate);
+    std::vector<WalkerEvent> events;
+    EXPECT_TRUE(advance(balls, state, 0.01, {}, events));
+    EXPECT_NEAR(events.front().time, 2 * rate, 2e-12);
+  }
+}
+
 }  // namespace
 }  // namespace walktrack

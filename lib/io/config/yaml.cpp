@@ -4,13 +4,104 @@
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include "core/errors.h"
 #include "io/archive/files.h"
 
 namespace walktrack {
+
+namespace {
+
+// Refuses keys that a map holds twice, of which the parser would silently take one. Works on the
+// parser's events, so that what anchors repeat is seen once.
+class KeysOnce : public YAML::EventHandler {
+ public:
+  explicit KeysOnce(std::string file) : file_(std::move(file)) {}
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { scalar(mark, ""); }
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override { value(); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                const std::string& text) override {
+    scalar(mark, text);
+  }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    open(false);
+  }
+  void OnSequenceEnd() override { open_.pop_back(); }
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    open(true);
+  }
+  void OnMapEnd() override { open_.pop_back(); }
+
+ private:
+  struct Open {
+    std::string path;  // dotted, of the map or list
+    bool map;
+    bool at_key = true;
+    size_t items = 0;  // of a list
+    std::set<std::string> keys;
+    std::string key;  // the one whose value comes next
+  };
+
+  // The place of the value that comes next.
+  std::string path() const {
+    if (open_.empty()) return "";
+    const Open& in = open_.back();
+    if (!in.map) return fmt::format("{}[{}]", in.path, in.items);
+    return in.path.empty() ? in.key : in.path + "." + in.key;
+  }
+
+  void open(bool map) {
+    const std::string here = path();
+    value();
+    open_.push_back({here, map, true, 0, {}, {}});
+  }
+
+  void value() {
+    if (open_.empty()) return;
+    open_.back().at_key = !open_.back().at_key;
+    ++open_.back().items;
+  }
+
+  void scalar(const YAML::Mark& mark, const std::string& text) {
+    if (!open_.empty() && open_.back().map && open_.back().at_key) {
+      Open& in = open_.back();
+      in.key = text;
+      if (!in.keys.insert(text).second)
+        throw InputError(describe({file_, mark.line + 1, path()}, "the key twice", "once"));
+    }
+    value();
+  }
+
+  std::string file_;
+  std::vector<Open> open_;
+};
+
+// One document, in which no key stands twice.
+void refuse_silent_losses(const std::string& text, const std::string& name) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  KeysOnce once(name);
+  if (!parser.HandleNextDocument(once)) return;
+  class More : public KeysOnce {
+   public:
+    using KeysOnce::KeysOnce;
+    int line = 0;
+    void OnDocumentStart(const YAML::Mark& mark) override { line = mark.line + 1; }
+  } more(name);
+  if (parser.HandleNextDocument(more))
+    throw InputError(describe({name, more.line, ""}, "a second YAML document", "one a file"));
+}
+
+}  // namespace
 
 YamlValue YamlValue::from_file(const std::string& path) {
   return from_text(read_text_file(path, kMaxYamlBytes), path);
@@ -18,6 +109,7 @@ YamlValue YamlValue::from_file(const std::string& path) {
 
 YamlValue YamlValue::from_text(const std::string& text, const std::string& name) {
   try {
+    refuse_silent_losses(text, name);
     YAML::Node node = YAML::Load(text);
     if (!node.IsDefined() || node.IsNull()) node = YAML::Node(YAML::NodeType::Map);
     return {node, name, ""};
@@ -55,11 +147,9 @@ std::vector<std::string> YamlValue::keys() const {
 }
 
 void YamlValue::only_keys(const std::vector<std::string>& allowed) const {
-  std::set<std::string> seen;
   for (const auto& entry : node_.IsMap() ? node_ : (keys(), node_)) {
     const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
     const YamlValue place(entry.first, file_, key_.empty() ? name : key_ + "." + name);
-    if (!seen.insert(name).second) place.fail("the key twice", "once");
     if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
     const std::string nearest = nearest_word(name, allowed);
     place.fail(nearest.empty() ? "an unknown key"

@@ -15,7 +15,8 @@ namespace walktrack {
 // A place in a YAML file. Copies are cheap (yaml-cpp nodes are handles).
 class YamlValue {
  public:
-  // Reads a file of at most kMaxYamlBytes. An empty file is an empty map.
+  // Reads a file of at most kMaxYamlBytes. An empty file is an empty map. A key that a map holds
+  // twice is an error, and so is a second document.
   static YamlValue from_file(const std::string& path);
   static YamlValue from_text(const std::string& text, const std::string& name);
 
@@ -26,7 +27,7 @@ class YamlValue {
   bool is_list() const { return node_.IsSequence(); }
   bool is_scalar() const { return node_.IsScalar(); }
 
-  // Of a map. A key that is written twice, or that is not in `allowed`, is an error.
+  // Of a map. A key that is not in `allowed` is an error.
   void only_keys(const std::vector<std::string>& allowed) const;
   std::vector<std::string> keys() const;
   bool has(const std::string& key) const;      // present and not null

@@ -14,10 +14,17 @@ namespace walktrack {
 namespace {
 
 constexpr const char* kParameters = "parameters.";
+constexpr const char* kArticulated = "articulated";  // simulate's body in 3-D, no planar walker
 
 void collect(const YamlValue& value, std::vector<ModelSetting>& settings) {
   if (value.is_map()) {
-    for (const std::string& key : value.keys()) collect(value.at(key), settings);
+    for (const std::string& key : value.keys()) {
+      if (!value.has(key)) {
+        const std::string path = value.key().empty() ? key : value.key() + "." + key;
+        throw UsageError(describe({value.file(), value.line(), path}, "nothing", "a value"));
+      }
+      collect(value.at(key), settings);
+    }
     return;
   }
   settings.push_back({value.file(), value.line(), value.key(),
@@ -25,7 +32,7 @@ void collect(const YamlValue& value, std::vector<ModelSetting>& settings) {
 }
 
 // Numbers between commas, brackets around them allowed.
-bool list_from_text(std::string text, std::vector<double>& list) {
+bool list_from_text(std::string text, const ModelEntry& entry) {
   if (text.size() >= 2 && text.front() == '[' && text.back() == ']') {
     text = text.substr(1, text.size() - 2);
   }
@@ -33,23 +40,26 @@ bool list_from_text(std::string text, std::vector<double>& list) {
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');) {
     const auto number = number_from_text(word);
-    if (!number) return false;
+    if (!number || !(*number >= entry.lowest && *number <= entry.highest)) return false;
     numbers.push_back(*number);
   }
-  if (numbers.empty()) return false;
-  list = numbers;
+  if (numbers.empty() || (entry.count > 0 && numbers.size() != entry.count)) return false;
+  *entry.list = numbers;
   return true;
 }
 
 bool set_entry(const ModelEntry& entry, const std::string& text) {
   if (entry.number) return number_in_range(text, entry.lowest, entry.highest, *entry.number);
   if (entry.flag) return flag_from_text(text, *entry.flag);
-  return list_from_text(text, *entry.list);
+  return list_from_text(text, entry);
 }
 
 std::string allowed_text(const ModelEntry& entry) {
   if (entry.number) return number_allowed(entry.lowest, entry.highest) + ": " + entry.comment;
-  return entry.flag ? "true or false" : "numbers with commas between them: " + entry.comment;
+  if (entry.flag) return "true or false";
+  const std::string count = entry.count > 0 ? fmt::format("{} ", entry.count) : "";
+  return fmt::format("{}numbers with commas between them, {:g} to {:g}: {}", count, entry.lowest,
+                     entry.highest, entry.comment);
 }
 
 [[noreturn]] void fail(const ModelSetting& setting, const std::string& found,
@@ -66,12 +76,29 @@ void set_value(const std::vector<ModelEntry>& entries, const ModelSetting& setti
     }
     keys.push_back(entry.key);
   }
+  if (setting.line > 0) keys.push_back("model");
   std::string nearest = nearest_word(setting.key, keys);
   if (nearest.empty()) nearest = nearest_word(kParameters + setting.key, keys);
   fail(setting,
        nearest.empty() ? "an unknown key"
                        : fmt::format("an unknown key, did you mean '{}'?", nearest),
        fmt::format("{}", fmt::join(keys, ", ")));
+}
+
+bool is_model(const std::string& name) {
+  const auto& names = model_names();
+  return name == kArticulated || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// A start has as many numbers as the walker has coordinates.
+void check_start(const ModelSpec& spec, size_t count, const ModelSetting& setting) {
+  const auto check = [&](const char* key, const std::vector<double>& values) {
+    if (setting.key != key || values.size() == count) return;
+    fail(setting, fmt::format("{} numbers", values.size()),
+         fmt::format("{}, one for each coordinate", count));
+  };
+  check("start.q", spec.start.q);
+  check("start.qd", spec.start.qd);
 }
 
 ModelSetting from_text(const std::string& setting) {
@@ -86,7 +113,9 @@ ModelSetting from_text(const std::string& setting) {
 
 std::vector<ModelSetting> read_model_settings(const std::string& path) {
   std::vector<ModelSetting> settings;
-  collect(YamlValue::from_file(path), settings);
+  const YamlValue root = YamlValue::from_file(path);
+  if (!root.is_map()) root.fail(root.describe_found(), "a map of keys, such as 'model: kneed'");
+  collect(root, settings);
   return settings;
 }
 
@@ -105,28 +134,35 @@ void apply_model_setting(ModelSpec& spec, const std::string& setting) {
 }
 
 std::string model_name(const std::string& name, const std::string& file) {
-  std::string model = name;
-  if (!file.empty()) {
-    for (const ModelSetting& setting : read_model_settings(file)) {
-      if (setting.key != "model") continue;
-      if (!name.empty() && name != setting.text) {
-        fail(setting, fmt::format("'{}'", setting.text),
-             fmt::format("'{}', as --model says", name));
-      }
-      model = setting.text;
+  const std::string known = fmt::format("{}", fmt::join(model_names(), ", "));
+  const std::vector<ModelSetting> settings =
+      file.empty() ? std::vector<ModelSetting>() : read_model_settings(file);
+  for (const ModelSetting& setting : settings) {
+    if (setting.key != "model") continue;
+    if (!name.empty() && name != setting.text) {
+      fail(setting, fmt::format("'{}'", setting.text), fmt::format("'{}', as --model says", name));
     }
+    if (!is_model(setting.text)) fail(setting, fmt::format("'{}'", setting.text), known);
+    return setting.text;
   }
-  if (model.empty()) {
-    throw UsageError(
-        describe({"", 0, "--model"}, "nothing", fmt::format("{}", fmt::join(model_names(), ", "))));
+  if (!name.empty()) return name;
+  if (file.empty()) throw UsageError(describe({"", 0, "--model"}, "nothing", known));
+  for (const ModelSetting& setting : settings) {
+    if (nearest_word(setting.key, {"model"}).empty()) continue;
+    fail(setting, "an unknown key, did you mean 'model'?", "'model: NAME': " + known);
   }
-  return model;
+  throw UsageError(describe({file, 0, "model"}, "nothing", known + " (here or as --model)"));
 }
 
 ModelSpec read_model(const std::string& name, const std::string& file,
                      const std::vector<std::string>& settings) {
   ModelSpec spec = default_model(model_name(name, file));
   apply_model_settings(entries(spec), file, settings);
+  const size_t count = make_walker(spec)->section_size();
+  std::vector<ModelSetting> said =
+      file.empty() ? std::vector<ModelSetting>() : read_model_settings(file);
+  for (const std::string& setting : settings) said.push_back(from_text(setting));
+  for (const ModelSetting& setting : said) check_start(spec, count, setting);
   return spec;
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,26 +12,58 @@
 namespace walktrack {
 namespace {
 
+// The speeds that a plan asks for at some time.
+std::vector<double> speeds_of(const WalkPlan& plan) {
+  std::vector<double> speeds{plan.speed};
+  for (const SpeedChange& change : plan.changes) speeds.push_back(change.speed);
+  return speeds;
+}
+
 // The table ends where walking does; what it does not hold it would replace by its border.
 void check_speeds(const PriorAxes& axes, const WalkerUnits& units, const WalkPlan& plan) {
   constexpr double kRounding = 1.01;  // 2.2 m/s is in a table that ends at 2.199
   const SpeedRange range = speed_range(axes, units);
-  const auto check = [&](double speed) {
-    if (speed * kRounding >= range.least && speed <= range.most * kRounding) return;
+  for (const double speed : speeds_of(plan)) {
+    if (speed * kRounding >= range.least && speed <= range.most * kRounding) continue;
     throw UsageError(
         describe({"", 0, "speed"}, fmt::format("{:g} m/s", speed),
                  fmt::format("{:.2f} to {:.2f} m/s, which the table of gaits holds for this body "
                              "(legs of {:.3g} m, gravity of {:.3g} m/s^2)",
                              range.least, range.most, units.length, units.gravity)));
-  };
-  check(plan.speed);
-  for (const SpeedChange& change : plan.changes) check(change.speed);
+  }
+}
+
+void check_slope(const PriorAxes& axes, double slope) {
+  constexpr double kRounding = 1e-9;
+  if (slope >= axes.slopes.front() - kRounding && slope <= axes.slopes.back() + kRounding) return;
+  throw UsageError(describe({"", 0, "--prior"}, fmt::format("{:.4g} rad of slope", slope),
+                            fmt::format("{:g} to {:g}, downhill, which the table of gaits holds",
+                                        axes.slopes.front(), axes.slopes.back())));
+}
+
+// Where the table has no gait with the plan's step length it would take one nearby.
+template <typename Prior, typename Parameters>
+void check_step_length(const Prior& prior, const Parameters& parameters, const WalkPlan& plan) {
+  constexpr double kRounding = 1.01;
+  if (plan.step_length == 0) return;
+  for (const double speed : speeds_of(plan)) {
+    const double nearest = gait_at(prior, parameters, speed, plan.step_length).step_length;
+    if (plan.step_length * kRounding >= nearest && plan.step_length <= nearest * kRounding)
+      continue;
+    throw UsageError(describe(
+        {"", 0, "--step-length"}, fmt::format("{:g} m at {:g} m/s", plan.step_length, speed),
+        fmt::format("{:.3f} m, the nearest that the table of gaits holds at this speed, or 0 for "
+                    "what people prefer",
+                    nearest)));
+  }
 }
 
 SimulateJob kneed_with_prior(SimulateJob job, const WalkPlan& plan) {
   const KneedParameters parameters = job.model.kneed;
   const GaitPrior prior = load_gait_prior();
   check_speeds(prior, walker_units(parameters), plan);
+  check_slope(prior, parameters.slope);
+  check_step_length(prior, parameters, plan);
   PlanProgress progress;
   const PriorGait first = first_gait(prior, parameters, plan, 0, progress);
   job.model.controls = first.controls;
@@ -59,31 +92,23 @@ StraightLeggedParameters controlled(StraightLeggedParameters parameters,
 // With two controls this walker cannot brake nor climb: gaits are missing where it would have to.
 void check_gaits(const StraightPrior& prior, const StraightLeggedParameters& parameters,
                  const WalkPlan& plan) {
-  const auto refuse = [](double found, const char* unit, const std::string& allowed) {
-    throw UsageError(describe({"", 0, "--prior"}, fmt::format("{:.4g} {}", found, unit), allowed));
-  };
-  constexpr double kRounding = 1e-9;
-  if (!(parameters.slope >= prior.slopes.front() - kRounding &&
-        parameters.slope <= prior.slopes.back() + kRounding)) {
-    refuse(parameters.slope, "rad of slope",
-           fmt::format("{:g} to {:g}, downhill", prior.slopes.front(), prior.slopes.back()));
-  }
-  const auto check = [&](double speed) {
+  for (const double speed : speeds_of(plan)) {
     WalkPlan steady = plan;
     steady.speed = speed;
     PlanProgress progress;
-    if (!first_gait(prior, parameters, steady, 0, progress).valid)
-      refuse(speed, "m/s", "a faster walk: so slow a one would have to brake");
-  };
-  check(plan.speed);
-  for (const SpeedChange& change : plan.changes) check(change.speed);
+    if (first_gait(prior, parameters, steady, 0, progress).valid) continue;
+    throw UsageError(describe({"", 0, "--prior"}, fmt::format("{:.4g} m/s", speed),
+                              "a faster walk: so slow a one would have to brake"));
+  }
 }
 
 SimulateJob straight_with_prior(SimulateJob job, const WalkPlan& plan) {
   StraightLeggedParameters& parameters = job.model.anthropomorphic;
   const StraightPrior prior = load_straight_prior();
   check_speeds(prior, walker_units(parameters), plan);
+  check_slope(prior, parameters.slope);
   check_gaits(prior, parameters, plan);
+  check_step_length(prior, parameters, plan);
   PlanProgress progress;
   const StraightGait first = first_gait(prior, parameters, plan, 0, progress);
   parameters = controlled(parameters, first.controls);

@@ -10,7 +10,7 @@ namespace walktrack {
 // The job with start, controls and later steps out of the shipped table, for the parameters of
 // `job.model`; good for one walk, whose progress it keeps. UsageError where the model is neither
 // the kneed walker with a torso nor the anthropomorphic one, and where the table holds no gait for
-// a speed of the plan or for the slope.
+// a speed of the plan, for its step length or for the slope.
 SimulateJob with_prior(SimulateJob job, const WalkPlan& plan);
 
 }  // namespace walktrack

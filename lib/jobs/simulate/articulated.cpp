@@ -121,8 +121,8 @@ std::vector<StickFigure> figures(const ArticulatedBody& body, const ArticulatedS
   double next = 0;
   for (const ArticulatedSample& sample : recording.samples) {
     if (sample.time < next - 1e-9) continue;
-    result.push_back(figure_of(body, spec, sample));
-    next += every;
+    const StickFigure figure = figure_of(body, spec, sample);
+    for (; next - 1e-9 <= sample.time; next += every) result.push_back(figure);
   }
   return result;
 }
@@ -139,7 +139,7 @@ std::vector<ModelEntry> entries(ArticulatedSpec& spec) {
     all.push_back({key, comment, nullptr, &value, nullptr, 0, 0});
   };
   const auto list = [&](const char* key, std::vector<double>& value, const char* comment) {
-    all.push_back({key, comment, nullptr, nullptr, &value, 0, 0});
+    all.push_back({key, comment, nullptr, nullptr, &value, -1e6, 1e6, 3});
   };
   number("parameters.height", spec.height, .1, 10, "m");
   number("parameters.mass", spec.mass, 1e-3, 1e6, "kg");
@@ -239,9 +239,9 @@ std::string states_csv(const ArticulatedBody& body, const ArticulatedJob& job,
   return csv;
 }
 
-std::string simulate_articulated_into(const std::filesystem::path& path, bool overwrite,
-                                      const ArticulatedJob& job,
-                                      const std::vector<std::string>& command_line) {
+SimulationEnd simulate_articulated_into(const std::filesystem::path& path, bool overwrite,
+                                        const ArticulatedJob& job,
+                                        const std::vector<std::string>& command_line) {
   const ArticulatedBody body = articulated_person(job.spec);
   const ArticulatedRecording recording = record(body, job);
   const ResultFolder folder(path, overwrite);
@@ -255,19 +255,19 @@ std::string simulate_articulated_into(const std::filesystem::path& path, bool ov
     cv::imencode(".png", strip_as_image(strip, 0), png);
     folder.write("strip.png", std::string(png.begin(), png.end()));
     write_animation(folder.file("animation.mp4"),
-                    figures(body, job.spec, recording, 1 / job.frame_rate), 0, job.frame_rate);
+                    figures(body, job.spec, recording, 1 / (job.frame_rate * job.slow_motion)), 0,
+                    job.frame_rate);
   }
+  const Health health = recording.diverged ? Health::kDiverged : Health::kSound;
   const BuildFacts& facts = build_facts();
-  const nlohmann::ordered_json run{{"command", "simulate"},
-                                   {"version", facts.version},
-                                   {"commit", facts.commit},
-                                   {"model", "articulated"},
-                                   {"status", recording.diverged ? "diverged" : "sound"},
-                                   {"end_time", recording.samples.back().time},
-                                   {"command_line", command_line}};
+  const nlohmann::ordered_json run{
+      {"command", "simulate"},       {"version", facts.version},
+      {"commit", facts.commit},      {"model", "articulated"},
+      {"status", name_of(health)},   {"end_time", recording.samples.back().time},
+      {"command_line", command_line}};
   folder.finish(run.dump(2) + "\n");
-  return fmt::format("articulated: {:.3f} s, {}", recording.samples.back().time,
-                     recording.diverged ? "diverged" : "sound");
+  return {health,
+          fmt::format("articulated: {:.3f} s, {}", recording.samples.back().time, name_of(health))};
 }
 
 }  // namespace walktrack

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/conventions.h"
-#include "core/job_control.h"
+#include "jobs/simulate/simulate.h"
 #include "mechanics/articulated_dynamics.h"
 #include "walker/model_spec.h"
 
@@ -42,6 +42,7 @@ struct ArticulatedJob {
   double step = 1e-3;             // s
   double sample_interval = 0.01;  // s
   double frame_rate = 30;         // Hz
+  double slow_motion = 1;         // times slower than life
   Integrator integrator = Integrator::kRk4;
   bool pictures = true;
 };
@@ -63,8 +64,8 @@ std::string states_csv(const ArticulatedBody& body, const ArticulatedJob& job,
                        const ArticulatedRecording& recording);
 
 // Runs the job into a folder as simulate_into() does. UsageError where a list has no three numbers.
-std::string simulate_articulated_into(const std::filesystem::path& folder, bool overwrite,
-                                      const ArticulatedJob& job,
-                                      const std::vector<std::string>& command_line);
+SimulationEnd simulate_articulated_into(const std::filesystem::path& folder, bool overwrite,
+                                        const ArticulatedJob& job,
+                                        const std::vector<std::string>& command_line);
 
 }  // namespace walktrack

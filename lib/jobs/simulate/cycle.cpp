@@ -73,22 +73,32 @@ std::runtime_error no_cycle(const Walker& walker, const VectorXd& guess,
                             fate_of(walker, guess, options));
 }
 
+// Newton's steps keep the energy of a walker that conserves it: the one stated, else the guess's.
+ModelSpec with_energy(ModelSpec model, const Walker& walker, const VectorXd& guess) {
+  if (model.model == "monopode" && model.start.energy == 0) {
+    const Eigen::Index n = guess.size() / 2;
+    model.start.energy = walker.energy(walker.section_state(guess.head(n), guess.tail(n))).total();
+  }
+  return model;
+}
+
+SectionProjection onto_energy(const ModelSpec& model) {
+  return [model](const VectorXd& x) { return at_energy(model, x); };
+}
+
 // The cycle of the model with the followed parameter at its goal. Throws where it is lost, saying
 // how far it came.
-LimitCycle followed(const CycleJob& job, const VectorXd& guess) {
+FollowedCycle followed(const CycleJob& job, const VectorXd& guess) {
   const auto model_at = [&](double value) { return with_value(job.model, job.follow_key, value); };
   const auto walker_at = [&](double value) {
     return std::shared_ptr<const Walker>(make_walker(model_at(value)));
   };
-  const auto onto = [&](double value, const VectorXd& x) -> std::optional<VectorXd> {
-    return at_energy(model_at(value), x);
-  };
+  const auto onto = [&](double value) { return onto_energy(model_at(value)); };
   const MapFamily family{[&](double value) { return owned_map(walker_at(value), job.options); },
                          [&](double value) { return owned_rows(walker_at(value)); }, onto};
   const double from = value_of(job.model, job.follow_key);
-  const FollowedCycle result =
-      follow_limit_cycle(family, guess, from, job.follow_to, job.options.cycle);
-  if (result.arrived) return *result.cycle;
+  FollowedCycle result = follow_limit_cycle(family, guess, from, job.follow_to, job.options.cycle);
+  if (result.arrived) return result;
   if (!result.cycle) throw no_cycle(*make_walker(job.model), guess, job.options);
   throw std::runtime_error(fmt::format(
       "the limit cycle was lost on the way: the last one, at {} = {:.6g}, has a largest multiplier "
@@ -110,19 +120,24 @@ Json numbers(const VectorXd& values) { return std::vector<double>(values.begin()
 
 }  // namespace
 
-FoundCycle find_cycle(const CycleJob& job) {
+FoundCycle find_cycle(const CycleJob& wanted) {
   FoundCycle found;
-  found.model = job.model;
+  CycleJob job = wanted;
   auto walker = make_walker(job.model);
   const VectorXd guess = settled_guess(*walker, start_point(job.model, *walker), job);
+  job.model = with_energy(job.model, *walker, guess);
+  found.model = job.model;
   LimitCycle cycle;
   if (job.follow_key.empty()) {
     const auto reached = find_limit_cycle(step_map(*walker, job.options), section_rows(*walker),
-                                          guess, job.options.cycle);
+                                          guess, job.options.cycle, onto_energy(job.model));
     if (!reached) throw no_cycle(*walker, guess, job.options);
     cycle = *reached;
   } else {
-    cycle = followed(job, guess);
+    FollowedCycle there = followed(job, guess);
+    cycle = *there.cycle;
+    found.branch_changes = std::move(there.changes);
+    found.followed_key = job.follow_key;
     found.model = with_value(job.model, job.follow_key, job.follow_to);
     walker = make_walker(found.model);
   }
@@ -134,6 +149,7 @@ FoundCycle find_cycle(const CycleJob& job) {
   found.model.start.qd.assign(cycle.point.begin() + n, cycle.point.end());
   found.model.start.energy = 0;
   found.weight = walker->weight();
+  found.energy = walker->energy(gait->start).total();
   found.angular_momentum = largest_angular_momentum(*walker, gait->start, job.options);
   return found;
 }
@@ -147,6 +163,7 @@ std::string cycle_json(const FoundCycle& found) {
             {"iterations", gait.cycle.iterations},
             {"period", gait.step.period},
             {"speed", gait.speed},
+            {"energy", found.energy},
             {"travel", gait.step.travel},
             {"step_length", gait.step.step_length},
             {"frequency", 1 / gait.step.period},
@@ -156,6 +173,10 @@ std::string cycle_json(const FoundCycle& found) {
             {"largest_angular_momentum", found.angular_momentum},
             {"stable", gait.cycle.is_stable()},
             {"largest_multiplier", gait.cycle.largest_multiplier()}};
+  if (!found.followed_key.empty()) json["branch_changes"] = Json::array();
+  for (const BranchChange& change : found.branch_changes) {
+    json["branch_changes"].push_back({{"from", change.from}, {"to", change.to}});
+  }
   for (const std::complex<double>& value : gait.cycle.multipliers) {
     json["multipliers"].push_back({{"re", value.real()}, {"im", value.imag()}});
   }
@@ -179,6 +200,7 @@ std::string cycle_text(const FoundCycle& found) {
   list("rates", gait.start.qd);
   text += fmt::format("  {:<24} {:.7f} s\n", "period", gait.step.period);
   text += fmt::format("  {:<24} {:.6f} m/s\n", "speed", gait.speed);
+  text += fmt::format("  {:<24} {:.9g} J\n", "energy", found.energy);
   text += fmt::format("  {:<24} {:.6f} m (body), {:.6f} m (between the feet)\n", "step",
                       gait.step.travel, gait.step.step_length);
   text += fmt::format("  {:<24} {:.5f}\n", "cost of transport", gait.cost_of_transport);
@@ -191,7 +213,14 @@ std::string cycle_text(const FoundCycle& found) {
     text += value.imag() == 0 ? fmt::format(" {:.5f}", value.real())
                               : fmt::format(" {:.5f}{:+.5f}i", value.real(), value.imag());
   }
-  return text + "\n";
+  text += '\n';
+  for (const BranchChange& change : found.branch_changes) {
+    text += fmt::format(
+        "warning: between {} = {:.6g} and {:.6g} the cycle jumped to another branch: this one is "
+        "no continuation of the cycle at the start\n",
+        found.followed_key, change.from, change.to);
+  }
+  return text;
 }
 
 }  // namespace walktrack

@@ -22,8 +22,11 @@ struct CycleJob {
 struct FoundCycle {
   ModelSpec model;  // with the parameter and the start of the cycle
   GaitCycle gait;
-  double weight = 0;            // N
-  double angular_momentum = 0;  // kg m^2/s, largest modulus about the centre of mass
+  std::string followed_key;                  // empty: none was followed
+  std::vector<BranchChange> branch_changes;  // on the way, where a parameter was followed
+  double energy = 0;                         // J, of the fixed point
+  double weight = 0;                         // N
+  double angular_momentum = 0;               // kg m^2/s, largest modulus about the centre of mass
 };
 
 // std::runtime_error where no cycle is reached, saying what happened instead.

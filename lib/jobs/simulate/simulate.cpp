@@ -39,19 +39,18 @@ void add_state(const Walker& walker, const WalkerState& state, size_t columns, s
   csv += '\n';
 }
 
-// The recorded state nearest before each wanted time.
+// The first recorded state at or after each wanted time.
 std::vector<StickFigure> figures_at(const Walker& walker, const Recording& recording,
                                     double every) {
   std::vector<StickFigure> figures;
   double next = recording.states.front().time;
   for (const WalkerState& state : recording.states) {
     if (state.time < next) continue;
-    next += every;
     StickFigure figure{state.time, walker.momentum(state).com.x(), {}};
     for (const Stroke& stroke : walker.strokes(state)) {
       figure.lines.push_back({stroke.from, stroke.to, stroke.group});
     }
-    figures.push_back(std::move(figure));
+    for (; next <= state.time; next += every) figures.push_back(figure);
   }
   return figures;
 }
@@ -198,8 +197,9 @@ std::string events_csv(const Recording& recording) {
   return csv;
 }
 
-std::string simulate_into(const std::filesystem::path& path, bool overwrite, const SimulateJob& job,
-                          const std::vector<std::string>& command_line, const JobControl& control) {
+SimulationEnd simulate_into(const std::filesystem::path& path, bool overwrite,
+                            const SimulateJob& job, const std::vector<std::string>& command_line,
+                            const JobControl& control) {
   const auto walker = make_walker(job.model);
   const ResultFolder folder(path, overwrite);
   const Recording recording = record(*walker, job, control);
@@ -213,8 +213,9 @@ std::string simulate_into(const std::filesystem::path& path, bool overwrite, con
   } else {
     folder.finish(run);
   }
-  return fmt::format("{}: {} steps in {:.3f} s, {}", job.model.model, recording.steps,
-                     recording.end.time, name_of(recording.end.health));
+  const Health health = recording.end.health;
+  return {health, fmt::format("{}: {} steps in {:.3f} s, {}", job.model.model, recording.steps,
+                              recording.end.time, name_of(health))};
 }
 
 }  // namespace walktrack

@@ -52,10 +52,14 @@ std::string states_csv(const Walker& walker, const Recording& recording);
 std::string events_csv(const Recording& recording);
 
 // Runs the job; the folder holds states.csv, events.csv, model.yaml, the pictures and run.json.
-// `command_line` is kept in run.json. Returns one line for people.
-std::string simulate_into(const std::filesystem::path& folder, bool overwrite,
-                          const SimulateJob& job, const std::vector<std::string>& command_line,
-                          const JobControl& control);
+// `command_line` is kept in run.json.
+struct SimulationEnd {
+  Health health = Health::kSound;
+  std::string text;  // one line for people
+};
+SimulationEnd simulate_into(const std::filesystem::path& folder, bool overwrite,
+                            const SimulateJob& job, const std::vector<std::string>& command_line,
+                            const JobControl& control);
 
 const char* name_of(EventKind kind);
 const char* name_of(Health health);

@@ -105,10 +105,10 @@ void AnthropomorphicMotion::enter(const MotionContext& context, std::span<const 
     enter_figure(context, phases[i], p);
     for (Extras* extra : {&p.extra, &p.extra_before})
       (*extra)[kCrouch] = (*extra)[kThigh] = (*extra)[kThighRight] = 0;
-    const StraightGait gait = gait_at(prior_, parameters_, p.aim.speed, p.aim.step_length);
+    const StraightGait gait = aimed_gait(context.model, p);
     p.aim = {gait.speed, gait.step_length};
     set(gait.controls, p.controls);
-    set(state_at_phase(level_, gait, phases[i]), p.walker);
+    set(state_in_gait(context.model, gait, phases[i]), p.walker);
     p.predicted = p.walker;
     p.velocity_per_impulse.setZero();
   }
@@ -121,7 +121,8 @@ void AnthropomorphicMotion::walk(const MotionContext& context, std::span<WalkerP
 
 Outcome AnthropomorphicMotion::walk(const MotionContext& context, WalkerParticle& particle,
                                     Rng& rng) const {
-  const StraightModel model = model_on(context.model, particle.extra[kHeading]);
+  const StraightModel model =
+      model_on(context.model, gravity_along(context.model, particle.extra[kHeading]));
   const double stray = context.config.clock * std::sqrt(context.dt) * rng.truncated_normal(3);
   double left = std::max(0.0, context.dt * std::exp(particle.extra_before[kPace]) + stray);
   while (left > 0) {
@@ -137,10 +138,10 @@ Outcome AnthropomorphicMotion::walk(const MotionContext& context, WalkerParticle
         change_support(context, particle, rng);
         break;
       case KneedEvent::kFallen:
-        catch_step(model, particle);
+        catch_step(context.model, particle);
         return Outcome::kFallen;
       case KneedEvent::kDiverged:
-        catch_step(model, particle);
+        catch_step(context.model, particle);
         return Outcome::kDiverged;
     }
   }
@@ -153,8 +154,7 @@ void AnthropomorphicMotion::change_support(const MotionContext& context, WalkerP
               particle);
   const MotionConfig& config = context.config;
   vary_aim(config, particle.aim, rng);
-  const StraightGait gait =
-      gait_at(prior_, parameters_, particle.aim.speed, particle.aim.step_length);
+  const StraightGait gait = aimed_gait(context.model, particle);
   particle.aim = {gait.speed, gait.step_length};  // within the table
   set(draw_controls(rng, next_controls(gait, straight(particle.walker), config.feedback),
                     {.relative = config.control_noise, .rest = 0, .torque = 0}),
@@ -162,17 +162,29 @@ void AnthropomorphicMotion::change_support(const MotionContext& context, WalkerP
 }
 
 // Who stumbles goes on as the gait that it aims at would at this moment of the step.
-void AnthropomorphicMotion::catch_step(const StraightModel& model, WalkerParticle& particle) const {
-  const StraightGait gait =
-      gait_at(prior_, parameters_, particle.aim.speed, particle.aim.step_length);
+void AnthropomorphicMotion::catch_step(const BodyModel& model, WalkerParticle& particle) const {
+  const StraightGait gait = aimed_gait(model, particle);
   const double phase = std::clamp(particle.walker.since_transfer / gait.period, 0.0, 0.95);
   set(gait.controls, particle.controls);
-  set(state_at_phase(model, gait, phase), particle.walker);
+  set(state_in_gait(model, gait, phase), particle.walker);
 }
 
-StraightModel AnthropomorphicMotion::model_on(const BodyModel& model, double heading) const {
+StraightGait AnthropomorphicMotion::aimed_gait(const BodyModel& model,
+                                               const WalkerParticle& particle) const {
+  StraightLeggedParameters parameters = parameters_;
+  if (!model.downhill.isZero())
+    parameters.slope = in_plane(model, particle.extra[kHeading]).parameters.slope;
+  return gait_at(prior_, parameters, particle.aim.speed, particle.aim.step_length);
+}
+
+StraightState AnthropomorphicMotion::state_in_gait(const BodyModel& model, const StraightGait& gait,
+                                                   double phase) const {
+  return state_at_phase(model_on(model, on_slope(model, gait.slope).gravity.x()), gait, phase);
+}
+
+StraightModel AnthropomorphicMotion::model_on(const BodyModel& model, double gravity_x) const {
   StraightModel out = level_;
-  out.gravity_x = model.downhill.dot(Eigen::Vector2d(std::cos(heading), std::sin(heading)));
+  out.gravity_x = gravity_x;
   out.gravity_z = model.walker.gravity.y();
   return out;
 }

@@ -27,8 +27,10 @@ class AnthropomorphicMotion : public MotionModel {
  private:
   Outcome walk(const MotionContext& context, WalkerParticle& particle, Rng& rng) const;
   void change_support(const MotionContext& context, WalkerParticle& particle, Rng& rng) const;
-  void catch_step(const StraightModel& model, WalkerParticle& particle) const;
-  StraightModel model_on(const BodyModel& model, double heading) const;
+  void catch_step(const BodyModel& model, WalkerParticle& particle) const;
+  StraightGait aimed_gait(const BodyModel& model, const WalkerParticle& particle) const;
+  StraightState state_in_gait(const BodyModel& model, const StraightGait& gait, double phase) const;
+  StraightModel model_on(const BodyModel& model, double gravity_x) const;
 
   StraightLeggedParameters parameters_;
   StraightModel level_;

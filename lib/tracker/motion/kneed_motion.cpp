@@ -29,14 +29,16 @@ Matrix5 torque_distribution() {
 }
 // clang-format on
 
-// The aimed gait's first moment and its controls. Returns when in the step its `phase` is, s.
+// The aimed gait's first moment and its controls. Returns how long the walker still goes on to the
+// `phase` of its step, s.
 double enter_gait(const MotionContext& context, double phase, WalkerParticle& particle) {
-  const PriorGait gait = gait_at(context.prior, context.model.walker.parameters, particle.aim.speed,
-                                 particle.aim.step_length);
+  const PriorGait gait = aimed_gait(context, particle);
   particle.aim = {gait.speed, gait.step_length};
   particle.controls = gait.controls;
   particle.walker = gait.start;
-  return phase * gait.period;
+  if (gait.slope == 0) return phase * gait.period;  // with all others
+  particle.walker = state_in_gait(context.model, gait, phase);
+  return 0;
 }
 
 // Every walker on to its own moment, all in one batch: a step is as long as many frames.
@@ -107,11 +109,16 @@ MarkovConstants markov_constants(Extra extra) {
   return {deg(22), 0.2, deg(15), 0, deg(130)};
 }
 
+KneedState state_in_gait(const BodyModel& model, const PriorGait& gait, double phase) {
+  return gait.slope == 0 ? state_at_phase(model.walker, gait, phase)
+                         : state_at_phase(on_slope(model, gait.slope), gait, phase);
+}
+
 Pose pose_in_gait(const BodyModel& model, const PriorGait& gait, Side stance, double phase) {
   Extras extra{};
   for (int k = 0; k < kExtraCount; ++k)
     extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).rest;
-  Pose pose = pose_of(model, state_at_phase(model.walker, gait, phase), stance,
+  Pose pose = pose_of(model, state_in_gait(model, gait, phase), stance,
                       {gait.speed, gait.step_length}, Eigen::Vector2d::Zero(), extra);
   pose.root.head<2>().setZero();
   return pose;

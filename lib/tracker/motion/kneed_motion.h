@@ -12,13 +12,16 @@ namespace walktrack {
 // Without the configuration's share in it, MotionConfig::misfit.
 MarkovConstants markov_constants(Extra extra);
 
+// The walker at a share of a step of a gait of the prior, on the gait's slope.
+KneedState state_in_gait(const BodyModel& model, const PriorGait& gait, double phase);
+
 // A person in a gait of the prior, at a share of the step of the standing foot: the root above the
 // origin, heading 0, everything that the walker does not drive at rest.
 Pose pose_in_gait(const BodyModel& model, const PriorGait& gait, Side stance, double phase);
 
 class KneedMotion : public MotionModel {
  public:
-  KneedMotion(const BodyModel& model, const GaitPrior& prior) : steps_(model.walker, prior) {}
+  KneedMotion(const BodyModel& model, const GaitPrior& prior) : steps_(model, prior) {}
   MarkovConstants constants(const MotionConfig& config, Extra extra) const override;
   void enter(const MotionContext& context, std::span<const double> phases,
              std::span<WalkerParticle> particles) const override;

@@ -87,8 +87,7 @@ MarkovConstants free_constants(Extra extra) {
 }
 
 void enter_figure(const MotionContext& context, double phase, WalkerParticle& particle) {
-  const PriorGait gait = gait_at(context.prior, context.model.walker.parameters, particle.aim.speed,
-                                 particle.aim.step_length);
+  const PriorGait gait = aimed_gait(context, particle);
   // A frame ago is a frame ahead, mirrored in time, where the step has only begun.
   const double frame = context.dt / gait.period;
   const double sign = phase < frame ? -1 : 1;
@@ -109,6 +108,12 @@ MarkovConstants MarkovMotion::constants(const MotionConfig& config, Extra extra)
   c.spread *= config.unrest;
   if (extra != kRootHeight) return c;
   return {leg_ * c.rest, c.time, leg_ * c.spread, leg_ * c.lowest, leg_ * c.highest, c.period};
+}
+
+// The root's height takes the place of an angle: it is in metres.
+double MarkovMotion::start_spread(const MotionConfig& config, Extra extra) const {
+  return extra == kRootHeight ? constants(config, extra).spread
+                              : MotionModel::start_spread(config, extra);
 }
 
 void MarkovMotion::enter(const MotionContext& context, std::span<const double> phases,

@@ -36,6 +36,7 @@ class MarkovMotion : public MotionModel {
  public:
   explicit MarkovMotion(const BodyModel& model) : leg_(leg_length(model.body.lengths)) {}
   MarkovConstants constants(const MotionConfig& config, Extra extra) const override;
+  double start_spread(const MotionConfig& config, Extra extra) const override;
   void enter(const MotionContext& context, std::span<const double> phases,
              std::span<WalkerParticle> particles) const override;
   void walk(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,

@@ -134,6 +134,16 @@ NoiseScale noise_scale(const MotionModel& moves, const MotionConfig& config, con
   return scale;
 }
 
+PriorGait aimed_gait(const MotionContext& context, const WalkerParticle& particle) {
+  const BodyModel& model = context.model;
+  const StepAim& aim = particle.aim;
+  const auto gait = [&](const KneedModel& walker) {
+    return gait_at(context.prior, walker.parameters, aim.speed, aim.step_length);
+  };
+  return model.downhill.isZero() ? gait(model.walker)
+                                 : gait(in_plane(model, particle.extra[kHeading]));
+}
+
 MotionContext motion_context(const BodyModel& model, const GaitPrior& prior,
                              const MotionModel& moves, const MotionConfig& config, double dt) {
   return {model,

@@ -74,6 +74,9 @@ struct MotionContext {
   double dt;  // s
 };
 
+// The prior's gait that a particle aims at, on the slope that it meets.
+PriorGait aimed_gait(const MotionContext& context, const WalkerParticle& particle);
+
 MotionContext motion_context(const BodyModel& model, const GaitPrior& prior,
                              const MotionModel& moves, const MotionConfig& config, double dt);
 

@@ -6,6 +6,10 @@
 
 namespace walktrack {
 
+double MotionModel::start_spread(const MotionConfig&, Extra extra) const {
+  return markov_constants(extra).spread;
+}
+
 std::unique_ptr<const MotionModel> make_motion_model(MotionKind kind, const BodyModel& model,
                                                      const GaitPrior& prior) {
   switch (kind) {

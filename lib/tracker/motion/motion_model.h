@@ -44,6 +44,10 @@ class MotionModel {
   // Of an extra coordinate. One without spread stays at its rest.
   virtual MarkovConstants constants(const MotionConfig& config, Extra extra) const = 0;
 
+  // How far an extra coordinate may be from the gait that a particle enters with: the standard
+  // deviation with which the first frame draws it, in the coordinate's own unit.
+  virtual double start_spread(const MotionConfig& config, Extra extra) const;
+
   // Particles whose aim, standing foot, heading and rest angles are set go on from the moments
   // `phases` of their steps, as shares of a step.
   virtual void enter(const MotionContext& context, std::span<const double> phases,

@@ -11,6 +11,9 @@ namespace walktrack {
 
 namespace {
 
+// As many as the prior has (gait/build_prior.h).
+constexpr int kTableSlopes = 5;
+
 size_t index(Side side) { return static_cast<size_t>(side); }
 
 // Knees do not bend backwards, nor further than until the heel meets the thigh: there the leg's
@@ -125,10 +128,40 @@ Eigen::Vector2d landing_ball(const BodyModel& model, const Pose& pose, Side land
          rolled_ankle(model, shank).x() * Eigen::Vector2d(std::cos(toes), std::sin(toes));
 }
 
+double gravity_along(const BodyModel& model, double heading) {
+  return model.downhill.dot(Eigen::Vector2d(std::cos(heading), std::sin(heading)));
+}
+
 KneedModel in_plane(const BodyModel& model, double heading) {
   KneedModel out = model.walker;
-  out.gravity.x() = model.downhill.dot(Eigen::Vector2d(std::cos(heading), std::sin(heading)));
+  if (model.downhill.isZero()) return out;
+  out.gravity.x() = gravity_along(model, heading);
+  out.parameters.slope = std::atan2(out.gravity.x(), -out.gravity.y());
   return out;
+}
+
+KneedModel on_slope(const BodyModel& model, double slope) {
+  KneedModel out = model.walker;
+  if (slope == 0) return out;
+  out.gravity.x() = -std::tan(slope) * out.gravity.y();
+  out.parameters.slope = slope;
+  return out;
+}
+
+std::vector<double> table_headings(const Eigen::Vector2d& downhill) {
+  if (downhill.isZero()) return {0};
+  const double down = std::atan2(downhill.y(), downhill.x());
+  std::vector<double> headings;
+  for (int i = 0; i < kTableSlopes; ++i)
+    headings.push_back(down + std::acos(2.0 * i / (kTableSlopes - 1) - 1));
+  return headings;
+}
+
+size_t table_heading(const Eigen::Vector2d& downhill, double heading) {
+  if (downhill.isZero()) return 0;
+  const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
+  const double share = std::clamp(downhill.normalized().dot(ahead), -1.0, 1.0);
+  return static_cast<size_t>(std::lround((share + 1) / 2 * (kTableSlopes - 1)));
 }
 
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -105,7 +106,7 @@ struct WalkerParticle {
 // What all particles of a scene share.
 struct BodyModel {
   Body body;
-  KneedModel walker;                                   // on level ground
+  KneedModel walker;  // across the slope, where there is one: its gravity points straight down
   Eigen::Vector2d downhill = Eigen::Vector2d::Zero();  // horizontal gravity, m/s^2; 0 on the level
   Path path = Path::kSpatial;
 };
@@ -152,7 +153,19 @@ Eigen::Vector2d rolled_ankle(const BodyModel& model, double shank);
 // shank leaning by `shank`, has rolled to where it is in `pose`.
 Eigen::Vector2d landing_ball(const BodyModel& model, const Pose& pose, Side landed, double shank);
 
-// The model's gravity in the plane of `heading`.
+// Horizontal gravity along `heading`, m/s^2.
+double gravity_along(const BodyModel& model, double heading);
+
+// The walker in the plane of `heading`: the slope and the gravity that it meets there.
 KneedModel in_plane(const BodyModel& model, double heading);
+
+// The walker on a slope, rad, positive downhill, whatever the heading.
+KneedModel on_slope(const BodyModel& model, double slope);
+
+// Directions on a slope for which tables of gaits are kept: evenly from the steepest climb to the
+// steepest descent. On the level one stands for all.
+std::vector<double> table_headings(const Eigen::Vector2d& downhill);
+// Which of them meets about the slope that `heading` meets.
+size_t table_heading(const Eigen::Vector2d& downhill, double heading);
 
 }  // namespace walktrack

@@ -19,20 +19,22 @@ struct BookedStep {
       moments;  // at equal times, just after the support transfer first
 };
 
-// Steps over all speeds and step lengths of the prior's table.
+// Steps over all speeds and step lengths of the prior's table, on the slopes that a walker can
+// meet.
 class StepBook {
  public:
-  StepBook(const KneedModel& model, const GaitPrior& prior);
+  StepBook(const BodyModel& model, const GaitPrior& prior);
 
-  // A step of about the same speed and length, drawn as likely there and back; none beyond the
-  // table.
-  const BookedStep* near(const StepAim& aim, Rng& rng) const;
+  // A step of about the same speed and length on about the slope that `heading` meets, drawn as
+  // likely there and back; none beyond the table.
+  const BookedStep* near(const StepAim& aim, double heading, Rng& rng) const;
 
  private:
   double slowest_, speed_step_;   // m/s
   double shortest_, ratio_step_;  // of the preferred step length
   WalkerUnits units_;
-  std::vector<BookedStep> steps_;  // the step length runs fastest
+  Eigen::Vector2d downhill_;
+  std::vector<BookedStep> steps_;  // by slope, speed and step length, which runs fastest
 };
 
 }  // namespace walktrack

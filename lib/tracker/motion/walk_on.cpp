@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scratch.h"
+#include "tracker/motion/kneed_motion.h"
 #include "tracker/motion/support.h"
 #include "walker/kneed_batch.h"
 
@@ -20,11 +21,9 @@ constexpr KneedLimits kWalks{.min_hip_height = 0.8};
 // has left.
 void choose_controls(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   const MotionConfig& config = context.config;
-  StepAim& aim = particle.aim;
-  vary_aim(config, aim, rng);
-  const PriorGait gait =
-      gait_at(context.prior, context.model.walker.parameters, aim.speed, aim.step_length);
-  aim = {gait.speed, gait.step_length};  // within the table
+  vary_aim(config, particle.aim, rng);
+  const PriorGait gait = aimed_gait(context, particle);
+  particle.aim = {gait.speed, gait.step_length};  // within the table
   particle.controls = draw_controls(
       rng, next_controls(gait, particle.walker, config.feedback),
       {.relative = config.control_noise, .rest = 0.5 * config.control_noise, .torque = 0});
@@ -41,12 +40,10 @@ void change_support(const MotionContext& context, WalkerParticle& particle, Rng&
 // Who stumbles catches the step: the walker goes on as the gait that it aims at would at this
 // moment of the step.
 void catch_step(const MotionContext& context, WalkerParticle& particle) {
-  const KneedModel& model = context.model.walker;
-  const PriorGait gait =
-      gait_at(context.prior, model.parameters, particle.aim.speed, particle.aim.step_length);
+  const PriorGait gait = aimed_gait(context, particle);
   const double phase = std::clamp(particle.walker.since_transfer / gait.period, 0.0, 0.95);
   particle.controls = gait.controls;
-  particle.walker = state_at_phase(model, gait, phase);
+  particle.walker = state_in_gait(context.model, gait, phase);
 }
 
 // What the batch kernel takes of a group of particles.
@@ -69,16 +66,12 @@ struct Group {
   }
 };
 
-KneedModel model_of(const MotionContext& context, const WalkerParticle& particle) {
-  const bool sloped = !context.model.downhill.isZero();
-  return sloped ? in_plane(context.model, particle.extra[kHeading]) : context.model.walker;
-}
-
 void gather(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,
             Group& group) {
   for (size_t i = 0; i < particles.size(); ++i) {
     WalkerParticle& p = particles[i];
-    settle_knee_stops(model_of(context, p), p.controls, Vector5::Zero(), p.walker);
+    settle_knee_stops(in_plane(context.model, p.extra[kHeading]), p.controls, Vector5::Zero(),
+                      p.walker);
     group.states.push_back(p.walker);
     group.controls.push_back(p.controls);
     const double stray = context.config.clock * std::sqrt(context.dt) * rngs[i].truncated_normal(3);
@@ -96,8 +89,9 @@ void advance(const MotionContext& context, std::span<const WalkerParticle> parti
                                group.states, group.done, kWalks);
   for (size_t i = 0; i < particles.size(); ++i)
     if (group.left[i] > 0)
-      group.done[i] = kneed_advance(model_of(context, particles[i]), group.controls[i],
-                                    group.noise[i], group.states[i], group.left[i], kWalks);
+      group.done[i] =
+          kneed_advance(in_plane(context.model, particles[i].extra[kHeading]), group.controls[i],
+                        group.noise[i], group.states[i], group.left[i], kWalks);
 }
 
 // What the event at which a walker stopped does to it; the time that it has left.

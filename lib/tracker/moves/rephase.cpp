@@ -74,7 +74,7 @@ void draw_before(const MotionContext& context, WalkerParticle& reading, Rng& rng
 
 bool rephase(const MotionContext& context, const StepBook& steps, WalkerParticle& particle,
              Rng& rng) {
-  const BookedStep* step = steps.near(particle.aim, rng);
+  const BookedStep* step = steps.near(particle.aim, particle.extra[kHeading], rng);
   if (step == nullptr) return false;
   WalkerParticle reading = particle;
   reading.aim = step->aim;
