@@ -34,6 +34,7 @@ std::string simulate_articulated(const CommandLine& line, const SimulateJob& sha
                                  const std::vector<std::string>& command_line) {
   ArticulatedJob job;
   apply_model_settings(entries(job.spec), line.common().config_file, line.common().settings);
+  job.model_file = line.common().config_file;
   job.duration = shared.duration;
   job.step = shared.simulation.max_step;
   job.integrator = shared.simulation.integrator;
@@ -152,6 +153,7 @@ int run_simulate(const Arguments& arguments) {
     return kDone;
   }
   job.model = options.model(line);
+  job.model_file = line.common().config_file;
   prior.apply(job, line.common());
   control.say(
       simulate_into(line.required_output(), line.common().overwrite, job, command_line, control));

@@ -21,13 +21,6 @@ void state_fields(Archive& archive, T& value) {
   archive(frames_read, records, record_bytes, observers, regions, tracker);
 }
 
-// What the two differ in; "" = nothing.
-std::string difference(const Origin& found, const Origin& wanted) {
-  for (size_t i = 0; i < wanted.size(); ++i)
-    if (i >= found.size() || found[i] != wanted[i]) return wanted[i].first;
-  return {};
-}
-
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
@@ -50,15 +43,18 @@ FoundCheckpoint read_checkpoint(const std::filesystem::path& path, const Origin&
   const std::string_view digest = rest.substr(0, kDigestBytes);
   if (headed) rest.remove_prefix(kDigestBytes);
   if (!headed || sha256(rest) != digest)
-    return {{}, fmt::format("{}: found no sound checkpoint of this format", path.string())};
+    return {{}, fmt::format("{}: found no sound checkpoint of this format", path.string()), {}};
   Checkpoint checkpoint;
   ArchiveReader archive(rest, path.native());
   archive(checkpoint.origin);
-  const std::string other = difference(checkpoint.origin, origin);
-  if (!other.empty())
-    return {{}, fmt::format("{}: the checkpoint is of another {}", path.string(), other)};
+  const std::string changed = differences(checkpoint.origin, origin);
+  if (!changed.empty())
+    return {{},
+            fmt::format("{}: the checkpoint is of other settings or inputs ({})", path.string(),
+                        changed),
+            changed};
   state_fields(archive, checkpoint);
-  return {std::move(checkpoint), {}};
+  return {std::move(checkpoint), {}, {}};
 }
 
 }  // namespace walktrack
