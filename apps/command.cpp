@@ -63,7 +63,8 @@ po::options_description common_options(CommonOptions& common) {
       "set one parameter; see 'walktrack config'");
   add("output,o", po::value(&common.output)->value_name("PATH"), "where the results go");
   add("seed", po::value(&common.seed)->value_name("N"), "seed of all random numbers");
-  add("threads", po::value(&common.threads)->value_name("N"), "threads, 0 = all of the machine");
+  add("threads", po::value(&common.threads)->value_name("N"),
+      "threads, 0 = all that the process may use");
   add("yes,y", po::bool_switch(&common.overwrite),
       "overwrite a complete result, but no file that walktrack did not write");
   add("quiet", po::bool_switch(&common.quiet), "errors only");
@@ -89,8 +90,9 @@ void CommandLine::print_help() const {
   fmt::print("usage: walktrack {} {}{}[OPTIONS]\n\n{}\n\n", help_.name, help_.operands,
              help_.operands.empty() ? "" : " ", help_.about);
   if (!own_.options().empty()) fmt::print("{}\n", fmt::to_string(fmt::streamed(own_)));
+  const std::string demo = installed_demo();
   fmt::print("{}\nExample:\n  {}\n", fmt::to_string(fmt::streamed(common_options(unused))),
-             help_.example);
+             demo.empty() ? help_.example : example_with(help_.example, demo));
 }
 
 // The requests of manual.h.

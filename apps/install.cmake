@@ -5,11 +5,10 @@ set(DOCUMENTS ${CMAKE_INSTALL_DATADIR}/doc/walktrack)
 
 install(TARGETS walktrack DESTINATION ${CMAKE_INSTALL_BINDIR})
 
-# The manual comes from the program itself.
+# The manual comes from the program itself, and is there whenever the program is.
 set(MANUAL ${CMAKE_CURRENT_BINARY_DIR}/walktrack.1.gz)
-add_custom_command(OUTPUT ${MANUAL} VERBATIM DEPENDS walktrack
+add_custom_command(TARGET walktrack POST_BUILD VERBATIM BYPRODUCTS ${MANUAL}
   COMMAND sh -c "\"$<TARGET_FILE:walktrack>\" --help-man | gzip -9n > \"${MANUAL}\"")
-add_custom_target(manual ALL DEPENDS ${MANUAL})
 install(FILES ${MANUAL} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 
 install(FILES completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME walktrack)

@@ -36,19 +36,18 @@ constexpr std::array kCommands{
     Command{"track", "track the walker of one scene", run_track},
 };
 
-void print_overview(std::FILE* to) {
+void print_overview() {
   fmt::print(
-      to,
       "walktrack - tracks a walking person in calibrated video with a physical gait model\n\n"
       "usage: walktrack COMMAND [OPTIONS]\n\nCommands:\n");
   for (const Command& command : kCommands) {
-    fmt::print(to, "  {:<10} {}\n", command.name, command.summary);
+    fmt::print("  {:<10} {}\n", command.name, command.summary);
   }
-  fmt::print(to,
-             "\n  --version  version and build\n"
-             "  --help     this text; 'walktrack COMMAND --help' explains a command\n\n"
-             "{}\nExample:\n  walktrack config\n",
-             kExitCodes);
+  fmt::print(
+      "\n  --version  version and build\n"
+      "  --help     this text; 'walktrack COMMAND --help' explains a command\n\n"
+      "{}\nExample:\n  walktrack config\n",
+      kExitCodes);
 }
 
 void print_version() {
@@ -76,8 +75,8 @@ int run_command(std::string_view name, const Arguments& arguments) {
 int run(const Arguments& words) {
   if (words.size() == 2 && words[0] == "help") return run_command(words[1], {"--help"});
   if (words.empty() || words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
-    print_overview(words.empty() ? stderr : stdout);
-    return words.empty() ? kUsage : kDone;
+    print_overview();
+    return kDone;
   }
   if (words[0] == kManualRequest) {
     print_manual(kCommands);

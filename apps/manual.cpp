@@ -1,5 +1,7 @@
 #include "manual.h"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 #include "core/version.h"
@@ -9,6 +11,8 @@ namespace walktrack {
 namespace po = boost::program_options;
 
 namespace {
+
+constexpr const char* kSystemDemo = "/usr/share/walktrack/demo";
 
 // Text as roff prints it: a minus that can be copied, no line taken for a request.
 std::string roff(std::string_view text) {
@@ -77,7 +81,24 @@ void print_manual(std::span<const Command> commands) {
 std::string manual_section(const CommandHelp& help, const po::options_description& own) {
   return fmt::format(".SS walktrack {}{}{}\n{}\n{}.PP\nExample:\n.PP\n.RS\n.nf\n{}\n.fi\n.RE\n",
                      help.name, help.operands.empty() ? "" : " ", roff(help.operands),
-                     roff(help.about), manual_options(own), roff(help.example));
+                     roff(help.about), manual_options(own),
+                     roff(example_with(help.example, kSystemDemo)));
+}
+
+std::string example_with(std::string example, const std::string& demo) {
+  constexpr std::string_view kSources = "data/demo", kAllSources = "batch data ";
+  for (size_t at = 0; (at = example.find(kSources, at)) != std::string::npos; at += demo.size())
+    example.replace(at, kSources.size(), demo);
+  if (const size_t at = example.find(kAllSources); at != std::string::npos)
+    example.replace(at, kAllSources.size(), fmt::format("batch {} ", demo));
+  return example;
+}
+
+std::string installed_demo() {
+  std::error_code ignored;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const auto demo = program.parent_path().parent_path() / "share/walktrack/demo";
+  return std::filesystem::is_directory(demo, ignored) ? demo.string() : "";
 }
 
 std::string manual_options(const po::options_description& options) {

@@ -19,6 +19,12 @@ inline constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 failed, 2 usage or configuration, 3 input unreadable,\n"
     "            4 done but lost or below a quality gate, 130 interrupted\n";
 
+// The example of a command with the demo where it is for whoever reads it: in `demo`, which stands
+// for data/demo of the source tree.
+std::string example_with(std::string example, const std::string& demo);
+// The demo of an installed program, "" of one that was not installed.
+std::string installed_demo();
+
 // The whole page in man(7), all commands' parts included.
 void print_manual(std::span<const Command> commands);
 

@@ -19,12 +19,12 @@ if ! command -v clang++ >/dev/null; then
   exit 0
 fi
 
-cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz
 targets=("$@")
 if [ ${#targets[@]} -eq 0 ]; then
   for corpus in tests/fuzz/corpus/*/; do targets+=("$(basename "$corpus")"); done
 fi
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}"
 for target in "${targets[@]}"; do
   log=build/fuzz/$target.log
   if ! build/fuzz/fuzz_"$target" $limit -max_len=4096 -timeout=60 -seed="${FUZZ_SEED:-0}" -print_final_stats=1 \

@@ -47,10 +47,6 @@ double outward(Side side) { return side == Side::kLeft ? 1.0 : -1.0; }
 
 size_t index(Side side) { return static_cast<size_t>(side); }
 
-Matrix3d world_from_pelvis(const Pose& pose) {
-  return rotation_z(pose.heading) * rotation_x(pose.list) * rotation_y(pose.tilt);
-}
-
 Matrix3d pelvis_from_thigh(const LegPose& leg, Side side) {
   return rotation_x(outward(side) * leg.hip_abduction) * rotation_y(-leg.hip_flexion) *
          rotation_z(-outward(side) * leg.hip_rotation);
@@ -109,6 +105,10 @@ void place_arm(const Body& body, const Pose& pose, Side side, Skeleton& out) {
 }
 
 }  // namespace
+
+Matrix3d world_from_pelvis(const Pose& pose) {
+  return rotation_z(pose.heading) * rotation_x(pose.list) * rotation_y(pose.tilt);
+}
 
 Skeleton forward_kinematics(const Body& body, const Pose& pose) {
   Skeleton out;

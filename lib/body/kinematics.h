@@ -31,6 +31,8 @@ struct PosedPart {
   Appearance appearance;
 };
 
+Eigen::Matrix3d world_from_pelvis(const Pose& pose);
+
 Skeleton forward_kinematics(const Body& body, const Pose& pose);
 
 // A list of at most kMaxParts. Lives on the stack: a particle's likelihood allocates nothing.

@@ -9,6 +9,8 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include "core/cpu_limits.h"
+
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
 #endif
@@ -45,7 +47,9 @@ void in_arena(int threads, const F& f) {
 }  // namespace
 
 int hardware_threads() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int allowed = allowed_cpus();
+  const int cpus = allowed > 0 ? allowed : static_cast<int>(std::thread::hardware_concurrency());
+  return threads_for(cpus, cpu_time_limit());
 }
 
 int thread_count(int wanted) { return wanted > 0 ? wanted : hardware_threads(); }

@@ -15,10 +15,10 @@
 
 namespace walktrack {
 
-// Hardware threads of this machine, at least 1.
+// Threads of this machine that the process may use (core/cpu_limits.h), at least 1.
 int hardware_threads();
 
-// As many as are wanted; 0: all of the machine.
+// As many as are wanted; 0: all that the process may use.
 int thread_count(int wanted);
 
 // Calls body(context, begin, end) on disjoint ranges that cover [0, n).

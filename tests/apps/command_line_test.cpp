@@ -1,4 +1,6 @@
 // The command line from outside: exit codes, where output goes, and what messages say.
+#include <filesystem>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
+using testing::Not;
 using testing::StartsWith;
 
 // The names in the overview, so that a new command is tested as soon as it is listed.
@@ -73,11 +76,29 @@ TEST(CommandLine, ItsVersionIsThatOfTheProject) {
   EXPECT_THAT(run_walktrack({"--help-man"}).out, HasSubstr("\"walktrack " + version + "\""));
 }
 
-TEST(CommandLine, WithoutACommandShowsTheOverviewAsAnError) {
+TEST(CommandLine, WithoutACommandShowsTheOverview) {
   const ProgramResult result = run_walktrack({});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.out, IsEmpty());
-  EXPECT_THAT(result.err, HasSubstr("Commands:"));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("Commands:"));
+  EXPECT_THAT(result.err, IsEmpty());
+}
+
+// The program as `cmake --install` lays it down: PREFIX/bin, and the demo in PREFIX/share.
+TEST(CommandLine, InstalledItsExamplesNameTheInstalledDemo) {
+  const TemporaryFolder prefix;
+  namespace fs = std::filesystem;
+  fs::create_directories(prefix / "bin");
+  fs::create_directories(prefix / "share/walktrack/demo");
+  fs::copy_file(WALKTRACK_BINARY, prefix / "bin/walktrack");
+  const std::string demo = prefix / "share/walktrack/demo";
+  for (const std::string& name : commands()) {
+    const std::string help = run_program(prefix / "bin/walktrack", {name, "--help"}).out;
+    for (const char* source : {" data", "lib/", "build/"})
+      EXPECT_THAT(help, Not(HasSubstr(source))) << name;
+  }
+  EXPECT_THAT(run_program(prefix / "bin/walktrack", {"track", "--help"}).out,
+              HasSubstr("walktrack track " + demo + "/scene.yaml -o out/demo"));
+  EXPECT_THAT(run_walktrack({"--help-man"}).out, Not(HasSubstr(" data")));
 }
 
 struct Mistake {

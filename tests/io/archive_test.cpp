@@ -1,11 +1,14 @@
 #include "io/archive/archive.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace walktrack {
 namespace {
 
 enum class Colour : uint8_t { kRed = 3 };
+constexpr Colour last_value(Colour) { return Colour::kRed; }
 
 struct Inner {
   double x = 0;
@@ -81,6 +84,76 @@ TEST(Archive, ALengthBeyondTheBytesTakesNoMemory) {
   ArchiveReader reader(writer.bytes(), "a.bin");
   std::vector<Inner> list;
   EXPECT_THROW(reader(list), InputError);
+}
+
+// What two ends of the same bytes make of them: one value written as A, read as B.
+template <typename Written, typename Read>
+Read read_as(const Written& written) {
+  ArchiveWriter writer;
+  writer(written);
+  ArchiveReader reader(writer.bytes(), "a.bin");
+  Read value{};
+  reader(value);
+  return value;
+}
+
+TEST(Archive, AByteThatIsNoValueOfAnEnumOrAFlagIsAnError) {
+  EXPECT_EQ((read_as<uint8_t, Colour>(3)), Colour::kRed);
+  EXPECT_THROW((read_as<uint8_t, Colour>(4)), InputError);
+  EXPECT_THROW((read_as<uint8_t, Colour>(255)), InputError);
+  EXPECT_TRUE((read_as<uint8_t, bool>(1)));
+  EXPECT_THROW((read_as<uint8_t, bool>(2)), InputError);
+}
+
+TEST(Archive, NumbersAreFiniteUnlessTheirFieldSaysAnything) {
+  for (const double odd : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    EXPECT_THROW((read_as<double, double>(odd)), InputError);
+    EXPECT_THROW((read_as<std::vector<double>, std::vector<double>>({1, odd})), InputError);
+    EXPECT_THROW((read_as<Inner, Inner>({1, {0, odd}})), InputError);
+    ArchiveWriter writer;
+    writer(odd, odd);
+    ArchiveReader reader(writer.bytes(), "a.bin");
+    double first = 0, second = 0;
+    reader(any_number(first));
+    EXPECT_FALSE(std::isfinite(first));
+    EXPECT_THROW(reader(second), InputError) << "the next field is finite again";
+  }
+}
+
+TEST(Archive, NumbersWithBoundsKeepThem) {
+  for (const int number : {-1, 0, 17, 18}) {
+    ArchiveWriter writer;
+    writer(number);
+    ArchiveReader reader(writer.bytes(), "a.bin");
+    int found = 0;
+    const bool inside = number >= 0 && number <= 17;
+    if (inside) {
+      reader(within(found, 0, 17));
+      EXPECT_EQ(found, number);
+    } else {
+      EXPECT_THROW(reader(within(found, 0, 17)), InputError);
+    }
+  }
+}
+
+struct Wide {
+  std::array<Inner, 40> inner;
+};
+template <typename Archive, ArchivedAs<Wide> T>
+void fields(Archive& archive, T& value) {
+  auto& [inner] = value;
+  archive(inner);
+}
+
+// 1,000 bytes cannot hold 1,000 elements of 960: they are refused before there is memory for them.
+TEST(Archive, AListIsNoLongerThanTheBytesCanHold) {
+  EXPECT_EQ(least_bytes<Wide>(), 960u);
+  ArchiveWriter writer;
+  writer(uint64_t{1000}, std::string(992, 'a'));
+  ArchiveReader reader(writer.bytes(), "a.bin");
+  std::vector<Wide> list;
+  EXPECT_THROW(reader(list), InputError);
+  EXPECT_EQ(list.capacity(), 0u);
 }
 
 }  // namespace

@@ -1,8 +1,12 @@
 #include "io/archive/checkpoint_file.h"
 
+#include <cmath>
+#include <functional>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/io/sample_state.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -13,23 +17,9 @@ using testing::HasSubstr;
 
 const Origin kOrigin{{"version", "1"}, {"scene", "abc"}};
 
-Checkpoint checkpoint() {
-  Checkpoint out{kOrigin, 7, 5, 1234, {}, {{{1, 2, 3, 4}, .01, true}}, {}};
-  ObserverState observer;
-  observer.background = BackgroundModel{2, 1, {.1f, .2f}, {}, {}, {}, {}};
-  observer.grey_before = {1, 2, 3};
-  out.observers = {observer};
-  out.tracker.filter.set.states.resize(3);
-  out.tracker.filter.set.states[2].pose.heading = 0.5;
-  out.tracker.filter.scale = 0.25;
-  out.tracker.supports = {1, 2};
-  out.tracker.last_seen = LastSeen{{1, 2}, {3, 4}, 6};
-  return out;
-}
-
 class CheckpointFile : public testing::Test {
  protected:
-  CheckpointFile() { write_checkpoint(path_, checkpoint()); }
+  CheckpointFile() { write_checkpoint(path_, sample_checkpoint(kOrigin)); }
   const TemporaryFolder folder_;
   const fs::path path_ = folder_.path() / "checkpoint.bin";
 };
@@ -43,7 +33,7 @@ TEST_F(CheckpointFile, ComesBack) {
   EXPECT_EQ(found.checkpoint->regions.at(0).area.y1, 4);
   EXPECT_EQ(found.checkpoint->observers.at(0).grey_before, (std::vector<uint8_t>{1, 2, 3}));
   EXPECT_EQ(found.checkpoint->observers[0].background->luma[1], .2f);
-  EXPECT_EQ(found.checkpoint->tracker.filter.set.states.at(2).pose.heading, 0.5);
+  EXPECT_EQ(found.checkpoint->tracker.filter.set.states.at(0).pose.heading, 0.5);
   EXPECT_EQ(found.checkpoint->tracker.filter.scale, 0.25);
   EXPECT_EQ(found.checkpoint->tracker.last_seen->velocity.y(), 4);
 }
@@ -74,6 +64,61 @@ TEST_F(CheckpointFile, ADamagedOneIsNotBelieved) {
     folder_.write("checkpoint.bin", sound.substr(0, at));
     EXPECT_THAT(read_checkpoint(path_, kOrigin).unfit, HasSubstr("no sound checkpoint")) << at;
   }
+}
+
+struct Damage {
+  const char* what;
+  std::function<void(Checkpoint&)> change;
+};
+
+// Whoever changes a number can put the digest right, too.
+TEST_F(CheckpointFile, OneThatDoesNotFitTogetherIsNotBelievedWithTheRightDigestEither) {
+  const auto state = [](Checkpoint& c) -> WalkerParticle& {
+    return c.tracker.filter.set.states[0];
+  };
+  const std::vector<Damage> all{
+      {"an unknown value", [&](Checkpoint& c) { state(c).stance = static_cast<Side>(7); }},
+      {"not finite", [&](Checkpoint& c) { state(c).pose.root.x() = NAN; }},
+      {"not finite", [&](Checkpoint& c) { state(c).walker.qd[3] = HUGE_VAL; }},
+      {"a weight", [](Checkpoint& c) { c.tracker.filter.set.log_weights[0] = NAN; }},
+      {"all dead", [](Checkpoint& c) { c.tracker.filter.set.log_weights[0] = -HUGE_VAL; }},
+      {"different numbers", [](Checkpoint& c) { c.tracker.filter.set.log_weights.pop_back(); }},
+      {"different numbers", [](Checkpoint& c) { c.tracker.filter.set = {}; }},
+      {"different numbers", [](Checkpoint& c) { c.regions.clear(); }},
+      {"out of its bounds", [](Checkpoint& c) { c.tracker.frames_below = -1; }},
+      {"out of its bounds",
+       [](Checkpoint& c) {
+         c.tracker.stature = Stature{-1.7, 0.1};
+       }},
+      {"out of its bounds", [](Checkpoint& c) { c.observers[0].frames = -1; }},
+      {"a background", [](Checkpoint& c) { c.observers[0].background->green.pop_back(); }},
+      {"a background", [](Checkpoint& c) { c.observers[0].background->width = 1 << 20; }},
+      {"an image", [](Checkpoint& c) { c.observers[0].grey_width = 1 << 20; }},
+      {"colours", [](Checkpoint& c) { c.observers[0].appearance.resize(1); }},
+      {"colours",
+       [](Checkpoint& c) {
+         c.observers[0].scene = {1, 2};
+       }},
+  };
+  for (const Damage& damage : all) {
+    Checkpoint damaged = sample_checkpoint(kOrigin);
+    damage.change(damaged);
+    write_checkpoint(path_, damaged);
+    const FoundCheckpoint found = read_checkpoint(path_, kOrigin);
+    EXPECT_FALSE(found.checkpoint) << damage.what;
+    EXPECT_THAT(found.unfit, testing::StartsWith(path_.string() + ": is damaged: "));
+    EXPECT_THAT(found.unfit, HasSubstr(damage.what));
+  }
+  const std::string longer = checkpoint_bytes(sample_checkpoint(kOrigin)) + "x";
+  EXPECT_THAT(parse_checkpoint(longer, "c.bin", kOrigin).unfit, HasSubstr("more than it"));
+}
+
+// A dead particle may be anything.
+TEST_F(CheckpointFile, NobodyAsksWhatTheDeadAre) {
+  Checkpoint odd = sample_checkpoint(kOrigin);
+  odd.tracker.filter.set.states[1].pose.root.x() = NAN;
+  write_checkpoint(path_, odd);
+  EXPECT_EQ(read_checkpoint(path_, kOrigin).unfit, "");
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ TEST(KineticsFile, GroundForcesOfATableReadBack) {
     written.frames.push_back(frame);
   }
   const fs::path file = fs::path(testing::TempDir()) / "kinetics.csv";
-  write_file_atomically(file, simulated_kinetics_csv(written, Subject{}));
+  write_file_atomically(file, simulated_kinetics_csv(written));
   const GroundForces read = read_ground_forces(file);
   ASSERT_EQ(read.time.size(), 4u);
   EXPECT_NEAR(read.time[3], 0.1, 1e-6);

@@ -1,7 +1,9 @@
 #include "io/tables/opensim.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <span>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -10,6 +12,7 @@
 
 #include "body/kinematics.h"
 #include "core/conventions.h"
+#include "core/errors.h"
 
 namespace walktrack {
 namespace {
@@ -34,8 +37,89 @@ Motion two_frames() {
   return motion;
 }
 
-// OpenSim's TRCFileAdapter: five header lines, then a blank one; every row has the same cells.
-TEST(Trc, HasTheFormOpenSimReads) {
+// A line as OpenSim cuts it: at every tab; what follows the last tab is a cell if it is not empty.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  size_t at = 0;
+  for (size_t tab = 0; (tab = line.find('\t', at)) != std::string::npos; at = tab + 1)
+    cells.push_back(line.substr(at, tab - at));
+  if (at < line.size()) cells.push_back(line.substr(at));
+  return cells;
+}
+
+std::vector<std::string> without_empty(std::vector<std::string> cells) {
+  std::erase(cells, "");
+  return cells;
+}
+
+struct Markers {
+  std::vector<std::string> names;
+  std::vector<double> time;
+  std::vector<std::vector<Eigen::Vector3d>> rows;  // NaN = missing
+};
+
+// A .trc as OpenSim 4 reads it (TRCFileAdapter): eight keys with a value each; as many names as
+// NumMarkers; X1, Y1, Z1, ...; then rows, of 2 + 3 NumMarkers cells each or the file is refused,
+// where a marker with an empty cell is missing. Blank lines may come before the first row, and the
+// first one after it ends the table.
+Markers read_trc(const std::string& text) {
+  const auto refuse = [](const std::string& why) { throw InputError(why); };
+  const auto lines = split(text, '\n');
+  if (lines.size() < 6 || !lines[0].starts_with("PathFileType")) refuse("no header");
+  const auto keys = without_empty(cells_of(lines[1])), values = without_empty(cells_of(lines[2]));
+  if (keys.size() != 8 || values.size() != 8 || keys[3] != "NumMarkers") refuse("keys");
+  const size_t markers = std::stoul(values[3]);
+  Markers out;
+  out.names = without_empty(cells_of(lines[3]));
+  if (out.names.size() != markers + 2 || out.names[0] != "Frame#" || out.names[1] != "Time")
+    refuse("names");
+  out.names.erase(out.names.begin(), out.names.begin() + 2);
+  const auto axes = without_empty(cells_of(lines[4]));
+  for (size_t k = 0; k < 3 * markers; ++k)
+    if (axes.at(k) != std::string(1, "XYZ"[k % 3]) + std::to_string(k / 3 + 1)) refuse("axes");
+  size_t line = 5;
+  while (line < lines.size() && cells_of(lines[line]).empty()) ++line;
+  for (; line < lines.size() && !cells_of(lines[line]).empty(); ++line) {
+    const auto cells = cells_of(lines[line]);
+    if (cells.size() != 3 * markers + 2)
+      refuse("expected " + std::to_string(3 * markers + 2) + " cells, found " +
+             std::to_string(cells.size()));
+    out.time.push_back(std::stod(cells[1]));
+    std::vector<Eigen::Vector3d>& row = out.rows.emplace_back();
+    for (size_t c = 2; c < cells.size(); c += 3) {
+      const bool known = !cells[c].empty() && !cells[c + 1].empty() && !cells[c + 2].empty();
+      row.push_back(known ? Eigen::Vector3d(std::stod(cells[c]), std::stod(cells[c + 1]),
+                                            std::stod(cells[c + 2]))
+                          : Eigen::Vector3d::Constant(NAN));
+    }
+  }
+  if (out.rows.size() != std::stoul(values[2])) refuse("frames");
+  return out;
+}
+
+// A marker missing, the last one missing, nobody there, everybody there.
+TEST(Trc, IsReadAsOpenSimReadsItWithWhatIsMissing) {
+  Motion motion = two_frames();
+  motion.time = {0, 0.04, 0.08, 0.12};
+  motion.joints.push_back(unknown_joints());
+  motion.joints.push_back(motion.joints[0]);
+  motion.joints[0][Joint::kRightToe].setConstant(NAN);
+  const Markers markers = read_trc(trc_from_motion(motion, 25, "joints.trc"));
+  EXPECT_EQ(markers.names.front(), "pelvis");
+  EXPECT_EQ(markers.names.back(), "rtoe");
+  EXPECT_EQ(markers.time, motion.time);
+  const Eigen::Vector3d there(1, 3, -2);
+  const auto neck = static_cast<size_t>(Joint::kNeck), toe = static_cast<size_t>(Joint::kRightToe);
+  EXPECT_EQ(markers.rows[0][neck], there);
+  EXPECT_TRUE(markers.rows[0][toe].hasNaN());
+  EXPECT_TRUE(markers.rows[1][neck].hasNaN());
+  EXPECT_EQ(markers.rows[1][toe], there);
+  for (const Eigen::Vector3d& marker : markers.rows[2]) EXPECT_TRUE(marker.hasNaN());
+  for (const Eigen::Vector3d& marker : std::span(markers.rows[3]).first(toe))
+    EXPECT_EQ(marker, there);
+}
+
+TEST(Trc, HasTheFormOfItsKind) {
   const auto lines = split(trc_from_motion(two_frames(), 25, "joints.trc"), '\n');
   ASSERT_EQ(lines.size(), 8u);
   EXPECT_EQ(lines[0], "PathFileType\t4\t(X/Y/Z)\tjoints.trc");
@@ -45,12 +129,17 @@ TEST(Trc, HasTheFormOpenSimReads) {
   EXPECT_EQ(lines[5], "");
   EXPECT_THAT(lines[6], StartsWith("1\t0.000000\t1.000000\t3.000000\t-2.000000\t1.0"));
   EXPECT_THAT(lines[7], StartsWith("2\t0.040000\t1.000000\t3.000000\t-2.000000\t\t\t\t1.0"));
+  // As many cells in a row as columns in the head: other tools read it as one table.
+  for (const size_t row : {4, 6, 7})
+    EXPECT_EQ(std::count(lines[row].begin(), lines[row].end(), '\t'), 2 + 3 * 11) << row;
 }
 
+constexpr double kHipWidth = 0.15452;  // m, of the model that is not scaled
+
 // A row of angles.mot by column name.
-std::map<std::string, double> angles_of_row(const Pose& pose) {
+std::map<std::string, double> angles_of_row(const Pose& pose, double hip_width = kHipWidth) {
   const std::vector<double> times{0.5};
-  const std::string text = mot_from_poses(times, {&pose, 1}, "angles");
+  const std::string text = mot_from_poses(times, {&pose, 1}, hip_width, "angles");
   const auto lines = split(text.substr(text.find("endheader\n") + 10), '\n');
   const auto names = split(lines[0], '\t'), cells = split(lines[1], '\t');
   EXPECT_EQ(names.size(), cells.size());
@@ -72,9 +161,9 @@ TEST(Mot, SingleAnglesHaveTheSignsOfTheHeader) {
   pose.legs[1].ankle_dorsiflexion = -0.4;
   auto row = angles_of_row(pose);
   EXPECT_EQ(row["time"], 0.5);
-  EXPECT_EQ(row["pelvis_tx"], 1);
-  EXPECT_EQ(row["pelvis_ty"], 3);
-  EXPECT_EQ(row["pelvis_tz"], -2);
+  EXPECT_NEAR(row["pelvis_tx"], 1 + 0.056276, 1e-6);
+  EXPECT_NEAR(row["pelvis_ty"], 3 + 0.07849, 1e-6);
+  EXPECT_NEAR(row["pelvis_tz"], -2, 1e-6);
   EXPECT_NEAR(row["hip_flexion_l"], deg_from_rad(0.1), kDigits);
   EXPECT_NEAR(row["hip_adduction_r"], -deg_from_rad(0.2), kDigits);
   EXPECT_NEAR(row["knee_angle_l"], deg_from_rad(0.3), kDigits);
@@ -103,31 +192,70 @@ Eigen::Matrix3d about(const Eigen::Vector3d& axis, double angle_deg) {
   return Eigen::AngleAxisd(rad_from_deg(angle_deg), axis).toRotationMatrix();
 }
 
-// Composing the written angles as OpenSim does gives the thigh's direction of forward kinematics.
-TEST(Mot, ComposedAnglesPointTheThighWhereKinematicsDoes) {
-  const Body body = make_body(Subject{}, {});
+// The model in OpenSim with the written coordinates: its pelvis, hips where the Rajagopal model has
+// them in a pelvis of the subject's size, thighs, shanks and feet of the subject's lengths. Joints
+// in OpenSim's ground.
+std::map<std::string, Eigen::Vector3d> opensim_joints(std::map<std::string, double> row,
+                                                      const BodyLengths& lengths) {
+  const auto x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
+             z = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d origin(row["pelvis_tx"], row["pelvis_ty"], row["pelvis_tz"]);
+  const Eigen::Matrix3d pelvis = about(z, row["pelvis_tilt"]) * about(x, row["pelvis_list"]) *
+                                 about(y, row["pelvis_rotation"]);
+  const double scale = lengths.hip_width / (2 * 0.07726);
+  std::map<std::string, Eigen::Vector3d> out;
+  for (const std::string end : {"l", "r"}) {
+    const double right = end == "r" ? 1 : -1;
+    const auto angle = [&](const std::string& name) { return row[name + "_" + end]; };
+    const Eigen::Vector3d hip =
+        origin + pelvis * (scale * Eigen::Vector3d(-0.056276, -0.07849, right * 0.07726));
+    const Eigen::Matrix3d thigh = pelvis * about(z, angle("hip_flexion")) *
+                                  about(right * x, angle("hip_adduction")) *
+                                  about(right * y, angle("hip_rotation"));
+    const Eigen::Matrix3d shank = thigh * about(z, -angle("knee_angle"));
+    const Eigen::Matrix3d foot = shank * about(z, angle("ankle_angle"));
+    const Eigen::Vector3d knee = hip - lengths.thigh * thigh.col(1),
+                          ankle = knee - lengths.shank * shank.col(1);
+    out[end + "hip"] = hip;
+    out[end + "knee"] = knee;
+    out[end + "ankle"] = ankle;
+    out[end + "toe"] =
+        ankle +
+        foot * Eigen::Vector3d(lengths.ball_forward, lengths.ball_height - lengths.ankle_height, 0);
+  }
+  return out;
+}
+
+TEST(Mot, TheModelInOpenSimStandsWhereTheJointsAre) {
+  Subject subject;
+  subject.height = 1.6;
+  const Body body = make_body(subject, {});
   Pose pose;
+  pose.root = {1, -2, 0.9};
   pose.heading = 0.4;
   pose.list = 0.1;
   pose.tilt = 0.2;
   pose.legs[0] = {0.6, 0.15, 0.1, 0.5, 0.1};
-  pose.legs[1] = {-0.3, 0.1, -0.2, 0.2, 0.0};
-  auto row = angles_of_row(pose);
-  const auto x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
-             z = Eigen::Vector3d::UnitZ();
-  const Eigen::Matrix3d pelvis = about(z, row["pelvis_tilt"]) * about(x, row["pelvis_list"]) *
-                                 about(y, row["pelvis_rotation"]);
+  pose.legs[1] = {-0.3, 0.1, -0.2, 0.2, 0.05};
+  const auto found = opensim_joints(angles_of_row(pose, body.lengths.hip_width), body.lengths);
   const Skeleton skeleton = forward_kinematics(body, pose);
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const std::string end = side == Side::kLeft ? "_l" : "_r";
-    const double mirror = side == Side::kLeft ? -1 : 1;
-    const Eigen::Matrix3d thigh = pelvis * about(z, row["hip_flexion" + end]) *
-                                  about(mirror * x, row["hip_adduction" + end]) *
-                                  about(mirror * y, row["hip_rotation" + end]);
-    const Eigen::Vector3d down = thigh * -y;
-    const Eigen::Vector3d truth =
-        (skeleton.joints[knee(side)] - skeleton.joints[hip(side)]).normalized();
-    EXPECT_LT((down - Eigen::Vector3d(truth.x(), truth.z(), -truth.y())).norm(), 1e-6);
+  for (const auto& [name, place] : found) {
+    const auto at = std::ranges::find(kJointNames, name) - kJointNames.begin();
+    const Eigen::Vector3d& truth = skeleton.joints.at[static_cast<size_t>(at)];
+    // Six digits of metres and of degrees along a leg.
+    EXPECT_LT((place - Eigen::Vector3d(truth.x(), truth.z(), -truth.y())).norm(), 2e-6) << name;
+  }
+}
+
+// Feet flat on the ground in joints.csv are so in OpenSim: neither sunken nor floating.
+TEST(Mot, FeetStandOnTheGround) {
+  const Body body = make_body(Subject{}, {});
+  Pose pose;
+  pose.root.z() = leg_length(body.lengths);
+  const auto found = opensim_joints(angles_of_row(pose, body.lengths.hip_width), body.lengths);
+  for (const char* side : {"l", "r"}) {
+    EXPECT_NEAR(found.at(side + std::string("ankle")).y(), body.lengths.ankle_height, 2e-6);
+    EXPECT_NEAR(found.at(side + std::string("toe")).y(), body.lengths.ball_height, 2e-6);
   }
 }
 

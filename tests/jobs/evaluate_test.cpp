@@ -116,7 +116,7 @@ TEST_F(Evaluate, ComparesGroundForcesWhereBothAreThere) {
       of.time.push_back(time);
       of.frames.push_back(frame);
     }
-    return simulated_kinetics_csv(of, Subject{});
+    return simulated_kinetics_csv(of);
   };
   EvaluateJob job;
   job.truth = write("scene/truth.csv", motion_csv(walk));

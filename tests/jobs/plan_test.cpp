@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include "core/conventions.h"
@@ -53,9 +54,11 @@ TEST(Plan, WhatIsOffCostsNothingAndIsNoCost) {
     EXPECT_FALSE(item(plan, name).on) << name;
     EXPECT_EQ(item(plan, name).ms, 0) << name;
   }
-  for (const FrameCost::OfCamera& camera : plan.cost.cameras) {
-    EXPECT_EQ(camera.flow, 0);
-    EXPECT_EQ(camera.appearance, 0);
+  for (const Costs& camera : plan.cost.cameras) {
+    for (const auto& [what, ms] : camera) {
+      EXPECT_NE(what, "flow");
+      EXPECT_NE(what, "appearance");
+    }
   }
   EXPECT_THAT(plan_text(plan), Not(HasSubstr("  flow         ")));
   EXPECT_THAT(plan_text(plan), HasSubstr("off flow"));
@@ -165,13 +168,30 @@ TEST(PlanLevels, SayWhyTheSagittalPathIsNotEnough) {
   EXPECT_THAT(plan_with({}, scene).levels.why, HasSubstr("several cameras"));
   scene.cameras.resize(1);
   scene.initial.reset();
-  EXPECT_THAT(plan_with({}, scene).levels.why, HasSubstr("no `initial`"));
   scene.initial = InitialState{0, {0, 0}, 0.5 * kPi, {}, {}};
   EXPECT_THAT(plan_with({}, scene).levels.why, HasSubstr("0 degrees off the camera's line"));
   scene.initial = InitialState{0, {0, 0}, 0, {}, {}};
   Camera& camera = scene.cameras[0].camera;
   camera.translation -= camera.rotation * Eigen::Vector3d(0, 0, 4);
   EXPECT_THAT(plan_with({}, scene).levels.why, HasSubstr("degrees above the horizon"));
+}
+
+// Nothing but the camera says how the walk is seen: level ones are put up for walks across.
+TEST(PlanLevels, WithoutABeginningALevelCameraIsTakenToSeeTheWalkFromTheSide) {
+  Scene scene = demo();
+  scene.cameras.resize(1);
+  scene.initial.reset();
+  const Plan level = plan_with({}, scene);
+  EXPECT_TRUE(level.levels.levels[0].lowest) << level.levels.why;
+  EXPECT_FALSE(level.levels.levels[1].lowest);
+  EXPECT_THAT(level.levels.why, HasSubstr("no `initial`"));
+  Camera& camera = scene.cameras[0].camera;
+  const double down = rad_from_deg(40);
+  const Eigen::Matrix3d tilt = Eigen::AngleAxisd(down, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  camera.rotation = (tilt * camera.rotation).eval();
+  const Plan steep = plan_with({}, scene);
+  EXPECT_TRUE(steep.levels.levels[1].lowest) << steep.levels.why;
+  EXPECT_THAT(steep.levels.why, testing::ContainsRegex("looks [0-9]+ degrees (down|up)"));
 }
 
 TEST(PlanLevels, NameTheirProof) {

@@ -13,6 +13,7 @@
 #include "io/archive/frame_file.h"
 #include "jobs/track/track.h"
 #include "jobs/track/track_origin.h"
+#include "tests/message_of.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -193,6 +194,29 @@ TEST_F(Resume, ACheckpointIsNotThrownAwayUnasked) {
   anew.overwrite = true;
   EXPECT_NO_THROW(track_scene(anew, {}));
   EXPECT_EQ(resumed_at("killed"), 0);
+}
+
+// One bit of a pose that the tables are to be made of.
+TEST_F(Resume, DamagedFramesAreSaidAndTheTrackStartsAnew) {
+  track_scene(job("whole"), {});
+  kill(job("killed"), 15);
+  const std::string file = "killed/frames.bin";
+  std::string damaged = read_file(folder_ / file);
+  damaged[5] = '\x7f';  // the number of joints in the first record
+  folder_.write(file, damaged);
+  TrackJob again = job("killed");
+  again.resume = true;
+  EXPECT_THAT(
+      message_of<UsageError>([&] { track_scene(again, {}); }),
+      testing::EndsWith("frames.bin: is damaged: a number out of its bounds; -y starts anew"));
+  again.overwrite = true;
+  std::string said;
+  JobControl control;
+  control.message = [&](std::string_view text) { said += text; };
+  track_scene(again, control);
+  EXPECT_THAT(said, testing::HasSubstr("out of its bounds: starting anew"));
+  EXPECT_EQ(resumed_at("killed"), 0);
+  EXPECT_EQ(result("killed"), result("whole"));
 }
 
 TEST_F(Resume, ACheckpointOfSomethingElseIsRefusedOrLeftBehind) {

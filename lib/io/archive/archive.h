@@ -1,6 +1,11 @@
 // Plain structs as bytes and back, for files that only the program that wrote them reads again.
 // Numbers are stored as this machine holds them, lists and texts with their length in front.
 //
+// A file may be damaged or made by somebody else, so a reader believes nothing: a flag is 0 or 1,
+// an enum one of its values, a number finite unless its field says any_number(), a number that is
+// used as a count or an index within(its bounds), a list no longer than the bytes that are left can
+// hold. An enum takes part by last_value(E), its largest value; the smallest is 0.
+//
 // A struct takes part by a function that names all of its members, for both directions:
 //   template <typename Archive, ArchivedAs<Point> T>
 //   void fields(Archive& archive, T& value) {
@@ -11,11 +16,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -30,6 +37,28 @@ namespace walktrack {
 
 template <typename T, typename Struct>
 concept ArchivedAs = std::same_as<std::remove_const_t<T>, Struct>;
+
+// A field whose numbers may be anything: "unknown" and "impossible" are NaN and infinities.
+template <typename T>
+struct AnyNumber {
+  T& value;
+};
+template <typename T>
+AnyNumber<T> any_number(T& value) {
+  return {value};
+}
+
+// A number from `least` to `most`.
+template <typename T>
+struct Within {
+  T& value;
+  std::remove_const_t<T> least, most;
+};
+template <typename T>
+Within<T> within(T& value, std::type_identity_t<std::remove_const_t<T>> least,
+                 std::type_identity_t<std::remove_const_t<T>> most) {
+  return {value, least, most};
+}
 
 class ArchiveWriter {
  public:
@@ -49,6 +78,14 @@ class ArchiveWriter {
     } else {
       fields(*this, value);
     }
+  }
+  template <typename T>
+  void put(const AnyNumber<T>& field) {
+    put(field.value);
+  }
+  template <typename T>
+  void put(const Within<T>& field) {
+    put(field.value);
   }
   template <typename T, int Rows, int Columns>
   void put(const Eigen::Matrix<T, Rows, Columns>& value) {
@@ -89,18 +126,33 @@ class ArchiveWriter {
   std::string bytes_;
 };
 
+// The bytes that a T takes at least: one whose lists and optional members are empty.
+template <typename T>
+size_t least_bytes() {
+  static const size_t bytes = [] {
+    ArchiveWriter writer;
+    writer(T{});
+    return writer.bytes().size();
+  }();
+  return bytes;
+}
+
 // Reads what a writer wrote, in the same order. InputError, naming the file, where the bytes end
-// before what they announce.
+// before what they announce or hold what no writer has written.
 class ArchiveReader {
  public:
   // Both have to outlive the reader.
   ArchiveReader(std::string_view bytes, std::string_view file) : rest_(bytes), file_(file) {}
 
   template <typename... T>
-  void operator()(T&... values) {
+  void operator()(T&&... values) {
     (get(values), ...);
   }
   bool at_end() const { return rest_.empty(); }
+  // InputError: what was read does not fit together.
+  [[noreturn]] void fail(std::string_view what) const {
+    throw InputError(std::string(file_) + ": is damaged: " + std::string(what));
+  }
 
  private:
   void raw(void* data, size_t size) {
@@ -111,30 +163,59 @@ class ArchiveReader {
   [[noreturn]] void ends_early() const {
     throw InputError(std::string(file_) + ": ends before what it announces");
   }
-  // A length, which no element can undercut by taking less than `least` bytes.
+  // A length of a list whose elements take at least so many bytes each.
   size_t length(size_t least) {
     uint64_t count = 0;
     get(count);
     if (count > rest_.size() / least) ends_early();
     return static_cast<size_t>(count);
   }
+  template <typename T>
+  void numbers(std::span<T> values) {
+    raw(values.data(), values.size_bytes());
+    if constexpr (std::is_floating_point_v<T>) {
+      for (const T value : values)
+        if (!any_number_ && !std::isfinite(value)) fail("a number that is not finite");
+    }
+  }
 
   template <typename T>
   void get(T& value) {
-    if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
-      raw(&value, sizeof value);
+    if constexpr (std::is_enum_v<T>) {
+      std::underlying_type_t<T> number{};
+      get(number);
+      if (std::cmp_less(number, 0) || value_of(last_value(T{})) < number) fail("an unknown value");
+      value = static_cast<T>(number);
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      numbers(std::span(&value, 1));
     } else {
       fields(*this, value);
     }
   }
+  template <typename T>
+  static auto value_of(T value) {
+    return static_cast<std::underlying_type_t<T>>(value);
+  }
   void get(bool& value) {
     uint8_t byte = 0;
     get(byte);
+    if (byte > 1) fail("a flag that is neither set nor not");
     value = byte != 0;
+  }
+  template <typename T>
+  void get(AnyNumber<T>& field) {
+    const bool before = std::exchange(any_number_, true);
+    get(field.value);
+    any_number_ = before;
+  }
+  template <typename T>
+  void get(Within<T>& field) {
+    get(field.value);
+    if (field.value < field.least || field.most < field.value) fail("a number out of its bounds");
   }
   template <typename T, int Rows, int Columns>
   void get(Eigen::Matrix<T, Rows, Columns>& value) {
-    raw(value.data(), sizeof(T) * static_cast<size_t>(value.size()));
+    numbers(std::span(value.data(), static_cast<size_t>(value.size())));
   }
   template <typename T, size_t N>
   void get(std::array<T, N>& values) {
@@ -153,17 +234,16 @@ class ArchiveReader {
   }
   template <typename T>
   void get(std::vector<T>& values) {
+    values.resize(length(least_bytes<T>()));
     if constexpr (std::is_arithmetic_v<T>) {
-      values.resize(length(sizeof(T)));
-      raw(values.data(), sizeof(T) * values.size());
+      numbers(std::span(values));
     } else {
-      values.resize(length(1));
       for (T& value : values) get(value);
     }
   }
   template <typename T>
   void get(std::deque<T>& values) {
-    values.resize(length(1));
+    values.resize(length(least_bytes<T>()));
     for (T& value : values) get(value);
   }
   void get(std::string& text) {
@@ -172,6 +252,7 @@ class ArchiveReader {
   }
 
   std::string_view rest_, file_;
+  bool any_number_ = false;
 };
 
 }  // namespace walktrack

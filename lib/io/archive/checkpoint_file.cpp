@@ -4,15 +4,17 @@
 
 #include <fmt/format.h>
 
+#include "core/errors.h"
 #include "io/archive/files.h"
 #include "io/archive/sha256.h"
+#include "io/archive/state_checks.h"
 #include "io/archive/state_fields.h"
 
 namespace walktrack {
 
 namespace {
 
-constexpr std::string_view kFormat = "walktrack checkpoint 2\n";
+constexpr std::string_view kFormat = "walktrack checkpoint 3\n";
 constexpr size_t kDigestBytes = 64;
 
 template <typename Archive, ArchivedAs<Checkpoint> T>
@@ -23,14 +25,19 @@ void state_fields(Archive& archive, T& value) {
 
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+std::string checkpoint_bytes(const Checkpoint& checkpoint) {
   ArchiveWriter archive;
   archive(checkpoint.origin);
   state_fields(archive, checkpoint);
+  return archive.bytes();
+}
+
+void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+  const std::string bytes = checkpoint_bytes(checkpoint);
   AtomicFile file(path);
   file.write(kFormat);
-  file.write(sha256(archive.bytes()));
-  file.write(archive.bytes());
+  file.write(sha256(bytes));
+  file.write(bytes);
   file.commit();
 }
 
@@ -43,18 +50,27 @@ FoundCheckpoint read_checkpoint(const std::filesystem::path& path, const Origin&
   const std::string_view digest = rest.substr(0, kDigestBytes);
   if (headed) rest.remove_prefix(kDigestBytes);
   if (!headed || sha256(rest) != digest)
-    return {{}, fmt::format("{}: found no sound checkpoint of this format", path.string()), {}};
+    return {{}, fmt::format("{}: found no sound checkpoint of this format", path.string())};
+  return parse_checkpoint(rest, path.native(), origin);
+}
+
+FoundCheckpoint parse_checkpoint(std::string_view bytes, std::string_view file,
+                                 const Origin& origin) try {
   Checkpoint checkpoint;
-  ArchiveReader archive(rest, path.native());
+  ArchiveReader archive(bytes, file);
   archive(checkpoint.origin);
   const std::string changed = differences(checkpoint.origin, origin);
   if (!changed.empty())
     return {{},
-            fmt::format("{}: the checkpoint is of other settings or inputs ({})", path.string(),
-                        changed),
+            fmt::format("{}: the checkpoint is of other settings or inputs ({})", file, changed),
             changed};
   state_fields(archive, checkpoint);
-  return {std::move(checkpoint), {}, {}};
+  if (!archive.at_end()) archive.fail("more than it announces");
+  if (const std::string_view trouble = trouble_of(checkpoint); !trouble.empty())
+    archive.fail(trouble);
+  return {std::move(checkpoint)};
+} catch (const InputError& error) {
+  return {{}, error.what()};
 }
 
 }  // namespace walktrack

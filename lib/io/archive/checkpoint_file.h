@@ -2,16 +2,18 @@
 // there to the same bytes. It holds what the next frame depends on and how many frames came before
 // it; their records are in a FrameFile.
 //
-// "walktrack checkpoint 2", the SHA-256 of what follows, and the bytes of io/archive/archive.h:
+// "walktrack checkpoint 3", the SHA-256 of what follows, and the bytes of io/archive/archive.h:
 // what it was made of, then the state. The file is only fit for the program that wrote it, on a
 // machine of the same kind; results of machines whose vector instructions differ may differ in the
-// last digits.
+// last digits. The digest finds damage; what made its own digest is still read field by field
+// (io/archive/state_checks.h).
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/archive/origin.h"
@@ -35,11 +37,16 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 
 struct FoundCheckpoint {
   std::optional<Checkpoint> checkpoint;
-  std::string unfit;    // why the one that is there is of no use; "" = there is none, or it is
-  std::string changed;  // what it was made of otherwise; "" = nothing, or it is not sound
+  std::string unfit{};    // why the one that is there is of no use; "" = there is none, or it is
+  std::string changed{};  // what it was made of otherwise; "" = nothing, or it is not sound
 };
 
 // `origin`: what the checkpoint has to be made of.
 FoundCheckpoint read_checkpoint(const std::filesystem::path& path, const Origin& origin);
+
+// What follows the digest, to and fro. `file` is what messages call it.
+std::string checkpoint_bytes(const Checkpoint& checkpoint);
+FoundCheckpoint parse_checkpoint(std::string_view bytes, std::string_view file,
+                                 const Origin& origin);
 
 }  // namespace walktrack

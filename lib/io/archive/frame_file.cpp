@@ -1,10 +1,12 @@
 #include "io/archive/frame_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -12,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.h"
+#include "io/archive/state_checks.h"
 #include "io/archive/state_fields.h"
 
 namespace walktrack {
@@ -26,6 +29,12 @@ constexpr size_t kLengthBytes = sizeof(uint32_t);
       fmt::format("{}: {}: {}", path.string(), what, std::generic_category().message(errno)));
 }
 
+uint32_t length_from(const std::string& bytes) {
+  uint32_t length = 0;
+  std::memcpy(&length, bytes.data(), kLengthBytes);
+  return length;
+}
+
 }  // namespace
 
 FrameFile::FrameFile(const std::filesystem::path& path, size_t kept)
@@ -33,9 +42,7 @@ FrameFile::FrameFile(const std::filesystem::path& path, size_t kept)
   if (fd_ < 0) fail(path_, "cannot be opened");
   for (size_t i = 0; i < kept; ++i) {
     const uint64_t from = end_of(i);
-    uint32_t length = 0;
-    std::memcpy(&length, read(from, kLengthBytes).data(), kLengthBytes);
-    ends_.push_back(from + kLengthBytes + length);
+    ends_.push_back(from + kLengthBytes + length_from(read(from, kLengthBytes)));
   }
   if (kept > 0) back_ = (*this)[kept - 1];
   if (::ftruncate(fd_, static_cast<off_t>(end_of(kept))) != 0) fail(path_, "cannot be cut");
@@ -74,13 +81,19 @@ void FrameFile::flush() const {
 }
 
 std::string FrameFile::read(uint64_t from, size_t size) const {
+  const auto lost = [&] {
+    return InputError(fmt::format("{}: has lost its last frames", path_.string()));
+  };
+  struct stat about = {};
+  if (::fstat(fd_, &about) != 0) fail(path_, "cannot be read");
+  if (from + size > static_cast<uint64_t>(about.st_size)) throw lost();
   std::string bytes(size, '\0');
   for (size_t done = 0; done < size;) {
     const ssize_t got =
         ::pread(fd_, bytes.data() + done, size - done, static_cast<off_t>(from + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) fail(path_, "cannot be read");
-    if (got == 0) throw InputError(fmt::format("{}: has lost its last frames", path_.string()));
+    if (got == 0) throw lost();
     done += static_cast<size_t>(got);
   }
   return bytes;
@@ -88,11 +101,42 @@ std::string FrameFile::read(uint64_t from, size_t size) const {
 
 FrameRecord FrameFile::operator[](size_t index) const {
   const uint64_t from = end_of(index) + kLengthBytes;
-  const std::string bytes = read(from, static_cast<size_t>(ends_.at(index) - from));
-  ArchiveReader archive(bytes, path_.native());
+  return frame_record_from_bytes(read(from, static_cast<size_t>(ends_.at(index) - from)),
+                                 path_.native());
+}
+
+FrameRecord frame_record_from_bytes(std::string_view bytes, std::string_view file) {
+  ArchiveReader archive(bytes, file);
   FrameRecord record;
   archive(record);
+  if (!archive.at_end()) archive.fail("more than it announces");
+  if (const std::string_view trouble = trouble_of(record); !trouble.empty()) archive.fail(trouble);
   return record;
+}
+
+std::string frame_file_trouble(const std::filesystem::path& path, uint64_t records,
+                               uint64_t bytes) try {
+  const std::string lacking =
+      fmt::format("{}: lacks frames that the checkpoint counts on", path.string());
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored) || std::filesystem::file_size(path) < bytes)
+    return lacking;
+  std::ifstream stream(path, std::ios::binary);
+  uint64_t left = bytes;
+  std::string text;
+  const auto take = [&](uint64_t size) {
+    if (size > left) return false;
+    left -= size;
+    text.resize(static_cast<size_t>(size));
+    return bool(stream.read(text.data(), static_cast<std::streamsize>(size)));
+  };
+  for (uint64_t i = 0; i < records; ++i) {
+    if (!take(kLengthBytes) || !take(length_from(text))) return lacking;
+    frame_record_from_bytes(text, path.native());
+  }
+  return left == 0 ? "" : fmt::format("{}: holds other frames than the checkpoint", path.string());
+} catch (const InputError& error) {
+  return error.what();
 }
 
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tracker/walker_filter.h"
@@ -15,7 +16,8 @@ namespace walktrack {
 class FrameFile {
  public:
   // An empty file, or the first `kept` records of the one that is there. InputError if it holds
-  // fewer; std::runtime_error, here and below, if it cannot be read or written.
+  // fewer or damaged ones, and where one is read back; std::runtime_error, here and below, if it
+  // cannot be read or written.
   explicit FrameFile(const std::filesystem::path& path, size_t kept = 0);
   ~FrameFile();
   FrameFile(FrameFile&& other) noexcept;
@@ -57,5 +59,11 @@ class FrameFile {
   std::vector<uint64_t> ends_;  // of each record, bytes from the beginning
   FrameRecord back_;
 };
+
+// A record of its bytes, without the length in front. InputError, naming `file`, for damaged ones.
+FrameRecord frame_record_from_bytes(std::string_view bytes, std::string_view file);
+
+// Why the file does not hold `records` sound records in its first `bytes` bytes; "": it does.
+std::string frame_file_trouble(const std::filesystem::path& path, uint64_t records, uint64_t bytes);
 
 }  // namespace walktrack

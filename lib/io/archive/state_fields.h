@@ -1,11 +1,22 @@
-// The members of everything that a checkpoint or a file of frames holds (io/archive/archive.h).
+// The members of everything that a checkpoint or a file of frames holds (io/archive/archive.h), and
+// what each may be.
 #pragma once
+
+#include <limits>
 
 #include "io/archive/archive.h"
 #include "observation/observer.h"
 #include "tracker/tracker.h"
 
 namespace walktrack {
+
+constexpr Side last_value(Side) { return Side::kRight; }
+
+// How often something has happened.
+template <typename T>
+Within<T> a_count(T& value) {
+  return within(value, 0, std::numeric_limits<std::remove_const_t<T>>::max());
+}
 
 template <typename Archive, ArchivedAs<LegPose> T>
 void fields(Archive& archive, T& value) {
@@ -28,14 +39,15 @@ void fields(Archive& archive, T& value) {
 template <typename Archive, ArchivedAs<JointPositions> T>
 void fields(Archive& archive, T& value) {
   auto& [at] = value;
-  archive(at);
+  archive(any_number(at));
 }
 
 template <typename Archive, ArchivedAs<KneedState> T>
 void fields(Archive& archive, T& value) {
   auto& [q, qd, stance_stop, swing_stop, contact_x, since_transfer, clearance, transfers, hasty] =
       value;
-  archive(q, qd, stance_stop, swing_stop, contact_x, since_transfer, clearance, transfers, hasty);
+  archive(q, qd, stance_stop, swing_stop, contact_x, since_transfer, clearance, a_count(transfers),
+          a_count(hasty));
 }
 
 template <typename Archive, ArchivedAs<SpringDamper> T>
@@ -69,13 +81,14 @@ void fields(Archive& archive, T& value) {
 template <typename Archive, ArchivedAs<ParticleSet<WalkerParticle>> T>
 void fields(Archive& archive, T& value) {
   auto& [states, log_weights, log_likelihoods] = value;
-  archive(states, log_weights, log_likelihoods);
+  // The dead weigh -infinity, and nobody asks what they are.
+  archive(any_number(states), any_number(log_weights), any_number(log_likelihoods));
 }
 
 template <typename Archive, ArchivedAs<FilterState<WalkerParticle>> T>
 void fields(Archive& archive, T& value) {
   auto& [set, scale] = value;
-  archive(set, scale);
+  archive(set, within(scale, 0, 1));
 }
 
 template <typename Archive, ArchivedAs<LastSeen> T>
@@ -87,25 +100,26 @@ void fields(Archive& archive, T& value) {
 template <typename Archive, ArchivedAs<Stature> T>
 void fields(Archive& archive, T& value) {
   auto& [height, sd] = value;
-  archive(height, sd);
+  archive(within(height, 0.1, 10), within(sd, 0, 10));
 }
 
 template <typename Archive, ArchivedAs<TrackerState> T>
 void fields(Archive& archive, T& value) {
   auto& [frame, starts, filter, last_seen, supports, below, beaten, losses, doubt, stature] = value;
-  archive(frame, starts, filter, last_seen, supports, below, beaten, losses, doubt, stature);
+  archive(frame, starts, filter, last_seen, supports, a_count(below), a_count(beaten),
+          a_count(losses), within(doubt, 0, 1), stature);
 }
 
 template <typename Archive, ArchivedAs<BackgroundModel> T>
 void fields(Archive& archive, T& value) {
   auto& [width, height, luma, orange, green, luma_precision, chroma_precision] = value;
-  archive(width, height, luma, orange, green, luma_precision, chroma_precision);
+  archive(a_count(width), a_count(height), luma, orange, green, luma_precision, chroma_precision);
 }
 
 template <typename Archive, ArchivedAs<AppearanceState> T>
 void fields(Archive& archive, T& value) {
   auto& [frames, anchor, recent, anchor_pixels, log_density] = value;
-  archive(frames, anchor, recent, anchor_pixels, log_density);
+  archive(a_count(frames), anchor, recent, anchor_pixels, log_density);
 }
 
 template <typename Archive, ArchivedAs<PixelRect> T>
@@ -120,10 +134,32 @@ void fields(Archive& archive, T& value) {
   archive(area, metres_per_px, picture);
 }
 
+template <typename Archive, ArchivedAs<GreyImage> T>
+void fields(Archive& archive, T& value) {
+  auto& [width, height, pixels] = value;
+  archive(a_count(width), a_count(height), pixels);
+}
+
+template <typename Archive, ArchivedAs<SilhouetteTerm::State> T>
+void fields(Archive& archive, T& value) {
+  auto& [background, appearance, scene, frames] = value;
+  archive(background, appearance, scene, a_count(frames));
+}
+
+template <typename Archive, ArchivedAs<FlowTerm::State> T>
+void fields(Archive& archive, T& value) {
+  auto& [grey_before] = value;
+  archive(grey_before);
+}
+
+// By likelihood term. A term whose state is not empty has fields() here or beside it.
 template <typename Archive, ArchivedAs<ObserverState> T>
 void fields(Archive& archive, T& value) {
-  auto& [background, appearance, scene, grey_width, grey_height, grey_before, frames] = value;
-  archive(background, appearance, scene, grey_width, grey_height, grey_before, frames);
+  Terms::each([&]<typename Term>() {
+    using State =
+        std::conditional_t<std::is_const_v<T>, const typename Term::State, typename Term::State>;
+    if constexpr (!std::is_empty_v<typename Term::State>) archive(static_cast<State&>(value));
+  });
 }
 
 template <typename Archive, ArchivedAs<Spread> T>
@@ -135,13 +171,14 @@ void fields(Archive& archive, T& value) {
 template <typename Archive, ArchivedAs<FrameEstimate> T>
 void fields(Archive& archive, T& value) {
   auto& [joint_count, joints, spread, pose, angles, left_stance, since_transfer, speed] = value;
-  archive(joint_count, joints, spread, pose, angles, left_stance, since_transfer, speed);
+  archive(within(joint_count, 0, size_t{kJointCount}), joints, spread, pose, angles,
+          within(left_stance, 0, 1), since_transfer, speed);
 }
 
 template <typename Archive, ArchivedAs<FilterReport> T>
 void fields(Archive& archive, T& value) {
   auto& [log_evidence, ess, layers, dead, accepted, all_dead] = value;
-  archive(log_evidence, ess, layers, dead, accepted, all_dead);
+  archive(any_number(log_evidence), ess, a_count(layers), a_count(dead), accepted, all_dead);
 }
 
 template <typename Archive, ArchivedAs<StrideModes> T>
@@ -153,7 +190,8 @@ void fields(Archive& archive, T& value) {
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
   auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes] = value;
-  archive(tracked, estimate, filter, support, samples, fallen, diverged, modes);
+  archive(tracked, estimate, filter, any_number(support), samples, a_count(fallen),
+          a_count(diverged), modes);
 }
 
 }  // namespace walktrack

@@ -52,7 +52,7 @@ struct CheckpointConfig {
 
 struct Config {
   uint64_t seed = 1;  // of all random numbers
-  int threads = 0;    // 0 = all of the machine
+  int threads = 0;    // 0 = all that the process may use
   BodyGroups body;
   ObservationConfig observation;
   TrackerConfig tracker;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "body/pose_from_joints.h"
 #include "core/conventions.h"
@@ -17,17 +18,21 @@ std::vector<AngleRow> angle_rows(const Motion& motion, const BodyLengths& length
   return rows;
 }
 
-std::string joint_angles_csv(const std::vector<AngleRow>& rows, double rate) {
-  std::string text = fmt::format(
-      "# Joint angles in degrees, t in s, {:.6g} Hz; _p05, _p95: 5-95 % band of the tracker.\n"
-      "# Zero: upright, feet flat and ahead. Positive: hips flexed, adducted, toes inwards; knees\n"
-      "# flexed; ankles dorsiflexed; pelvis and trunk tilted backwards, right side down, turned\n"
-      "# left (pelvis_rotation: from the world's x axis); lumbar: trunk against pelvis, "
-      "backwards,\n"
-      "# to the right, to the left. Names and signs as in OpenSim's Rajagopal model and "
-      "angles.mot\n"
-      "t",
-      rate);
+TableNotes joint_angles_notes(double rate) {
+  return {"angles.csv",
+          {{"rate_hz", json_number(rate)},
+           {"units", "t in s from the scene's first frame, angles in degrees"},
+           {"bands", "_p05, _p95: 5-95 % band of the tracker; empty where nothing is known"},
+           {"zero", "upright, feet flat and ahead"},
+           {"positive",
+            "hips flexed, adducted, toes inwards; knees flexed; ankles dorsiflexed; pelvis and "
+            "trunk tilted backwards, right side down, turned left (pelvis_rotation: from the "
+            "world's x axis); lumbar: trunk against pelvis, backwards, to the right, to the left"},
+           {"names", "as in OpenSim's Rajagopal model and angles.mot"}}};
+}
+
+std::string joint_angles_csv(const std::vector<AngleRow>& rows) {
+  std::string text = "t";
   for (const std::string_view name : kJointAngleNames)
     text += fmt::format(",{0}_deg,{0}_deg_p05,{0}_deg_p95", name);
   text += "\n";

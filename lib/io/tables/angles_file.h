@@ -1,7 +1,7 @@
 // angles.csv: the joint angles of body/joint_angles.h in degrees, one row a frame.
 //
-// Comment lines that start with '#' say rate, zero and signs. Then t,<angle>_deg,<angle>_deg_p05,
-// <angle>_deg_p95,… A frame without a pose has empty cells; so has a band that nobody knows.
+// t,<angle>_deg,<angle>_deg_p05,<angle>_deg_p95,… A frame without a pose has empty cells; so has a
+// band that nobody knows. Zero and signs are in tables.json.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,7 @@
 #include "body/joint_angles.h"
 #include "body/motion.h"
 #include "body/subject.h"
+#include "io/tables/table_notes.h"
 
 namespace walktrack {
 
@@ -23,7 +24,9 @@ struct AngleRow {
 // The poses that follow from joints alone (body/pose_from_joints.h), without bands.
 std::vector<AngleRow> angle_rows(const Motion& motion, const BodyLengths& lengths);
 
-// `rate` in Hz.
-std::string joint_angles_csv(const std::vector<AngleRow>& rows, double rate);
+std::string joint_angles_csv(const std::vector<AngleRow>& rows);
+
+// Of "angles.csv"; `rate` in Hz.
+TableNotes joint_angles_notes(double rate);
 
 }  // namespace walktrack

@@ -16,15 +16,10 @@ using Json = nlohmann::ordered_json;
 
 const char* name_of(Side side) { return side == Side::kLeft ? "left" : "right"; }
 
-// With six decimals, as tables have them.
-Json number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::round(value * 1e6) / 1e6 + 0.0;
-}
-
 Json band(const Banded& banded) {
-  return {
-      {"value", number(banded.value)}, {"p05", number(banded.p05)}, {"p95", number(banded.p95)}};
+  return {{"value", json_number(banded.value)},
+          {"p05", json_number(banded.p05)},
+          {"p95", json_number(banded.p95)}};
 }
 
 template <size_t N>
@@ -104,11 +99,17 @@ std::string gait_json(const GaitTable& table) {
   return root.dump(2) + "\n";
 }
 
+TableNotes gait_notes() {
+  return {"gait.csv",
+          {{"rows", "one for each contact of a foot with the ground"},
+           {"units",
+            "times in s from the scene's first frame, lengths in m, shares in % of the stride"},
+           {"bands", "_p05, _p95: 5-95 % band of the tracker; empty where nothing is known"},
+           {"definitions", "gait.json"}}};
+}
+
 std::string gait_csv(const GaitTable& table) {
-  std::string text =
-      "# One row a contact of a foot with the ground. Times in s from the scene's first frame,\n"
-      "# lengths in m, shares in % of the stride; _p05, _p95: 5-95 % band. Definitions: gait.json\n"
-      "side";
+  std::string text = "side";
   for (const std::string_view name : kContactColumns)
     text += fmt::format(",{0},{0}_p05,{0}_p95", name);
   text += "\n";

@@ -12,17 +12,21 @@
 //   notes       [what the numbers mean, for people]
 // Units are in the names: s, m, m_s, per_min, percent.
 //
-// gait.csv: comment lines that start with '#', then side,<column>,<column>_p05,<column>_p95,… for
-// every contact. Summaries are in gait.json only.
+// gait.csv: side,<column>,<column>_p05,<column>_p95,… for every contact. Summaries are in gait.json
+// only.
 #pragma once
 
 #include <string>
 
+#include "io/tables/table_notes.h"
 #include "metrics/gait_table.h"
 
 namespace walktrack {
 
 std::string gait_json(const GaitTable& table);
 std::string gait_csv(const GaitTable& table);
+
+// Of "gait.csv".
+TableNotes gait_notes();
 
 }  // namespace walktrack

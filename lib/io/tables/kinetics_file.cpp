@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "io/tables/csv.h"
 
@@ -14,6 +15,7 @@ namespace walktrack {
 namespace {
 
 using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBandSd = 1.6449;  // standard deviations from the mean to the 95th percentile
@@ -63,29 +65,21 @@ double rate_of(const Kinetics& kinetics) {
   return n > 1 ? static_cast<double>(n - 1) / (kinetics.time.back() - kinetics.time.front()) : 0;
 }
 
-std::string header(const Kinetics& kinetics, const Subject& subject, const KineticsConfig& config) {
-  const KineticsTotals& t = kinetics.totals;
-  return fmt::format(
-      "# Inverse dynamics of the motion. SI units as named; world axes of the calibration; {:.6g} "
-      "Hz.\n"
-      "# Subject: height {:.3f} m, mass {:.2f} kg; forces and moments are as right as this mass.\n"
-      "# Joint centres smoothed without lag below {:g} Hz; within {:.2f} s of the ends of a "
-      "tracked\n"
-      "# span values lean on its extrapolation. In double support the feet's shares are modelled.\n"
-      "# Moments: of the muscles, positive as the angle's name says (pushing off: "
-      "ankle_dorsiflexion_nm < 0).\n"
-      "# Totals: distance {:.3f} m, positive work of hips, knees and ankles {:.1f} J, negative "
-      "{:.1f} "
-      "J,\n# cost of transport {:.3f}, peak vertical load of a foot {:.2f} body weights\n",
-      rate_of(kinetics), subject.height, subject.mass, config.cutoff_hz,
-      config.cutoff_hz > 0 ? 0.5 / config.cutoff_hz : 0, t.distance, t.positive_work,
-      t.negative_work, t.cost_of_transport, t.peak_load);
+Json subject_notes(const Subject& subject) {
+  return {{"height_m", json_number(subject.height)}, {"mass_kg", json_number(subject.mass)}};
 }
 
-std::string table(std::string text, const Kinetics& kinetics, const KineticsBands& bands,
-                  const WorldFrame& world) {
+Json totals_notes(const KineticsTotals& totals) {
+  return {{"distance_m", json_number(totals.distance)},
+          {"positive_work_j", json_number(totals.positive_work)},
+          {"negative_work_j", json_number(totals.negative_work)},
+          {"cost_of_transport", json_number(totals.cost_of_transport)},
+          {"peak_foot_load_body_weights", json_number(totals.peak_load)}};
+}
+
+std::string table(const Kinetics& kinetics, const KineticsBands& bands, const WorldFrame& world) {
   const std::vector<std::string> names = column_names();
-  text += "t";
+  std::string text = "t";
   for (const std::string& name : names) text += fmt::format(",{0},{0}_p05,{0}_p95", name);
   text += "\n";
   for (size_t i = 0; i < kinetics.frames.size(); ++i) {
@@ -140,20 +134,47 @@ double KineticsBands::half_width(size_t row, size_t column, const KineticsFrame&
 }
 
 std::string kinetics_csv(const Kinetics& kinetics, const KineticsBands& bands,
-                         const Subject& subject, const KineticsConfig& config,
                          const WorldFrame& world) {
-  return table(header(kinetics, subject, config), kinetics, bands, world);
+  return table(kinetics, bands, world);
 }
 
-std::string simulated_kinetics_csv(const Kinetics& kinetics, const Subject& subject) {
-  const std::string comment = fmt::format(
-      "# Truth of a simulated walk. SI units as named; world axes; {:.6g} Hz. Forces are means "
-      "over "
-      "the\n# time of a row, impulses of strike and toe-off included. Moments of joints are not "
-      "stated.\n"
-      "# Subject: height {:.3f} m, mass {:.2f} kg\n",
-      rate_of(kinetics), subject.height, subject.mass);
-  return table(comment, kinetics, KineticsBands({}), {});
+std::string simulated_kinetics_csv(const Kinetics& kinetics) {
+  return table(kinetics, KineticsBands({}), {});
+}
+
+TableNotes kinetics_notes(const Kinetics& kinetics, const Subject& subject,
+                          const KineticsConfig& config) {
+  const double edge = config.cutoff_hz > 0 ? 0.5 / config.cutoff_hz : 0;
+  return {
+      "kinetics.csv",
+      {{"rate_hz", json_number(rate_of(kinetics))},
+       {"what", "inverse dynamics of the motion"},
+       {"units", "SI units as named; vectors in the world axes of the calibration"},
+       {"bands", "_p05, _p95: 5-95 % band of the tracker; empty where nothing is known"},
+       {"subject", subject_notes(subject)},
+       {"mass", "forces and moments are as right as the subject's mass"},
+       {"smoothed_below_hz", json_number(config.cutoff_hz)},
+       {"smoothing",
+        fmt::format("joint centres, without lag; within {:.2f} s of the ends of a tracked span "
+                    "values lean on its extrapolation",
+                    edge)},
+       {"feet", "in double support the feet's shares are modelled"},
+       {"moments",
+        "of the muscles, positive as the angle's name says (pushing off: ankle_dorsiflexion_nm < "
+        "0)"},
+       {"totals", totals_notes(kinetics.totals)},
+       {"totals_of", "positive and negative work: of hips, knees and ankles"}}};
+}
+
+TableNotes simulated_kinetics_notes(const Kinetics& kinetics, const Subject& subject) {
+  return {"kinetics.csv",
+          {{"rate_hz", json_number(rate_of(kinetics))},
+           {"what", "truth of a simulated walk"},
+           {"units", "SI units as named; vectors in the world axes"},
+           {"forces",
+            "means over the time of a row, impulses of strike and toe-off included; moments of "
+            "joints are not stated"},
+           {"subject", subject_notes(subject)}}};
 }
 
 GroundForces read_ground_forces(const std::filesystem::path& path) {

@@ -1,6 +1,5 @@
 // kinetics.csv: the forces behind a motion (kinetics/kinetics.h), one row a frame.
 //
-// Comment lines that start with '#' say rate, axes, subject, smoothing and totals. Then
 //   t, com_{x,y,z}_m,
 //   for the left (l_) and the right foot (r_): grf_{x,y,z}_n of the ground on the foot,
 //     cop_{x,y,z}_m (empty while it is not loaded), free_moment_nm about the ground's normal,
@@ -10,7 +9,7 @@
 // each but t followed by its 5-95 % band, <column>_p05 and _p95: the value -/+ 1.645 standard
 // deviations over the members, empty without members; of a loaded foot's vertical force together
 // with the model's error, if one is given. Vectors are in the calibration's world axes.
-// Rows without a known body are empty but for t.
+// Rows without a known body are empty but for t. Subject, smoothing and totals are in tables.json.
 #pragma once
 
 #include <filesystem>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "camera/world_frame.h"
+#include "io/tables/table_notes.h"
 #include "kinetics/force_error.h"
 #include "kinetics/kinetics.h"
 
@@ -53,11 +53,15 @@ class KineticsBands {
 };
 
 std::string kinetics_csv(const Kinetics& kinetics, const KineticsBands& bands,
-                         const Subject& subject, const KineticsConfig& config,
                          const WorldFrame& world);
 
 // The same table for forces that are known, of a walk in calibration axes.
-std::string simulated_kinetics_csv(const Kinetics& kinetics, const Subject& subject);
+std::string simulated_kinetics_csv(const Kinetics& kinetics);
+
+// Of "kinetics.csv".
+TableNotes kinetics_notes(const Kinetics& kinetics, const Subject& subject,
+                          const KineticsConfig& config);
+TableNotes simulated_kinetics_notes(const Kinetics& kinetics, const Subject& subject);
 
 // The ground reactions of such a table; rows without them are NaN. InputError for another table.
 GroundForces read_ground_forces(const std::filesystem::path& path);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "body/joint_angles.h"
+#include "body/kinematics.h"
 #include "core/conventions.h"
 #include "io/tables/csv.h"
 #include "io/tables/motion_file.h"
@@ -82,13 +83,12 @@ void append_vector(std::string& text, const Eigen::Vector3d& world) {
   for (const double value : opensim_from_world(world)) append_number(text, '\t', value);
 }
 
-std::string angle_row(double time, const Pose& pose) {
+std::string angle_row(double time, const Pose& pose, double hip_width) {
   std::string text = csv_number(time);
   const JointAngles angles = joint_angles(pose);
   for (size_t k = 0; k <= kLumbarRotation; ++k) {
     append_number(text, '\t', deg_from_rad(angles[k]));
-    if (k != kPelvisRotation) continue;
-    for (const double value : opensim_from_world(pose.root)) append_number(text, '\t', value);
+    if (k == kPelvisRotation) append_vector(text, opensim_pelvis(pose, hip_width));
   }
   return text + "\n";
 }
@@ -108,29 +108,34 @@ std::string trc_from_motion(const Motion& motion, double rate, const std::string
     text += fmt::format("\t{}\t\t", kJointNames[joint]);
     axes += fmt::format("\tX{0}\tY{0}\tZ{0}", joint + 1);
   }
-  text += "\n" + axes + "\n\n";
+  text += "\t\n" + axes + "\t\n\n";
   for (size_t i = 0; i < frames; ++i) {
     text += fmt::format("{}\t{}", i + 1, csv_number(motion.time[i]));
     for (size_t joint = 0; joint < joints; ++joint) {
-      for (const double value : opensim_from_world(motion.joints[i].at[joint])) {
-        append_number(text, '\t', value);
-      }
+      append_vector(text, motion.joints[i].at[joint]);
     }
-    text += "\n";
+    text += "\t\n";
   }
   return text;
 }
 
+Eigen::Vector3d opensim_pelvis(const Pose& pose, double hip_width) {
+  constexpr double kForward = 0.056276, kUp = 0.078490, kHipWidth = 0.154520;  // m, see the header
+  const double scale = hip_width / kHipWidth;
+  return pose.root + world_from_pelvis(pose) * Eigen::Vector3d(scale * kForward, 0, scale * kUp);
+}
+
 std::string mot_from_poses(std::span<const double> times, std::span<const Pose> poses,
-                           const std::string& name) {
+                           double hip_width, const std::string& name) {
   std::string text = storage_header(
       name, times, kAngleColumnCount, true,
       "Units are S.I. units (second, meters), angles are in degrees.\n"
-      "Ground: x and z (right) level, y up. pelvis_tx, ty, tz: midpoint of the hip centres.\n"
+      "Ground: x and z (right) level, y up. pelvis_tx, ty, tz: origin of the pelvis in the\n"
+      "Rajagopal and Lai models, between the anterior iliac spines.\n"
       "Positive: pelvis_tilt backwards, pelvis_list right side down, pelvis_rotation to the left,\n"
       "hip flexion, adduction, toes inwards; knee flexion; ankle dorsiflexion.",
       kAngleColumns);
-  for (size_t i = 0; i < times.size(); ++i) text += angle_row(times[i], poses[i]);
+  for (size_t i = 0; i < times.size(); ++i) text += angle_row(times[i], poses[i], hip_width);
   return text;
 }
 

@@ -4,11 +4,19 @@
 // OpenSim's ground has x forward, y up, z to the right of x; the library's world has x, z up and y
 // to the left, so (x, y, z)_opensim = (x, z, -y)_world. Angles are those of body/joint_angles.h,
 // which have the names and signs of the Rajagopal and Lai full-body models.
+//
+// The origin of those models' pelvis is not the midpoint of the hip centres but that of the
+// anterior iliac spines: 56.3 mm ahead of it and 78.5 mm above it in the pelvis's axes, where the
+// hip centres are 154.5 mm apart (hip_r at -.056276, -.078490, .077260 in the pelvis; Rajagopal et
+// al., IEEE Trans. Biomed. Eng. 63, 2016). It is taken to grow with that distance, as in a model
+// whose pelvis is scaled to the subject's.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "body/motion.h"
 #include "body/pose.h"
@@ -17,13 +25,19 @@
 namespace walktrack {
 
 // Markers are joint centres, metres, unknown ones blank; `name` is the file's own name, `rate` in
-// Hz. Rows must be evenly spaced in time, as motions of one video are.
+// Hz. Rows must be evenly spaced in time, as motions of one video are. The last cell of a row ends
+// in a tab, too, as in files that OpenSim writes: its reader takes no empty cell behind the last
+// tab, and refuses a file with a row that is too short.
 std::string trc_from_motion(const Motion& motion, double rate, const std::string& name);
 
-// Angles in degrees; pelvis_tx, ty, tz in metres, of the midpoint of the hip centres. Rows without
-// a pose are left out.
+// Where the pelvis's origin is in OpenSim's models, world axes. `hip_width`: between the hip
+// centres, m.
+Eigen::Vector3d opensim_pelvis(const Pose& pose, double hip_width);
+
+// Angles in degrees; pelvis_tx, ty, tz in metres, of opensim_pelvis(). Rows without a pose are left
+// out.
 std::string mot_from_poses(std::span<const double> times, std::span<const Pose> poses,
-                           const std::string& name);
+                           double hip_width, const std::string& name);
 
 // Ground reactions as OpenSim's external loads take them, for the right (r) and the left (l) foot:
 //   ground_force_r_vx, vy, vz   N, of the ground on the foot

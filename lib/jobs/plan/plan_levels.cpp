@@ -27,8 +27,12 @@ BodyModel model_of(const Scene& scene, const Config& config) {
 std::string not_from_the_side(const Scene& scene) {
   if (scene.cameras.size() > 1) return "several cameras see turning and step width";
   const auto view = side_view(scene, scene.cameras[0].camera);
-  if (!view)
-    return "no `initial` says where the walk goes; straight across the picture: sagittal path";
+  if (!view) {
+    const double down = deg_from_rad(std::asin(-scene.cameras[0].camera.rotation(2, 2)));
+    return std::abs(down) > kLevel ? fmt::format("the camera looks {:.0f} degrees {}",
+                                                 std::abs(down), down > 0 ? "down" : "up")
+                                   : "";
+  }
   const double off = deg_from_rad(view->off_sight), below = deg_from_rad(view->below_horizon);
   if (off < kSideOn)
     return fmt::format("the walk goes {:.0f} degrees off the camera's line of sight", off);
@@ -75,7 +79,15 @@ PlanLevels plan_levels(const Scene& scene, const ConfigWithOrigin& config) {
   add("+ arms", {"body.arms=true"});
   const std::string more = not_from_the_side(scene);
   out.levels[more.empty() ? 0 : 1].lowest = true;
-  out.why = more.empty() ? "one camera sees the walk from the side" : more;
+  if (!more.empty()) {
+    out.why = more;
+  } else if (scene.initial) {
+    out.why = "one camera sees the walk from the side";
+  } else {
+    out.why =
+        "one level camera sees a walk straight across its picture from the side; no `initial` says "
+        "that this\n  one comes closer, goes away or turns, which would need the spatial path";
+  }
   return out;
 }
 

@@ -1,7 +1,8 @@
 // The levels of the model, each with all that the one before has, and the lowest that a scene
 // needs:
 //
-//   sagittal path  legs and trunk in upright planes of one heading, for a side view of one camera
+//   sagittal path  legs and trunk in upright planes of one heading, for a side view of one camera;
+//                  without an `initial` a level camera is taken to see one
 //   spatial path   turning, the pelvis's list, hips sideways: for everything else
 //   arms           on the path that is set; legs, pelvis and trunk are tracked without them
 //

@@ -13,7 +13,7 @@ struct PriorJob {
   std::filesystem::path output;   // the table; what is done so far stands in output + ".part"
   std::filesystem::path earlier;  // a table whose valid gaits are kept; may be empty
   bool overwrite = false;
-  int threads = 0;  // 0 = all of the machine
+  int threads = 0;  // 0 = all that the process may use
 };
 
 // Goes on from output + ".part" where there is one. UsageError if the table is there already and

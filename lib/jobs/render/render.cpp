@@ -206,9 +206,9 @@ std::vector<Filming> film_crew(const RenderOptions& options, const Stage& stage,
 }
 
 // Forces at the scene's times, with the walker where the stage has put it.
-std::string kinetics_truth(const RenderJob& job, WalkedGait walked, std::vector<double> times) {
+TableNotes write_kinetics(const RenderJob& job, WalkedGait walked, std::vector<double> times,
+                          const ResultFolder& folder) {
   const FilmedWalker& walker = job.walker;
-  const Subject subject = subject_of(walker);
   walked.world_from_plane = Eigen::Translation3d(walker.shift.x(), walker.shift.y(), 0) *
                             Eigen::AngleAxisd(walker.turn, Eigen::Vector3d::UnitZ()) *
                             walked.world_from_plane;
@@ -216,14 +216,15 @@ std::string kinetics_truth(const RenderJob& job, WalkedGait walked, std::vector<
   for (double& time : times) time += job.options.start - walker.delay;
   Kinetics truth = ground_kinetics(walked, times, 1 / job.options.frame_rate);
   truth.time = of_scene;
-  return simulated_kinetics_csv(truth, subject);
+  folder.write("kinetics.csv", simulated_kinetics_csv(truth));
+  return simulated_kinetics_notes(truth, subject_of(walker));
 }
 
 Outputs outputs_of(const RenderJob& job, const std::vector<Filming>& cameras) {
   const RenderOptions& options = job.options;
   Outputs out{job.output,
               "render",
-              {kSceneFile, "truth.csv", "angles.csv", "events.csv", "kinetics.csv"},
+              {kSceneFile, "truth.csv", "angles.csv", "events.csv", "kinetics.csv", "tables.json"},
               job.inputs,
               kSceneFile};
   for (const Filming& filming : cameras) {
@@ -260,9 +261,11 @@ size_t render_scene(const RenderJob& given, const JobControl& control) {
   const Motion truth = truth_at(stage, times);
   folder.write("truth.csv", motion_csv(truth));
   const std::vector<AngleRow> angles = angle_rows(truth, actor.body.lengths);
-  folder.write("angles.csv", joint_angles_csv(angles, job.options.frame_rate));
+  folder.write("angles.csv", joint_angles_csv(angles));
   folder.write("events.csv", events_csv(actor.motion, stage.duration));
-  if (walked) folder.write("kinetics.csv", kinetics_truth(job, *walked, times));
+  std::vector<TableNotes> notes{joint_angles_notes(job.options.frame_rate)};
+  if (walked) notes.push_back(write_kinetics(job, *walked, times, folder));
+  folder.write("tables.json", tables_json(notes));
   size_t frames = 0;
   for (const Filming& filming : cameras) {
     film(job, stage, filming, folder, threads, control);

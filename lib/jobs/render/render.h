@@ -23,7 +23,7 @@ struct RenderJob {
   std::vector<std::filesystem::path> inputs;  // what motion and options were read from
   std::filesystem::path output;
   bool overwrite = false;
-  int threads = 0;  // 0 = all of the machine
+  int threads = 0;  // 0 = all that the process may use
 };
 
 // scene.yaml is written last: a folder that holds one is complete. UsageError if it is there

@@ -1,6 +1,9 @@
 #include "jobs/track/motion_tables.h"
 
 #include <algorithm>
+#include <array>
+
+#include <nlohmann/json.hpp>
 
 #include "io/tables/gait_file.h"
 #include "io/tables/kinetics_file.h"
@@ -30,7 +33,7 @@ double double_support(const Gait& gait) {
 
 void write_angles(const AnalysedMotion& analysed, const ResultFolder& folder) {
   folder.write("joints.trc", trc_from_motion(analysed.motion, analysed.rate, "joints.trc"));
-  folder.write("angles.csv", joint_angles_csv(analysed.angles, analysed.rate));
+  folder.write("angles.csv", joint_angles_csv(analysed.angles));
   std::vector<double> times;
   std::vector<Pose> poses;
   for (const AngleRow& row : analysed.angles) {
@@ -38,7 +41,9 @@ void write_angles(const AnalysedMotion& analysed, const ResultFolder& folder) {
     times.push_back(row.time);
     poses.push_back(*row.pose);
   }
-  if (!times.empty()) folder.write("angles.mot", mot_from_poses(times, poses, "angles"));
+  if (!times.empty())
+    folder.write("angles.mot",
+                 mot_from_poses(times, poses, body_lengths(analysed.subject).hip_width, "angles"));
 }
 
 }  // namespace
@@ -63,8 +68,8 @@ std::vector<FootContact> foot_contacts(const Gait& gait) {
 }
 
 std::vector<std::string> motion_table_files() {
-  return {"joints.trc", "angles.csv",   "angles.mot",          "gait.json",
-          "gait.csv",   "kinetics.csv", "ground_reaction.mot", "joint_moments.sto"};
+  return {"joints.trc",   "angles.csv",          "angles.mot",        "gait.json",  "gait.csv",
+          "kinetics.csv", "ground_reaction.mot", "joint_moments.sto", "tables.json"};
 }
 
 KineticsTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsConfig& config,
@@ -82,8 +87,10 @@ KineticsTotals write_motion_tables(const AnalysedMotion& analysed, const Kinetic
   const double weight = analysed.subject.mass * analysed.gravity.norm();
   KineticsBands bands(analysed.world, analysed.model_error * kTrackedLoadError * weight);
   for (size_t m = 0; m < analysed.members.size; ++m) bands.add(forces(analysed.members.member(m)));
-  folder.write("kinetics.csv",
-               kinetics_csv(result, bands, analysed.subject, config, analysed.world));
+  folder.write("kinetics.csv", kinetics_csv(result, bands, analysed.world));
+  folder.write("tables.json",
+               tables_json(std::array{joint_angles_notes(analysed.rate), gait_notes(),
+                                      kinetics_notes(result, analysed.subject, config)}));
   folder.write("ground_reaction.mot", mot_from_ground_reactions(result));
   folder.write("joint_moments.sto", sto_from_joint_moments(result));
   return result.totals;

@@ -1,6 +1,6 @@
 // The tables that follow from a motion, whether it was tracked or measured: gait.json, gait.csv,
-// angles.csv, kinetics.csv, and for OpenSim joints.trc, angles.mot, ground_reaction.mot and
-// joint_moments.sto.
+// angles.csv, kinetics.csv with tables.json, and for OpenSim joints.trc, angles.mot,
+// ground_reaction.mot and joint_moments.sto.
 #pragma once
 
 #include <string>

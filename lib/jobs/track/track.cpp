@@ -151,10 +151,23 @@ TrackStatus judge(const TrackRun& run, const Quality& quality, const SceneVideo&
 
 // With every term off there would be nothing but the walker's own gait.
 void require_a_term(const ObservationConfig& observation) {
-  if (observation.background.enabled || observation.foreground.enabled || observation.flow.enabled)
-    return;
-  throw UsageError(describe({"", 0, "observation"}, "no term that is enabled",
-                            "background, foreground or flow with enabled: true"));
+  const std::vector<TermSwitch> switches = term_switches();
+  std::vector<std::string_view> names;
+  for (const TermSwitch& each : switches) {
+    if (each.on(observation)) return;
+    names.push_back(each.key);
+  }
+  throw UsageError(
+      describe({"", 0, "observation"}, "no term that is enabled",
+               fmt::format("one or more of {} with enabled: true", fmt::join(names, ", "))));
+}
+
+// Why a sound checkpoint is of no use for this job; "": it is.
+std::string trouble_with(const Checkpoint& checkpoint, const TrackJob& job) {
+  const fs::path file = job.output / kCheckpointFile;
+  if (checkpoint.observers.size() != job.scene.cameras.size())
+    return fmt::format("{}: the checkpoint is of another number of cameras", file.string());
+  return frame_file_trouble(job.output / kFramesFile, checkpoint.records, checkpoint.record_bytes);
 }
 
 // Says what a complete result was made of otherwise, or refuses to make it again.
@@ -185,11 +198,10 @@ std::optional<Checkpoint> checkpoint_for(const TrackJob& job, const Origin& orig
     return std::nullopt;
   }
   FoundCheckpoint found = read_checkpoint(job.output / kCheckpointFile, origin);
-  const fs::path frames = job.output / kFramesFile;
-  if (found.checkpoint &&
-      (!fs::exists(frames) || fs::file_size(frames) < found.checkpoint->record_bytes))
-    found = {
-        {}, fmt::format("{}: lacks frames that the checkpoint counts on", frames.string()), {}};
+  if (found.checkpoint) {
+    const std::string trouble = trouble_with(*found.checkpoint, job);
+    if (!trouble.empty()) found = {{}, trouble};
+  }
   if (!found.unfit.empty()) {
     if (!job.overwrite) throw UsageError(found.unfit + "; -y starts anew");
     control.say(found.unfit + ": starting anew");

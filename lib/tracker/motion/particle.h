@@ -80,7 +80,8 @@ struct StepAim {
 struct WalkerParticle {
   // As predicted, before this frame's noise.
   KneedState predicted;
-  Eigen::Matrix<double, 5, 5> velocity_per_impulse;  // rad/s per N m s of each torque noise
+  // rad/s per N m s of each torque noise
+  Eigen::Matrix<double, 5, 5> velocity_per_impulse = Eigen::Matrix<double, 5, 5>::Zero();
   Eigen::Vector2d predicted_ball = Eigen::Vector2d::Zero();
   // Of the standing foot's place in this frame, along and across the heading, m.
   Eigen::Vector2d ball_sigma = Eigen::Vector2d::Zero();

@@ -1,0 +1,21 @@
+#include "io/tables/table_notes.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace walktrack {
+
+std::string tables_json(std::span<const TableNotes> tables) {
+  nlohmann::ordered_json root;
+  root["format"] = "walktrack tables 1";
+  for (const auto& [table, notes] : tables) root[table] = notes;
+  return root.dump(2) + "\n";
+}
+
+nlohmann::ordered_json json_number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::round(value * 1e6) / 1e6 + 0.0;
+}
+
+}  // namespace walktrack

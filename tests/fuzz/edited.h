@@ -1,0 +1,18 @@
+// Sound bytes with some of them replaced, as a fuzz target's input says: two bytes of the place,
+// one of the value, and so on. Reaches what any bytes hardly would, whatever the format's version.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace walktrack {
+
+inline std::string edited(std::string bytes, const uint8_t* edits, size_t size) {
+  for (; size >= 3 && !bytes.empty(); edits += 3, size -= 3) {
+    const size_t place = size_t{edits[0]} * 256 + edits[1];
+    bytes[place % bytes.size()] = static_cast<char>(edits[2]);
+  }
+  return bytes;
+}
+
+}  // namespace walktrack
