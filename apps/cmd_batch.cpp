@@ -56,7 +56,7 @@ int list_work(const BatchJob& job) {
 // What the whole output folder holds by now, whoever did it.
 int report(const BatchJob& job) {
   const std::vector<Sequence> all = sequences_of(job);
-  write_batch_reports(all, job.output);
+  write_batch_reports(all, batch_outputs(job));
   bool all_well = true;
   for (const Sequence& sequence : all) {
     const SequenceState state = result_of(sequence).state;
@@ -107,7 +107,7 @@ int run_batch(const Arguments& arguments) {
   if (list_only) return list(job);
   if (dry_run) return list_work(job);
   if (report_only) return report(job);
-  line.config();  // a mistake in it would fail every sequence
+  job.config = line.config();  // a mistake in it would fail every sequence
   job.command = track_command(line.common(), job.jobs);
   Terminal terminal(line.common());
   const JobControl control = terminal.control();
@@ -116,6 +116,12 @@ int run_batch(const Arguments& arguments) {
                           outcome.degraded, outcome.failed, outcome.waiting,
                           (job.output / "batch.html").string()));
   if (outcome.interrupted) return kInterrupted;
+  if (outcome.changed > 0) {
+    throw UsageError(fmt::format(
+        "{} sequences are left as they are, for they are of other settings or inputs; -y does all "
+        "sequences again{}",
+        outcome.changed, outcome.changes));
+  }
   if (outcome.failed + outcome.waiting > 0) return kFailed;
   return outcome.degraded > 0 ? kDegraded : kDone;
 }

@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "core/errors.h"
 #include "io/archive/files.h"
+#include "io/archive/result_folder.h"
 #include "io/scene/model_file.h"
 #include "jobs/simulate/cycle.h"
 #include "model_options.h"
@@ -56,7 +57,9 @@ int run_cycle(const Arguments& arguments) {
   set_follow(follow, job);
   const std::string& output = line.common().output;
   for (const std::string& path : {output, model_file}) {
-    if (!path.empty()) refuse_existing(path, line.common().overwrite);
+    if (path.empty()) continue;
+    refuse_existing(path, line.common().overwrite);
+    refuse_input(path, {line.common().config_file});
   }
   const FoundCycle found = find_cycle(job);
   if (!model_file.empty()) write_file_atomically(model_file, model_as_yaml(found.model));

@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "core/errors.h"
 #include "io/archive/files.h"
+#include "io/archive/result_folder.h"
 #include "jobs/evaluate/evaluate.h"
 
 namespace walktrack {
@@ -42,11 +43,19 @@ int run_evaluate(const Arguments& arguments) {
   job.estimates.assign(estimates.begin(), estimates.end());
   if (!uncertainty.empty()) job.uncertainty = uncertainty;
   if (frame_rate > 0) job.frame_rate = frame_rate;
-  if (!plot.empty()) refuse_existing(plot, line.common().overwrite);
+  std::vector<std::filesystem::path> inputs = job.estimates;
+  for (const std::string& folder : estimates)
+    for (const char* table : {"joints.csv", "uncertainty.csv", "kinetics.csv"})
+      inputs.push_back(std::filesystem::path(folder) / table);
+  inputs.insert(inputs.end(), {truth, uncertainty});
+  if (!plot.empty()) {
+    refuse_existing(plot, line.common().overwrite);
+    refuse_input(plot, inputs);
+  }
   const auto results = evaluate(job);
   if (!plot.empty()) write_file_atomically(plot, as_svg(truth, results));
   const std::string text = json ? as_json(truth, results) : as_markdown(truth, results);
-  line.hand_over(text);
+  line.hand_over(text, inputs);
   return kDone;
 }
 

@@ -20,8 +20,9 @@ int run_plan(const Arguments& arguments) {
   line.operand("SCENE.yaml", &file);
   if (!line.parse(arguments)) return kDone;
   const ConfigWithOrigin config = line.config();
-  const Plan plan = plan_scene(read_scene(file), config);
-  line.hand_over(json ? plan_json(plan) : plan_text(plan));
+  const Scene scene = read_scene(file);
+  const Plan plan = plan_scene(scene, config);
+  line.hand_over(json ? plan_json(plan) : plan_text(plan), files_of(scene));
   return kDone;
 }
 

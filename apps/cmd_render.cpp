@@ -34,12 +34,14 @@ int run_render(const Arguments& arguments) {
     job.options = std::move(file.options);
     job.walker = std::move(file.subject);
     job.gait = std::move(file.gait);
+    job.inputs = std::move(file.motions);
   }
   if (!motion.empty()) {
     job.gait.reset();
     const std::filesystem::path given = motion;
     const bool is_result = std::filesystem::is_directory(given);
-    job.walker.motion = read_motion(is_result ? given / "joints.csv" : given);
+    job.inputs.push_back(is_result ? given / "joints.csv" : given);
+    job.walker.motion = read_motion(job.inputs.back());
   } else if (job.walker.motion.time.empty() && !job.gait) {
     throw UsageError(
         "nothing to render: name a MOTION.csv, or a 'walk' or 'gait' in the --options");

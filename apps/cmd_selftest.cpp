@@ -2,10 +2,10 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "commands.h"
 #include "core/parallel_for.h"
+#include "io/archive/files.h"
 #include "jobs/selftest/selftest.h"
 #include "terminal.h"
 
@@ -23,11 +23,13 @@ int run_selftest(const Arguments& arguments) {
                              "program and prints how each\nends: tracked, degraded (with what is "
                              "lacking) or reported (refused with a reason).\nAnything else is a "
                              "failure, exit code 1. Takes less than a minute, "
-                             "with --stress some minutes\nand 8 GB of memory.",
+                             "with --stress some minutes\nand 8 GB of memory. Works in a "
+                             "temporary folder, made in the folder --output if that is given,\n"
+                             "and removes it.",
                     .example = "walktrack selftest"});
   line.options().add_options()("stress", po::bool_switch(&stress),
                                "add the trials that take minutes")(
-      "trial", po::value(&trial)->value_name("NAME"), "only this one, in the folder --output");
+      "trial", po::value(&trial)->value_name("NAME"), "only this one, in the new folder --output");
   if (!line.parse(arguments)) return kDone;
   if (!trial.empty()) {
     fmt::print("{}\n", trial_line(run_trial(trial, line.required_output())));
@@ -35,16 +37,17 @@ int run_selftest(const Arguments& arguments) {
   }
   SelftestJob job;
   job.command = {fs::read_symlink("/proc/self/exe").string(), "selftest", "--trial"};
-  job.folder = line.common().output.empty()
-                   ? fs::temp_directory_path() / fmt::format("walktrack_selftest_{}", getpid())
-                   : fs::path(line.common().output);
+  const fs::path place = line.common().output;
+  if (!place.empty()) fs::create_directories(place);
+  job.folder =
+      new_folder((place.empty() ? fs::temp_directory_path() : place) / "walktrack_selftest_");
   job.stress = stress;
   job.jobs = hardware_threads();
   Terminal terminal(line.common());
   const std::vector<TrialResult> results = run_selftest(job, terminal.control());
   fmt::print("{}", selftest_table(results));
   std::error_code ignored;
-  fs::remove(job.folder, ignored);  // where it is empty
+  fs::remove_all(job.folder, ignored);
   for (const TrialResult& result : results) {
     if (result.end == TrialEnd::kFailed) return kFailed;
   }

@@ -39,6 +39,7 @@ SimulationEnd simulate_articulated(const CommandLine& line, const SimulateJob& s
               "none of it with the articulated body, which does not walk");
   ArticulatedJob job;
   apply_model_settings(entries(job.spec), line.common().config_file, line.common().settings);
+  job.model_file = line.common().config_file;
   job.duration = shared.duration;
   job.step = shared.simulation.max_step;
   job.integrator = shared.simulation.integrator;
@@ -184,6 +185,7 @@ int run_simulate(const Arguments& arguments) {
     return told(control, simulate_articulated(line, job, command_line));
   }
   job.model = options.model(line);
+  job.model_file = line.common().config_file;
   prior.apply(job, line);
   return told(control, simulate_into(line.required_output(), line.common().overwrite, job,
                                      command_line, control));

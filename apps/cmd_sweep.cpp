@@ -81,7 +81,7 @@ int run_sweep(const Arguments& arguments) {
   if (options.fps > 0) wish.frames_per_second = options.fps;
   if (options.error_mm > 0) wish.error_mm = options.error_mm;
   const std::vector<std::string> advice = sweep_advice(report, wish);
-  write_sweep(report, advice, job.output);
+  write_sweep(report, advice, job);
   fmt::print("{}", sweep_markdown(report, advice));
   return kDone;
 }

@@ -5,6 +5,7 @@
 
 #include "core/errors.h"
 #include "io/archive/files.h"
+#include "io/archive/result_folder.h"
 #include "manual.h"
 
 namespace walktrack {
@@ -69,7 +70,8 @@ po::options_description common_options(CommonOptions& common) {
   add("seed", po::value(&common.seed)->value_name("N"), "seed of all random numbers");
   add("threads", po::value(&common.threads)->value_name("N"),
       "threads, 0 = all that the process may use");
-  add("yes,y", po::bool_switch(&common.overwrite), "overwrite a complete result");
+  add("yes,y", po::bool_switch(&common.overwrite),
+      "overwrite a complete result, but no file that walktrack did not write");
   add("quiet", po::bool_switch(&common.quiet), "errors only");
   add("verbose", po::bool_switch(&common.verbose), "say more");
   add("help,h", "this text");
@@ -177,11 +179,14 @@ std::string CommandLine::required_output() const {
   return common_.output;
 }
 
-void CommandLine::hand_over(const std::string& text) const {
+void CommandLine::hand_over(const std::string& text,
+                            const std::vector<std::filesystem::path>& inputs) const {
   if (common_.output.empty()) {
     fmt::print("{}", text);
   } else {
     refuse_existing(common_.output, common_.overwrite);
+    refuse_input(common_.output, inputs);
+    refuse_input(common_.output, {common_.config_file});
     write_file_atomically(common_.output, text);
   }
 }

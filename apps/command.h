@@ -4,6 +4,7 @@
 // fills a job struct, calls the library and returns an exit code. It is listed in main.cpp.
 #pragma once
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <string_view>
@@ -80,8 +81,10 @@ class CommandLine {
   ConfigWithOrigin config_of_run() const;
   // --output, or UsageError when it is missing.
   std::string required_output() const;
-  // Writes a result that is one text to --output, or prints it where that is missing.
-  void hand_over(const std::string& text) const;
+  // Writes a result that is one text to --output, or prints it where that is missing. UsageError
+  // where it would overwrite one of the inputs, or --config.
+  void hand_over(const std::string& text,
+                 const std::vector<std::filesystem::path>& inputs = {}) const;
 
  private:
   struct Operand {

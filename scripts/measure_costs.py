@@ -73,7 +73,7 @@ def measured(walktrack, out, words):
         scene = scene_of(walktrack, out, int(dict(word.split("=") for word in words)["cameras"]), frames)
         folder = out / "runs" / ",".join((*words, str(frames)))
         if not (folder / "run.json").exists():
-            run(walktrack, "track", scene, "-o", folder, "--no-overlay", "--threads", 1, *options, allowed=(0, 4))
+            run(walktrack, "track", scene, "-o", folder, "-y", "--no-overlay", "--threads", 1, *options, allowed=(0, 4))
         records.append(json.loads((folder / "run.json").read_text()))
     return *records, json.loads(run(walktrack, "plan", scene, "--json", *options))
 

@@ -99,7 +99,7 @@ def measure(walktrack, out, motion, plates, first):
         folder.joinpath("options.yaml").write_text(OPTIONS.format(height=numbers["height_m"], mass=mass))
         run(walktrack, "render", motion, "--options", folder / "options.yaml", "-o", folder / "scene", "-y", "--threads", 1)
     if not (folder / "tracked/run.json").exists():
-        run(walktrack, "track", folder / "scene/scene.yaml", "-o", folder / "tracked", "--no-overlay", "--threads", 1, allowed=(0, 4))
+        run(walktrack, "track", folder / "scene/scene.yaml", "-o", folder / "tracked", "-y", "--no-overlay", "--threads", 1, allowed=(0, 4))
     for name, result in (("motion capture", "captured"), ("tracked film", "tracked")):
         reaction, weight = storage(folder / result / "ground_reaction.mot"), mass * GRAVITY
         whole = list(pairs(plates, reaction, first))

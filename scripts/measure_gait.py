@@ -128,7 +128,7 @@ def step_errors(truth, estimate):
 def measure(walktrack, folder, scene, result, options):
     """The figures of one track; no figures where nobody was found."""
     if not (result / "run.json").exists():
-        run(walktrack, "track", scene, "-o", result, "--no-overlay", "--threads", 1, *options, allowed=(0, 4))
+        run(walktrack, "track", scene, "-o", result, "-y", "--no-overlay", "--threads", 1, *options, allowed=(0, 4))
     truth = result / "truth"
     if not (truth / "run.json").exists():
         run(walktrack, "analyse", folder / "truth.csv", "-o", truth)

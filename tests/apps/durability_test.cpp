@@ -162,7 +162,7 @@ TEST_F(Durability, StopsWhenToldAndGoesOnLater) {
     program.send(signal);
     EXPECT_EQ(program.wait(), 130);
     for (int i = 0; i < 4; ++i) {
-      EXPECT_FALSE(fs::exists(folder_.path() / out / numbered(i) / "claim")) << i;
+      EXPECT_FALSE(fs::exists(folder_.path() / out / numbered(i) / ".walktrack_claim")) << i;
       EXPECT_FALSE(fs::exists(folder_.path() / out / numbered(i) / "failure.txt")) << i;
     }
     EXPECT_EQ(run_walktrack(batch(out)).exit_code, 0);

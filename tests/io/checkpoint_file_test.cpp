@@ -43,7 +43,8 @@ TEST_F(CheckpointFile, IsOfNoUseForAnythingElseAndSaysForWhat) {
   other[1].second = "abd";
   const FoundCheckpoint found = read_checkpoint(path_, other);
   EXPECT_FALSE(found.checkpoint);
-  EXPECT_THAT(found.unfit, HasSubstr("of another scene"));
+  EXPECT_THAT(found.unfit, HasSubstr("of other settings or inputs (scene abc -> abd)"));
+  EXPECT_EQ(found.changed, "scene abc -> abd");
 }
 
 TEST_F(CheckpointFile, NobodyHasToLeaveOne) {

@@ -32,6 +32,26 @@ TEST(ReadTextFile, ReadsAllBytesAndRefusesTheRest) {
   EXPECT_THROW(read_text_file(folder / "pipe", 10), InputError);
 }
 
+TEST(NewTemporary, IsAFileOfItsOwnWhoseNameSaysWhatFor) {
+  const TemporaryFolder folder;
+  const fs::path wanted = folder.path() / "a.csv", one = new_temporary(wanted),
+                 other = new_temporary(wanted, ".mp4");
+  EXPECT_TRUE(fs::is_regular_file(one));
+  EXPECT_EQ(name_of_temporary(one.string()), wanted.string());
+  EXPECT_EQ(name_of_temporary(other.string()), wanted.string());
+  for (const char* name : {"a.csv", "a.tmp", "a..tmp", ".12.tmp.csv", "12.tmp", "a.1x.tmp"})
+    EXPECT_EQ(name_of_temporary(name), "") << name;
+}
+
+TEST(NewFolder, IsAnotherEachTimeAndNobodyElses) {
+  const TemporaryFolder folder;
+  const fs::path one = new_folder(folder.path() / "work_"), other = new_folder(folder / "work_");
+  EXPECT_NE(one, other);
+  EXPECT_TRUE(fs::is_empty(one));
+  EXPECT_EQ(fs::status(one).permissions(), fs::perms::owner_all);
+  EXPECT_THROW(new_folder(folder / "none/work_"), std::runtime_error);
+}
+
 TEST(NumberFromText, TakesCNotationAndNothingElse) {
   EXPECT_EQ(number_from_text(" -1.5e3\r"), -1500);
   EXPECT_EQ(number_from_text("+2"), 2);

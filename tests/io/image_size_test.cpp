@@ -56,7 +56,7 @@ TEST(ReadImageFile, RefusesSizesThatNobodyFilms) {
   const TemporaryFolder folder;
   const std::string file = folder.write("bomb.png", "P6 100000 100000 255\n");
   cv::Mat image;
-  EXPECT_EQ(read_image_file(file, image), "100000x100000 px, up to 16384 px are allowed");
+  EXPECT_EQ(read_image_file(file, image), "100000x100000 px, up to 8192 px are allowed");
 }
 
 }  // namespace

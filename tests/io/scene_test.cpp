@@ -132,7 +132,7 @@ TEST_F(SceneFile, NamesPlaceFoundAndAllowed) {
       {kCamera + "subject: {height: 175}\n",
        ":3: subject.height: found '175', allowed: a number from 0.2 to 4"},
       {kCamera + "subject: {lengths: {thigh: 0.4 m}}\n", "subject.lengths.thigh: found '0.4 m'"},
-      {kCamera + "frame_rate: 0\n", "frame_rate: found '0', allowed: a number from 0.1 to 10000"},
+      {kCamera + "frame_rate: 0\n", "frame_rate: found '0', allowed: a number from 0.1 to 1000"},
       {kCamera + "first_frame: 5\nlast_frame: 4\n", "last_frame: found '4', allowed: a whole"},
       {kCamera + "ground: {normal: [0, 0, 0]}\n", "ground.normal: found no direction"},
       {kCamera + "gravity: [0, 0, 9.81]\n", "gravity 180 degrees off the ground's downward"},

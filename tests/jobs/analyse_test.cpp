@@ -14,6 +14,7 @@
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
 #include "io/tables/csv.h"
+#include "tests/run_program.h"
 
 namespace walktrack {
 namespace {
@@ -25,19 +26,14 @@ const fs::path kData = fs::path(WALKTRACK_SOURCE_DIR) / "../shared/data";
 
 class Analyse : public testing::Test {
  protected:
-  Analyse() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("walktrack_analyse_") + test->name());
-    fs::remove_all(folder_);
-  }
-  ~Analyse() override { fs::remove_all(folder_); }
   AnalyseJob job(const fs::path& motion) const {
     AnalyseJob out;
     out.motion = motion;
     out.output = folder_;
     return out;
   }
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path() / "analysed";
 };
 
 TEST_F(Analyse, WritesACompleteResult) {
@@ -73,7 +69,7 @@ TEST_F(Analyse, ForcesGoWithTheMass) {
 
 // Joints that `track` wrote want its cut-off, wherever they are analysed.
 TEST_F(Analyse, ForcesOfATrackedFolderAreSmoothedAsTrackingDoes) {
-  const fs::path tracked = folder_.string() + "_tracked";
+  const fs::path tracked = temporary_.path() / "tracked";
   fs::create_directories(tracked);
   fs::copy_file(kDemo / "truth.csv", tracked / "joints.csv", fs::copy_options::overwrite_existing);
   const auto smoothed_below = [&](const fs::path& motion) {
@@ -94,7 +90,6 @@ TEST_F(Analyse, ForcesOfATrackedFolderAreSmoothedAsTrackingDoes) {
   }
   write_file_atomically(tracked / "run.json", "no JSON");
   EXPECT_EQ(smoothed_below(tracked), config.cutoff_hz);
-  fs::remove_all(tracked);
 }
 
 // OpenSim storage files: columns by name.

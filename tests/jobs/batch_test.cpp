@@ -12,7 +12,9 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "jobs/batch/batch_changes.h"
 #include "jobs/batch/claim.h"
+#include "tests/message_of.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -145,11 +147,14 @@ TEST_F(BatchTest, RetriesNoneButThoseThatFailed) {
 
 TEST_F(BatchTest, ClearsWhatAWorkerLeftThatWasKilledOverTheSummary) {
   add("a", "ok");
+  run_batch(job_, {});
   folder_.write("out/summary.csv.7112345.tmp", "half");
-  folder_.write("out/notes.tmp", "mine");
+  for (const char* name : {"notes.tmp", "backup.2024.tmp", "probe.txt", "stale.txt", "claim"})
+    folder_.write(std::string("out/") + name, "mine");
   run_batch(job_, {});
   EXPECT_FALSE(fs::exists(job_.output / "summary.csv.7112345.tmp"));
-  EXPECT_TRUE(fs::exists(job_.output / "notes.tmp"));
+  for (const char* name : {"notes.tmp", "backup.2024.tmp", "probe.txt", "stale.txt", "claim"})
+    EXPECT_EQ(read_file(job_.output / name), "mine") << name;
   EXPECT_FALSE(fs::exists(job_.output / Claim::kFile));
 }
 
@@ -185,7 +190,7 @@ TEST_F(BatchTest, StopsWhenAskedAndLeavesTheRestWaiting) {
   EXPECT_TRUE(outcome.interrupted);
   EXPECT_EQ(outcome.waiting, 2);
   EXPECT_FALSE(fs::exists(job_.output / "a/failure.txt"));
-  EXPECT_FALSE(fs::exists(job_.output / "a/claim"));
+  EXPECT_FALSE(fs::exists(job_.output / "a" / Claim::kFile));
 }
 
 // A worker that begins when another has failed at a sequence already takes that for an earlier try,
@@ -242,6 +247,40 @@ TEST_F(BatchTest, MakesAScenePerVideoFromATemplate) {
 
 TEST_F(BatchTest, RefusesAFolderWithoutSequences) { EXPECT_THROW(run_batch(job_, {}), UsageError); }
 
+// Files that no batch wrote are the user's, wherever they lie.
+TEST_F(BatchTest, RefusesToOverwriteWhatIsNotItsOwn) {
+  add("a", "ok");
+  for (const char* name : {"summary.csv", "batch.html", "a/log.txt", "a/failure.txt"}) {
+    folder_.write(std::string("out/") + name, "mine");
+    for (const bool overwrite : {false, true}) {
+      job_.overwrite = overwrite;
+      EXPECT_THAT(message_of<UsageError>([&] { run_batch(job_, {}); }),
+                  HasSubstr("a file that 'walktrack batch' has not marked as its own"))
+          << name;
+    }
+    EXPECT_EQ(read_file(job_.output / name), "mine");
+    EXPECT_EQ(runs("a"), 0u);
+    fs::remove(job_.output / name);
+  }
+  run_batch(job_, {});
+  EXPECT_EQ(runs("a"), 1u);
+}
+
+TEST_F(BatchTest, RefusesTheFolderOfItsScenes) {
+  add("a", "ok");
+  job_.output = job_.folder;
+  EXPECT_THAT(message_of<UsageError>([&] { run_batch(job_, {}); }),
+              HasSubstr("which the command reads"));
+  EXPECT_FALSE(fs::exists(job_.folder / "batch.html"));
+  EXPECT_FALSE(fs::exists(job_.folder / "a/log.txt"));
+}
+
+TEST_F(BatchTest, ChangesAreNamedOnce) {
+  const std::string text =
+      changes_text({{"a", "seed 1 -> 2"}, {"b", "x.mp4 has changed"}, {"c", "seed 1 -> 2"}});
+  EXPECT_EQ(text, "\n  seed 1 -> 2: a, c\n  x.mp4 has changed: b");
+}
+
 TEST(Claim, IsGivenToOneAndBack) {
   const TemporaryFolder folder;
   {
@@ -256,7 +295,7 @@ TEST(Claim, IsGivenToOneAndBack) {
 
 TEST(Claim, OfADeadWorkerIsTakenOver) {
   const TemporaryFolder folder;
-  const std::string file = folder.write("claim", "elsewhere.1");
+  const std::string file = folder.write(Claim::kFile, "elsewhere.1");
   fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::seconds(100));
   EXPECT_FALSE(Claim::try_take(folder.path(), 200));
   EXPECT_TRUE(Claim::try_take(folder.path(), 60));
@@ -264,13 +303,14 @@ TEST(Claim, OfADeadWorkerIsTakenOver) {
 
 TEST(Claim, OfAKilledProcessOfThisMachineIsTakenOverAtOnce) {
   const TemporaryFolder folder;
-  folder.write("stale.elsewhere.1", "");  // of one that was killed in the middle of a takeover
+  folder.write(".walktrack_stale.elsewhere.1",
+               "");  // of one that was killed in the middle of a takeover
   const pid_t worker = fork();
   if (worker == 0) _exit(Claim::try_take(folder.path()) ? 0 : 1);  // and gives nothing back
   int status = 0;
   ASSERT_EQ(waitpid(worker, &status, 0), worker);
   ASSERT_EQ(status, 0);
-  EXPECT_TRUE(fs::exists(folder / "claim"));
+  EXPECT_TRUE(fs::exists(folder / Claim::kFile));
   EXPECT_TRUE(Claim::try_take(folder.path()));
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
@@ -284,6 +324,19 @@ TEST(ChildProcess, LimitsMemory) {
   while (!(end = child.poll())) std::this_thread::yield();
   EXPECT_NE(end->exit_code, 0);
   EXPECT_THAT(read_file(folder.path() / "log"), HasSubstr("memory"));
+}
+
+TEST(ChildProcess, WritesANewLogAndFollowsNoLink) {
+  const TemporaryFolder folder;
+  const std::string mine = folder.write("mine", "mine");
+  fs::create_symlink(mine, folder.path() / "link");
+  fs::create_hard_link(mine, folder.path() / "same");
+  fs::create_symlink(folder / "nowhere", folder.path() / "dangling");
+  for (const char* log : {"mine", "link", "same", "dangling"})
+    EXPECT_THROW(ChildProcess({"/bin/echo", "theirs"}, folder.path() / log, {}), std::runtime_error)
+        << log;
+  EXPECT_EQ(read_file(mine), "mine");
+  EXPECT_FALSE(fs::exists(folder / "nowhere"));
 }
 
 TEST(ChildProcess, SaysWhenThereIsNoProgram) {

@@ -40,7 +40,7 @@ TEST(LoadSignals, AreVerticalInTheWorldAndPerWeightAndMass) {
   AnalysedMotion analysed;  // 70 kg
   // A calibration whose y axis points down.
   analysed.world = world_frame_on_ground({0, -1, 0}, 0);
-  const ResultFolder folder(place.path() / "out", false);
+  const ResultFolder folder({place.path() / "out", "test", motion_table_files()}, false);
   std::filesystem::rename(place / "kinetics.csv", folder.file("kinetics.csv"));
   const auto signals = load_signals(folder, analysed);
   ASSERT_EQ(signals.size(), 8u);
@@ -55,7 +55,7 @@ TEST(LoadSignals, AreVerticalInTheWorldAndPerWeightAndMass) {
 
 TEST(AngleSignals, LeanForwardsIsPositive) {
   const TemporaryFolder place;
-  const ResultFolder folder(place.path() / "out", false);
+  const ResultFolder folder({place.path() / "out", "test", motion_table_files()}, false);
   std::vector<std::pair<std::string, double>> columns{{"pelvis_tilt_deg", -8}};
   for (const char* side : {"l", "r"})
     for (const char* angle : {"hip_flexion", "knee_angle", "ankle_angle"})

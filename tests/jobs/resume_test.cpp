@@ -162,8 +162,9 @@ TEST_F(Resume, WhoIsToldToStopLeavesACheckpointOfThatFrame) {
   EXPECT_TRUE(outcome.resumable);
   EXPECT_TRUE(fs::exists(folder_ / "stopped/run.partial.json"));
   // Where to look in frame 15 was chosen beside the particles of frame 14, from the pose in 13.
-  const auto found_there =
-      read_checkpoint(folder_ / "stopped/checkpoint.bin", origin_of(stopped)).checkpoint;
+  const auto found_there = read_checkpoint(folder_ / "stopped/checkpoint.bin",
+                                           origin_of(stopped.config, input_digests(stopped.scene)))
+                               .checkpoint;
   ASSERT_TRUE(found_there);
   EXPECT_EQ(found_there->regions.size(), stopped.scene.cameras.size());
   resume(stopped);
@@ -182,6 +183,17 @@ TEST_F(Resume, WhoIsToldToStopBeforeTheFirstFrameIsInterruptedToo) {
   EXPECT_EQ(outcome.status, TrackStatus::kInterrupted);
   EXPECT_EQ(outcome.frames, 0);
   EXPECT_FALSE(outcome.resumable);
+}
+
+// What took an hour is not lost because somebody forgot a word.
+TEST_F(Resume, ACheckpointIsNotThrownAwayUnasked) {
+  kill(job("killed"), 12);
+  EXPECT_THROW(track_scene(job("killed"), {}), UsageError);
+  EXPECT_TRUE(fs::exists(folder_ / "killed/checkpoint.bin"));
+  TrackJob anew = job("killed");
+  anew.overwrite = true;
+  EXPECT_NO_THROW(track_scene(anew, {}));
+  EXPECT_EQ(resumed_at("killed"), 0);
 }
 
 // One bit of a pose that the tables are to be made of.
@@ -215,7 +227,8 @@ TEST_F(Resume, ACheckpointOfSomethingElseIsRefusedOrLeftBehind) {
     resume(other);
     FAIL() << "another seed";
   } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("of another configuration; -y starts anew"));
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("of other settings or inputs (seed 1 -> 2); -y starts anew"));
   }
   EXPECT_TRUE(fs::exists(folder_ / "killed/checkpoint.bin"));
   other.config.values.seed = 1;

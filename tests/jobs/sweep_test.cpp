@@ -144,7 +144,7 @@ TEST_F(Sweep, RunsOfAnotherConfigurationAreNotReusedOrOverwrittenUnasked) {
   run_sweep(each, {});
   each.config.values.tracker.filter.moves = 2;
   EXPECT_THAT(message_of<UsageError>([&] { run_sweep(each, {}); }),
-              HasSubstr("another scene, configuration or program; -y"));
+              HasSubstr("of other settings or inputs (filter.moves 1 -> 2); -y"));
   each.again = true;
   EXPECT_NO_THROW(run_sweep(each, {}));
 }
@@ -152,7 +152,7 @@ TEST_F(Sweep, RunsOfAnotherConfigurationAreNotReusedOrOverwrittenUnasked) {
 TEST_F(Sweep, WritesItsTables) {
   const SweepJob each = job("grid", {"particles=10:30,cameras=1:2"});
   const SweepReport report = run_sweep(each, {});
-  write_sweep(report, sweep_advice(report, {}), each.output);
+  write_sweep(report, sweep_advice(report, {}), each);
   const CsvTable table = read_csv(each.output / "sweep.csv");
   EXPECT_EQ(table.rows.size(), 4u);
   EXPECT_EQ(table.columns[1], "cameras");

@@ -7,13 +7,18 @@
 #include <map>
 #include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/errors.h"
 #include "io/archive/files.h"
 #include "io/tables/motion_file.h"
+#include "io/video/video.h"
+#include "jobs/track/track_setup.h"
 #include "metrics/joint_error.h"
+#include "tests/message_of.h"
+#include "tests/run_program.h"
 
 namespace walktrack {
 namespace {
@@ -24,13 +29,6 @@ const fs::path kDemo = fs::path(WALKTRACK_SOURCE_DIR) / "data/demo";
 
 class Track : public testing::Test {
  protected:
-  Track() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("walktrack_track_") + test->name());
-    fs::remove_all(folder_);
-  }
-  ~Track() override { fs::remove_all(folder_); }
-
   // The shipped demo's first frames with few particles: seconds, not accuracy.
   TrackJob job(int last_frame, const std::string& name) const {
     TrackJob job;
@@ -47,7 +45,8 @@ class Track : public testing::Test {
     return nlohmann::json::parse(read_text_file(folder_ / name / file, size_t{1} << 24));
   }
 
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(Track, SameSeedSameBytesForAnyThreadCount) {
@@ -74,6 +73,23 @@ TEST_F(Track, SameSeedSameBytesForAnyThreadCount) {
   other.config.values.seed = 2;
   track_scene(other, {});
   EXPECT_NE(run_json("other").at("digest"), digest);
+}
+
+// What it holds is bounded, whatever rates and sizes a film has.
+TEST(SearchWindow, TooLargeForMemoryIsRefusedWithItsCure) {
+  Scene scene = read_scene(kDemo / "scene.yaml");
+  const Config config;
+  EXPECT_LT(search_window_bytes(scene, config, 30), 1e8);
+  EXPECT_NO_THROW(require_room_for_search(scene, config, kFastestRate));
+  for (SceneCamera& camera : scene.cameras)
+    camera.camera.width_px = camera.camera.height_px = kMostPixelsAlongASide;
+  EXPECT_THAT(
+      message_of([&] { require_room_for_search(scene, config, 30); }),
+      testing::AllOf(testing::HasSubstr("would hold 19."),
+                     testing::HasSubstr("at most 8.6 GB: a smaller observation.person_px")));
+  Config coarse;
+  coarse.observation.person_px = 40;
+  EXPECT_NO_THROW(require_room_for_search(scene, coarse, 30));
 }
 
 TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {

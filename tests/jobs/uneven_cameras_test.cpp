@@ -41,12 +41,6 @@ constexpr const char* kPost = "occluders: {side: [[[105, 0], [134, 0], [134, 179
 
 class UnevenCameras : public testing::Test {
  protected:
-  UnevenCameras() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~UnevenCameras() override { fs::remove_all(folder_); }
-
   void film() const {
     write_file_atomically(folder_ / "options.yaml", kOptions);
     const RenderFile file = read_render_file(folder_ / "options.yaml");
@@ -82,7 +76,8 @@ class UnevenCameras : public testing::Test {
                         read_motion(folder_ / "tracked/joints.csv"));
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / "walktrack_uneven_cameras";
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(UnevenCameras, FollowAWalkerPastANamedPostThroughLostFrames) {

@@ -39,8 +39,7 @@ constexpr const char* kSubject = "subject: {height: 1.58, mass: 60}";
 class UnknownSize : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    fs::remove_all(folder());
-    fs::create_directories(folder());
+    folder_ = new TemporaryFolder;
     write_file_atomically(folder() / "options.yaml", kOptions);
     const RenderFile file = read_render_file(folder() / "options.yaml");
     RenderJob job;
@@ -49,8 +48,8 @@ class UnknownSize : public testing::Test {
     job.output = folder() / "scene";
     render_scene(job, {});
   }
-  static void TearDownTestSuite() { fs::remove_all(folder()); }
-  static fs::path folder() { return fs::temp_directory_path() / "walktrack_unknown_size"; }
+  static void TearDownTestSuite() { delete folder_; }
+  static fs::path folder() { return folder_->path(); }
 
   // The scene with what it says of the subject.
   static TrackJob job(const std::string& subject) {
@@ -80,7 +79,11 @@ class UnknownSize : public testing::Test {
   static nlohmann::json run_json() {
     return nlohmann::json::parse(read_text_file(folder() / "tracked/run.json", size_t{1} << 24));
   }
+
+  static TemporaryFolder* folder_;
 };
+
+TemporaryFolder* UnknownSize::folder_ = nullptr;
 
 TEST_F(UnknownSize, IsReadOffTheWalkAndSaid) {
   EXPECT_EQ(track_scene(job(""), {}).status, TrackStatus::kTracked);

@@ -23,13 +23,6 @@ void state_fields(Archive& archive, T& value) {
   archive(frames_read, records, record_bytes, observers, regions, tracker);
 }
 
-// What the two differ in; "" = nothing.
-std::string difference(const Origin& found, const Origin& wanted) {
-  for (size_t i = 0; i < wanted.size(); ++i)
-    if (i >= found.size() || found[i] != wanted[i]) return wanted[i].first;
-  return {};
-}
-
 }  // namespace
 
 std::string checkpoint_bytes(const Checkpoint& checkpoint) {
@@ -66,13 +59,16 @@ FoundCheckpoint parse_checkpoint(std::string_view bytes, std::string_view file,
   Checkpoint checkpoint;
   ArchiveReader archive(bytes, file);
   archive(checkpoint.origin);
-  const std::string other = difference(checkpoint.origin, origin);
-  if (!other.empty()) return {{}, fmt::format("{}: the checkpoint is of another {}", file, other)};
+  const std::string changed = differences(checkpoint.origin, origin);
+  if (!changed.empty())
+    return {{},
+            fmt::format("{}: the checkpoint is of other settings or inputs ({})", file, changed),
+            changed};
   state_fields(archive, checkpoint);
   if (!archive.at_end()) archive.fail("more than it announces");
   if (const std::string_view trouble = trouble_of(checkpoint); !trouble.empty())
     archive.fail(trouble);
-  return {std::move(checkpoint), {}};
+  return {std::move(checkpoint)};
 } catch (const InputError& error) {
   return {{}, error.what()};
 }

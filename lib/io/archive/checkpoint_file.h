@@ -14,16 +14,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "io/archive/origin.h"
 #include "observation/observer.h"
 #include "tracker/tracker.h"
 
 namespace walktrack {
-
-// What a track depends on, in words and with a digest: "configuration", "9f86d0...".
-using Origin = std::vector<std::pair<std::string, std::string>>;
 
 struct Checkpoint {
   Origin origin;
@@ -40,7 +37,8 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 
 struct FoundCheckpoint {
   std::optional<Checkpoint> checkpoint;
-  std::string unfit;  // why the one that is there is of no use; "" = there is none, or it is
+  std::string unfit{};    // why the one that is there is of no use; "" = there is none, or it is
+  std::string changed{};  // what it was made of otherwise; "" = nothing, or it is not sound
 };
 
 // `origin`: what the checkpoint has to be made of.

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <random>
 #include <stdexcept>
@@ -45,18 +46,6 @@ class Descriptor {
  private:
   int fd_;
 };
-
-// "path.<number>.tmp". Writers in other threads, and on other machines that share the folder,
-// choose other numbers; where they do not, O_EXCL makes one of them fail rather than mix with the
-// other.
-fs::path unused_name(const fs::path& path) {
-  std::random_device random;  // names only: no result depends on it
-  fs::path name;
-  do {
-    name = path.string() + fmt::format(".{}{:010}.tmp", ::getpid(), random());
-  } while (fs::exists(name));
-  return name;
-}
 
 void flush_to_disk(const fs::path& path, int flags) {
   const Descriptor file(path, flags);
@@ -116,11 +105,34 @@ void publish_file(const fs::path& temporary, const fs::path& path) {
   flush_to_disk(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
 }
 
-bool is_temporary_name(std::string_view name) {
-  constexpr std::string_view kEnd = ".tmp";
-  if (!name.ends_with(kEnd)) return false;
-  const size_t dot = name.find_last_not_of("0123456789", name.size() - kEnd.size() - 1);
-  return dot != std::string::npos && name[dot] == '.' && dot + 1 < name.size() - kEnd.size();
+// Writers in other threads, and on other machines that share the folder, choose other numbers;
+// where they do not, O_EXCL makes one of them fail rather than mix with the other, or follow a
+// link.
+fs::path new_temporary(const fs::path& path, std::string_view ending) {
+  std::random_device random;  // names only: no result depends on it
+  fs::path name;
+  do {
+    name = path.string() + fmt::format(".{}{:010}.tmp{}", ::getpid(), random(), ending);
+  } while (fs::exists(name));
+  Descriptor(name, O_WRONLY | O_CREAT | O_EXCL);
+  return name;
+}
+
+std::string name_of_temporary(std::string_view name) {
+  for (const std::string_view end : {".tmp", ".tmp.mp4"}) {
+    if (!name.ends_with(end)) continue;
+    const std::string_view rest = name.substr(0, name.size() - end.size());
+    const size_t dot = rest.find_last_not_of("0123456789");
+    const bool made = dot != std::string_view::npos && rest[dot] == '.' && dot + 1 < rest.size();
+    return made ? std::string(rest.substr(0, dot)) : "";
+  }
+  return "";
+}
+
+fs::path new_folder(const fs::path& stem) {
+  std::string name = stem.string() + "XXXXXX";
+  if (!::mkdtemp(name.data())) fail_writing(name, "cannot be made", errno);
+  return name;
 }
 
 void refuse_existing(const fs::path& path, bool overwrite) {
@@ -129,8 +141,8 @@ void refuse_existing(const fs::path& path, bool overwrite) {
   }
 }
 
-AtomicFile::AtomicFile(const fs::path& path) : path_(path), temporary_(unused_name(path)) {
-  fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+AtomicFile::AtomicFile(const fs::path& path) : path_(path), temporary_(new_temporary(path)) {
+  fd_ = ::open(temporary_.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
   if (fd_ < 0) fail_writing(temporary_, "cannot be opened", errno);
 }
 

@@ -42,8 +42,15 @@ class AtomicFile {
 // one, never half of it. std::runtime_error naming the file and the reason.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
-// Whether a name is one that such a file has before it is there: "anything.<number>.tmp".
-bool is_temporary_name(std::string_view name);
+// A new, empty file beside `path` and for it: "<path>.<number>.tmp<ending>". std::runtime_error.
+std::filesystem::path new_temporary(const std::filesystem::path& path,
+                                    std::string_view ending = "");
+
+// The name that such a file, ending ".mp4" or none, is made for; "" for any other name.
+std::string name_of_temporary(std::string_view name);
+
+// A new, empty folder "<stem><six characters>" that nobody else may enter. std::runtime_error.
+std::filesystem::path new_folder(const std::filesystem::path& stem);
 
 // UsageError when the file exists and may not be overwritten.
 void refuse_existing(const std::filesystem::path& path, bool overwrite);

@@ -1,6 +1,7 @@
 #include "io/archive/result_folder.h"
 
 #include <algorithm>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -15,58 +16,258 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kComplete = "run.json";
-constexpr const char* kPartial = "run.partial.json";
+constexpr const char* kPartialFile = "run.partial.json";
+constexpr const char* kSceneFile = "scene.yaml";
+constexpr const char* kMarker = ".walktrack_";
+// A batch puts the scene that it makes of a template beside the result that is tracked from it.
+constexpr const char* kSceneMaker = "batch";
+constexpr char kNumber = '\t';  // stands for the number of numbered files: no name holds one
+constexpr size_t kMaxMarkerBytes = size_t{1} << 24;
+constexpr size_t kLongestName = 200;
 
-// The files that a run may leave, besides the two above; those that it was killed over, too.
-bool is_result_file(const std::string& name) {
-  if (is_temporary_name(name)) return true;
-  for (const char* known :
-       {"joints.csv", "joints.trc", "angles.mot", "uncertainty.csv", "angles.csv", "gait.json",
-        "gait.csv", "kinetics.csv", "tables.json", "ground_reaction.mot", "joint_moments.sto",
-        "report.html", "checkpoint.bin", "frames.bin", "smoothed_frames.bin"}) {
-    if (name == known) return true;
+using Names = std::set<std::string>;
+
+bool is_number(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+bool fits(const std::string& name, const std::string& listed) {
+  const size_t number = listed.find(kNumber);
+  if (number == std::string::npos) return name == listed;
+  const std::string_view after = std::string_view(listed).substr(number + 1);
+  return name.size() > number + after.size() && name.compare(0, number, listed, 0, number) == 0 &&
+         name.ends_with(after) &&
+         is_number(std::string_view(name).substr(number, name.size() - number - after.size()));
+}
+
+bool lists(const Names& names, const std::string& name) {
+  return names.contains(name) || std::ranges::any_of(names, [&](const std::string& listed) {
+           return listed.find(kNumber) != std::string::npos && fits(name, listed);
+         });
+}
+
+bool lists_below(const Names& names, const std::string& folder) {
+  const auto next = names.lower_bound(folder + "/");
+  return next != names.end() && next->starts_with(folder + "/");
+}
+
+std::string marker_name(const std::string& command) {
+  return fmt::format("{}{}", kMarker, command);
+}
+
+// What the marker of an earlier run lists; nothing where there is none.
+Names marked(const fs::path& folder, const std::string& command) {
+  const fs::path file = folder / marker_name(command);
+  std::error_code none;
+  if (!fs::is_regular_file(file, none)) return {};
+  std::istringstream lines(read_text_file(file, kMaxMarkerBytes));
+  Names names;
+  std::string line;
+  std::getline(lines, line);  // which says what the file is
+  while (std::getline(lines, line)) names.insert(line);
+  return names;
+}
+
+void write_marker(const Outputs& outputs, const Names& names) {
+  std::string text = fmt::format(
+      "# Files of 'walktrack {}', which alone it replaces and removes here.\n", outputs.command);
+  for (const std::string& name : names) text.append(name).append("\n");
+  write_file_atomically(outputs.folder / marker_name(outputs.command), text);
+}
+
+// Of one file or folder.
+void check_name(const std::string& name) {
+  const auto unfit = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20 || byte == 0x7f || c == '/';
+  };
+  if (name.empty() || name[0] == '.' || name.size() > kLongestName ||
+      std::ranges::any_of(name, unfit)) {
+    throw UsageError(describe({}, fmt::format("'{}' for the name of a file", name),
+                              "up to 200 characters without slashes and control characters, no "
+                              "leading dot"));
   }
-  return name.starts_with("overlay_") && name.ends_with(".mp4");
+}
+
+void check_file(const std::string& file) {
+  const size_t number = file.find(kNumber), folder = file.rfind('/', number);
+  if (number == std::string::npos || folder == std::string::npos || folder + 1 != number)
+    return check_name(file);
+  std::istringstream folders(file.substr(0, folder));
+  for (std::string part; std::getline(folders, part, '/');) check_name(part);
+  check_name(fmt::format("0{}", file.substr(number + 1)));
+}
+
+// With those that every result has.
+Names names_of(const Outputs& outputs) {
+  Names names;
+  for (const std::string& file : outputs.files) {
+    check_file(file);
+    if (!names.insert(file).second)
+      throw UsageError(
+          describe({(outputs.folder / file).string(), 0, ""}, "two files of this name", "one"));
+  }
+  if (outputs.last == kRunFile) names.insert({kRunFile, kPartialFile});
+  return names;
+}
+
+struct Entry {
+  std::string name;  // relative to the folder
+  bool folder;
+};
+
+// What is in the folder and in those folders of it that names lead into.
+void list_entries(const fs::path& folder, const std::string& below, const Names& names,
+                  std::vector<Entry>& out) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder / below, none)) {
+    const std::string name = below + entry.path().filename().string();
+    const bool is_folder = entry.is_directory(none) && !entry.is_symlink(none);
+    if (is_folder && lists_below(names, name)) {
+      list_entries(folder, name + "/", names, out);
+    } else {
+      out.push_back({name, is_folder});
+    }
+  }
+}
+
+std::vector<Entry> entries(const fs::path& folder, const Names& names) {
+  std::vector<Entry> out;
+  list_entries(folder, "", names, out);
+  return out;
+}
+
+bool is_ours(const Entry& entry, const Names& ours, const std::string& command) {
+  if (entry.folder) return false;
+  if (lists(ours, entry.name)) return true;
+  const std::string made_for = name_of_temporary(entry.name);
+  return lists(ours, made_for) || made_for == marker_name(command);
+}
+
+// Whether work that writes `names` would meet this.
+bool is_in_the_way(const Entry& entry, const Names& names) {
+  const size_t slash = entry.name.rfind('/');
+  return lists(names, entry.name) || lists_below(names, entry.name) ||
+         (slash != std::string::npos && lists_below(names, entry.name.substr(0, slash)));
+}
+
+bool lies_in(const fs::path& input, const fs::path& folder) {
+  const fs::path place = fs::weakly_canonical(folder);
+  const fs::path given = fs::absolute(input).lexically_normal();
+  return fs::weakly_canonical(given.parent_path()) == place ||
+         fs::weakly_canonical(given) == place || fs::weakly_canonical(given).parent_path() == place;
+}
+
+constexpr const char* kElsewhere = "a folder of the command's own: choose another with -o";
+
+void refuse_inputs(const Outputs& outputs, const Names& made_for_it) {
+  for (const fs::path& input : outputs.inputs) {
+    if (input.empty() || !lies_in(input, outputs.folder)) continue;
+    const std::string name = input.filename().string();
+    if (made_for_it.contains(name)) continue;
+    throw UsageError(describe({outputs.folder.string(), 0, ""},
+                              fmt::format("'{}', which the command reads", name), kElsewhere));
+  }
+}
+
+void refuse_complete(const Outputs& outputs) {
+  std::error_code none;
+  const fs::path last = outputs.folder / outputs.last;
+  if (outputs.last.empty() || !fs::exists(last, none)) return;
+  if (outputs.last != kRunFile)
+    throw UsageError(fmt::format("{} exists; -y overwrites it", last.string()));
+  throw UsageError(
+      fmt::format("{} holds a complete result; -y overwrites it", outputs.folder.string()));
+}
+
+void remove_earlier(const Outputs& outputs, const Names& ours,
+                    std::span<const std::string_view> kept) {
+  const auto is_kept = [&](const std::string& name) {
+    return std::ranges::find(kept, name) != kept.end();
+  };
+  const std::vector<Entry> found = entries(outputs.folder, ours);
+  if (ours.contains(outputs.last) && !is_kept(outputs.last))
+    fs::remove(outputs.folder / outputs.last);
+  for (const Entry& entry : found)
+    if (is_ours(entry, ours, outputs.command) && !is_kept(entry.name))
+      fs::remove(outputs.folder / entry.name);
+  std::error_code not_empty;
+  for (const std::string& name : ours)
+    for (size_t at = name.rfind('/'); at != std::string::npos && at > 0;
+         at = name.rfind('/', at - 1))
+      fs::remove(outputs.folder / name.substr(0, at), not_empty);
 }
 
 }  // namespace
 
-bool is_complete_result(const fs::path& folder) {
-  std::error_code ignored;
-  return fs::is_regular_file(folder / kComplete, ignored);
+std::string numbered_files(const std::string& folder, const std::string& ending) {
+  return fmt::format("{}/{}{}", folder, kNumber, ending);
 }
 
-ResultFolder::ResultFolder(const fs::path& folder, bool overwrite,
-                           std::span<const std::string_view> kept)
-    : folder_(folder) {
-  if (fs::exists(folder) && !fs::is_directory(folder)) {
+void refuse_what_is_not_ours(const Outputs& outputs) {
+  const Names names = names_of(outputs);
+  if (!fs::exists(outputs.folder)) return;
+  if (!fs::is_directory(outputs.folder)) {
     throw UsageError(
-        fmt::format("{} is a file, allowed: a folder for the results", folder.string()));
+        fmt::format("{} is a file, allowed: a folder for the results", outputs.folder.string()));
   }
-  if (is_complete_result(folder) && !overwrite) {
-    throw UsageError(fmt::format("{} holds a complete result; -y overwrites it", folder.string()));
+  // Looked at before the markers are: another worker marks its files before it writes them.
+  const std::vector<Entry> found = entries(outputs.folder, names);
+  const Names ours = marked(outputs.folder, outputs.command);
+  const Names made_for_it = marked(outputs.folder, kSceneMaker);
+  refuse_inputs(outputs, made_for_it);
+  for (const Entry& entry : found) {
+    if (entry.name == kSceneFile && !lists(ours, entry.name) && !lists(made_for_it, entry.name))
+      throw UsageError(describe({outputs.folder.string(), 0, ""}, "a scene", kElsewhere));
+    if (!is_in_the_way(entry, names) || is_ours(entry, ours, outputs.command)) continue;
+    throw UsageError(describe(
+        {(outputs.folder / entry.name).string(), 0, ""},
+        fmt::format("a file that 'walktrack {}' has not marked as its own", outputs.command),
+        "none of this name: move it away, or choose another folder with -o"));
   }
-  fs::create_directories(folder);
-  fs::remove(folder / kComplete);
-  fs::remove(folder / kPartial);
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (is_result_file(name) && std::ranges::find(kept, name) == kept.end())
-      fs::remove(entry.path());
-  }
+}
+
+void refuse_input(const fs::path& file, const std::vector<fs::path>& inputs) {
+  std::error_code none;
+  for (const fs::path& input : inputs)
+    if (fs::equivalent(file, input, none))
+      throw UsageError(describe({file.string(), 0, ""}, "a file that the command reads",
+                                "another one to write"));
+}
+
+bool is_complete_result(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_regular_file(folder / kRunFile, ignored);
+}
+
+ResultFolder::ResultFolder(const Outputs& outputs, bool overwrite,
+                           std::span<const std::string_view> kept)
+    : folder_(outputs.folder), files_(names_of(outputs)) {
+  refuse_what_is_not_ours(outputs);
+  if (!overwrite) refuse_complete(outputs);
+  fs::create_directories(folder_);
+  const Names earlier = marked(folder_, outputs.command);
+  remove_earlier(outputs, earlier, kept);
+  if (earlier != files_) write_marker(outputs, files_);
+}
+
+fs::path ResultFolder::file(const std::string& name) const {
+  if (!lists(files_, name)) throw std::logic_error(name + " is none of the outputs");
+  return folder_ / name;
 }
 
 void ResultFolder::remove(std::span<const std::string_view> names) const {
-  for (const std::string_view name : names) fs::remove(folder_ / name);
+  for (const std::string_view name : names) fs::remove(file(std::string(name)));
 }
 
 void ResultFolder::write(const std::string& name, std::string_view content) const {
   write_file_atomically(file(name), content);
 }
 
-void ResultFolder::finish(std::string_view run_json) const { write(kComplete, run_json); }
+void ResultFolder::finish(std::string_view run_json) const { write(kRunFile, run_json); }
 
-void ResultFolder::finish_partial(std::string_view run_json) const { write(kPartial, run_json); }
+void ResultFolder::finish_partial(std::string_view run_json) const {
+  write(kPartialFile, run_json);
+}
 
 }  // namespace walktrack

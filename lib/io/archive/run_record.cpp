@@ -1,5 +1,6 @@
 #include "io/archive/run_record.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/version.h"
@@ -65,6 +66,28 @@ Json object_of(const Pairs& pairs) {
   return root;
 }
 
+std::string plain(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// {"filter": {"particles": 120}} becomes {"filter.particles", "120"}.
+void append_settings(const Json& config, const std::string& before, Origin& out) {
+  for (const auto& [key, value] : config.items()) {
+    if (value.is_object()) {
+      append_settings(value, fmt::format("{}{}.", before, key), out);
+    } else {
+      out.emplace_back(before + key, plain(value));
+    }
+  }
+}
+
+std::string program_in(const Json& program) {
+  std::string text;
+  for (const char* key : {"version", "commit", "build", "compiler"})
+    if (program.contains(key)) text.append(text.empty() ? "" : " ").append(plain(program[key]));
+  return text;
+}
+
 }  // namespace
 
 std::string run_json(const RunRecord& record) {
@@ -79,6 +102,7 @@ std::string run_json(const RunRecord& record) {
   root["status"] = record.status;
   root["notes"] = record.notes;
   root["scene"] = {{"file", record.scene}, {"sha256", record.scene_digest}};
+  root["inputs"] = object_of(record.inputs);
   root["seed"] = record.config.values.seed;
   root["config"] = nested_config(record.config);
   root["config_origin"] = origins(record.config);
@@ -94,6 +118,19 @@ std::string run_json(const RunRecord& record) {
                     {"stage_cpu_seconds", object_of(record.stage_cpu_seconds)}};
   // Names come from outside and may be no UTF-8.
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Origin origin_in(const std::string& run_json) {
+  const Json root = Json::parse(run_json, nullptr, false);
+  if (!root.is_object()) return {};
+  const auto object = [&](const char* key) {
+    return root.contains(key) && root[key].is_object() ? root[key] : Json::object();
+  };
+  Origin out{{"version of the program", program_in(object("program"))}};
+  for (const auto& [file, digest] : object("inputs").items())
+    out.emplace_back(fmt::format("{}{}", kContentOf, file), plain(digest));
+  append_settings(object("config"), "", out);
+  return out;
 }
 
 std::optional<std::string> command_of_result(const std::filesystem::path& folder) {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/archive/origin.h"
 #include "io/config/config.h"
 
 namespace walktrack {
@@ -28,12 +29,13 @@ struct QualityMeasure {
 };
 
 struct RunRecord {
-  std::string command;                                  // e.g. "track"
-  std::string scene;                                    // name of the scene file
-  std::string scene_digest;                             // SHA-256 of it
-  ConfigWithOrigin config;                              // effective
-  std::string status;                                   // e.g. "tracked", "lost", "interrupted"
-  std::vector<std::string> notes;                       // what the user should know
+  std::string command;             // e.g. "track"
+  std::string scene;               // name of the scene file
+  std::string scene_digest;        // SHA-256 of it
+  Origin inputs;                   // the files that a track has read, by name, with their digests
+  ConfigWithOrigin config;         // effective
+  std::string status;              // e.g. "tracked", "lost", "interrupted"
+  std::vector<std::string> notes;  // what the user should know
   std::vector<std::pair<std::string, double>> numbers;  // e.g. "fallen_particles"
   std::vector<QualityMeasure> quality;
   std::vector<std::pair<std::string, std::vector<double>>> by_frame;  // e.g. "ess"; NaN -> null
@@ -49,6 +51,9 @@ struct RunRecord {
 };
 
 std::string run_json(const RunRecord& record);
+
+// What such a text says that the result depends on; of what is no such text, nothing.
+Origin origin_in(const std::string& run_json);
 
 // The command that wrote the result folder ("track", …); nullopt where there is none.
 std::optional<std::string> command_of_result(const std::filesystem::path& folder);

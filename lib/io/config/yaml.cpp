@@ -191,6 +191,20 @@ double YamlValue::number() const {
   return number(-kLargest, kLargest);
 }
 
+std::string YamlValue::name() const {
+  constexpr size_t kLongest = 100;
+  std::string name = text();
+  const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20 || byte == 0x7f || c == '/' || c == '\\';
+  });
+  if (!plain || name[0] == '.' || name.size() > kLongest) {
+    fail(fmt::format("'{}'", name),
+         "up to 100 characters without slashes and control characters, no leading dot");
+  }
+  return name;
+}
+
 double YamlValue::number(double lowest, double highest) const {
   constexpr double kLargest = std::numeric_limits<double>::max();
   const std::string range = lowest == -kLargest && highest == kLargest

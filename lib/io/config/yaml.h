@@ -36,6 +36,7 @@ class YamlValue {
   std::vector<YamlValue> items() const;
 
   std::string text() const;  // a scalar that is not empty
+  std::string name() const;  // a text that is fit for file names and pages
   double number(double lowest, double highest) const;
   double number() const;  // any finite number
   int integer(int lowest, int highest) const;

@@ -7,7 +7,9 @@
 #include "core/conventions.h"
 #include "io/archive/files.h"
 #include "io/config/yaml.h"
+#include "io/scene/scene.h"
 #include "io/tables/motion_file.h"
+#include "io/video/video.h"
 #include "synth/made_walk.h"
 
 namespace walktrack {
@@ -16,12 +18,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kFar = 1000;                                  // m
-constexpr double kLongest = 24 * 3600;                         // s
-constexpr double kSlowestRate = 0.1, kFastestRate = 1000;      // Hz
-constexpr int kLargestPicture = 16'384, kSmallestPicture = 8;  // px
-constexpr double kWalkMargin = 0.25;                           // s
-constexpr double kLargestFocal = 1e6;                          // px
+constexpr double kFar = 1000;           // m
+constexpr double kLongest = 24 * 3600;  // s
+constexpr int kSmallestPicture = 8;     // px
+constexpr double kWalkMargin = 0.25;    // s
+constexpr double kLargestFocal = 1e6;   // px
 
 // Reads `key` into `target` if it is there.
 void take(const YamlValue& map, const std::string& key, double low, double high, double& target) {
@@ -80,15 +81,15 @@ RenderCamera read_camera(const YamlValue& value, const fs::path& folder) {
   value.only_keys({"name", "calibration", "size", "focal_px", "distortion", "position", "look_at",
                    "azimuth_deg", "distance", "height", "frame_rate", "start_frame", "delay"});
   RenderCamera camera;
-  camera.name = value.at("name").text();
+  camera.name = value.at("name").name();
   if (value.has("calibration"))
     camera.calibration = resolved(folder, value.at("calibration").text());
   if (value.has("size")) {
     const auto size = value.at("size").items();
     if (size.size() != 2)
       value.at("size").fail(value.at("size").describe_found(), "[width, height]");
-    camera.width_px = size[0].integer(kSmallestPicture, kLargestPicture);
-    camera.height_px = size[1].integer(kSmallestPicture, kLargestPicture);
+    camera.width_px = size[0].integer(kSmallestPicture, kMostPixelsAlongASide);
+    camera.height_px = size[1].integer(kSmallestPicture, kMostPixelsAlongASide);
   }
   if (value.has("distortion")) camera.distortion = value.at("distortion").numbers();
   take(value, "focal_px", 1, kLargestFocal, camera.focal_px);
@@ -170,14 +171,19 @@ GaitWalk read_gait(const YamlValue& value) {
   return walk;
 }
 
-FilmedWalker read_other(const YamlValue& value, const fs::path& folder, double duration) {
+FilmedWalker read_other(const YamlValue& value, const fs::path& folder, double duration,
+                        std::vector<fs::path>& motions) {
   value.only_keys(
       {"motion", "walk", "height", "mass", "clothes", "arms", "turn_deg", "delay", "shift"});
   FilmedWalker walker;
   walker.clothes = 1;
   read_looks(value, walker);
-  walker.motion = value.has("walk") ? read_walk(value.at("walk"), walked_height(walker), duration)
-                                    : read_motion(resolved(folder, value.at("motion").text()));
+  if (value.has("walk")) {
+    walker.motion = read_walk(value.at("walk"), walked_height(walker), duration);
+  } else {
+    motions.push_back(resolved(folder, value.at("motion").text()));
+    walker.motion = read_motion(motions.back());
+  }
   return walker;
 }
 
@@ -228,7 +234,7 @@ RenderFile read_render_file(const fs::path& path) {
   }
   if (file.has("others")) {
     for (const YamlValue& item : file.at("others").items())
-      options.others.push_back(read_other(item, folder, duration));
+      options.others.push_back(read_other(item, folder, duration, out.motions));
   }
   if (file.has("truth")) {
     const YamlValue truth = file.at("truth");

@@ -24,6 +24,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "gait/walk_plan.h"
 #include "synth/render_options.h"
@@ -43,6 +44,7 @@ struct RenderFile {
   RenderOptions options;
   FilmedWalker subject;  // its motion is empty if there is no `walk`
   std::optional<GaitWalk> gait;
+  std::vector<std::filesystem::path> motions;  // files of others', read
 };
 
 // Paths in it are relative to the file; motions of others are read. InputErrors name file, line and

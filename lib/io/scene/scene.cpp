@@ -19,10 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kSlowestRate = 0.1, kFastestRate = 10'000;       // Hz
 constexpr double kWeakestGravity = 0.1, kStrongestGravity = 100;  // m/s^2
 constexpr double kSteepestSlope_deg = 60;
-constexpr size_t kLongestName = 100;
 constexpr int kMostFrames = std::numeric_limits<int>::max() / 2;
 
 Eigen::Vector3d vector3(const YamlValue& value) { return Eigen::Vector3d(value.numbers(3).data()); }
@@ -38,24 +36,10 @@ fs::path existing_path(const YamlValue& value, const fs::path& folder) {
   return path;
 }
 
-// Names become parts of file names and of pages.
-std::string checked_name(const YamlValue& value) {
-  std::string name = value.text();
-  const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return byte < 0x20 || byte == 0x7f || c == '/' || c == '\\';
-  });
-  if (!plain || name[0] == '.' || name.size() > kLongestName) {
-    value.fail(fmt::format("'{}'", name),
-               "up to 100 characters without slashes and control characters, no leading dot");
-  }
-  return name;
-}
-
 SceneCamera read_camera(const YamlValue& value, const fs::path& folder, const WorldFrame& world) {
   value.only_keys({"name", "video", "calibration", "background", "start_frame", "frame_rate"});
   SceneCamera camera;
-  camera.name = checked_name(value.at("name"));
+  camera.name = value.at("name").name();
   camera.video = existing_path(value.at("video"), folder);
   camera.calibration = existing_path(value.at("calibration"), folder);
   if (value.has("background")) camera.background = existing_path(value.at("background"), folder);
@@ -258,6 +242,15 @@ Scene read_scene(const fs::path& path) {
   if (root.has("truth")) scene.truth = existing_path(root.at("truth"), folder);
   read_range(root, scene);
   return scene;
+}
+
+std::vector<fs::path> files_of(const Scene& scene) {
+  std::vector<fs::path> files{scene.file};
+  for (const SceneCamera& camera : scene.cameras)
+    files.insert(files.end(), {camera.video, camera.calibration, camera.background});
+  files.push_back(scene.truth);
+  std::erase(files, fs::path());
+  return files;
 }
 
 std::vector<Polygon> occluders_at(const SceneCamera& camera, double time) {

@@ -19,6 +19,8 @@
 
 namespace walktrack {
 
+inline constexpr double kSlowestRate = 0.1, kFastestRate = 1000;  // of frames, Hz
+
 using Polygon = std::vector<Eigen::Vector2d>;  // corners, px
 
 // Something in front of the walker, always or for a while: a van that stops, a door that opens.
@@ -66,6 +68,9 @@ struct Scene {
 std::vector<Polygon> occluders_at(const SceneCamera& camera, double time);
 
 Scene read_scene(const std::filesystem::path& path);
+
+// The scene's own file and all that it names: videos, calibrations, backgrounds, truth.
+std::vector<std::filesystem::path> files_of(const Scene& scene);
 
 // Whether a path stands for many files, e.g. frames/%05d.png.
 bool is_frame_pattern(const std::filesystem::path& path);

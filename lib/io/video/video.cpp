@@ -9,14 +9,13 @@
 #include <opencv2/videoio.hpp>
 
 #include "core/errors.h"
+#include "io/scene/scene.h"
 
 namespace walktrack {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double kFastestBelievableRate = 10'000;  // Hz
 
 // Containers count frames by duration, or keep a last one that no decoder returns.
 int smallest_believable_count(int announced) { return announced - 2 - announced / 100; }
@@ -85,7 +84,7 @@ void FrameSource::open_video(std::optional<cv::Size> expected_px) {
   facts_.height_px = size.height;
   facts_.frame_count = whole_property(*capture_, cv::CAP_PROP_FRAME_COUNT);
   const double rate = capture_->get(cv::CAP_PROP_FPS);
-  facts_.frame_rate = rate > 0 && rate <= kFastestBelievableRate ? rate : 0;
+  facts_.frame_rate = rate > 0 && rate <= kFastestRate ? rate : 0;
 }
 
 void FrameSource::open_images() {

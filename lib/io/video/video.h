@@ -80,7 +80,7 @@ std::vector<int> missing_before(const std::vector<std::filesystem::path>& images
 // if it was. A header that asks for more than kMostPixelsAlongASide is refused before decoding.
 std::string read_image_file(const std::filesystem::path& path, cv::Mat& image);
 
-inline constexpr int kMostPixelsAlongASide = 16'384;
+inline constexpr int kMostPixelsAlongASide = 8192;
 
 // "frame2" before "frame10": runs of digits compare as numbers.
 bool natural_less(const std::string& a, const std::string& b);

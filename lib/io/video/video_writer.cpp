@@ -27,8 +27,14 @@ std::unique_ptr<cv::VideoWriter> open_encoder(const fs::path& path, cv::Size siz
 }  // namespace
 
 VideoWriter::VideoWriter(const fs::path& path, cv::Size size_px, double frame_rate)
-    : path_(path), temporary_(path.parent_path() / (path.stem().string() + ".part.mp4")) {
-  writer_ = open_encoder(temporary_, size_px, frame_rate);
+    : path_(path), temporary_(new_temporary(path, ".mp4")) {
+  try {
+    writer_ = open_encoder(temporary_, size_px, frame_rate);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(temporary_, ignored);
+    throw;
+  }
 }
 
 VideoWriter::~VideoWriter() {

@@ -14,6 +14,7 @@
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
 #include "io/scene/scene_template.h"
+#include "jobs/batch/batch_changes.h"
 #include "jobs/batch/claim.h"
 
 namespace walktrack {
@@ -25,6 +26,7 @@ namespace {
 constexpr auto kPollInterval = std::chrono::milliseconds(20);
 constexpr auto kRenewInterval = std::chrono::seconds(10);
 constexpr size_t kMostLogBytes = size_t{1} << 30;
+constexpr const char* kLogFile = "log.txt";
 constexpr int kDegradedExit = 4, kInterruptedExit = 130;  // of the sequence's program
 
 // A sequence that is being done.
@@ -67,10 +69,17 @@ void refuse_links(const BatchJob& job, const std::vector<Sequence>& sequences) {
   }
 }
 
+// What this process writes into the sequence's folder; its own program does the rest.
+Outputs outputs_of(const Sequence& sequence) {
+  if (sequence.video.empty())
+    return {sequence.output, "batch", {kLogFile, kFailureFile}, {sequence.scene}, ""};
+  return {sequence.output, "batch", {kLogFile, kFailureFile, "scene.yaml"}, {sequence.video}, ""};
+}
+
 // When the sequence failed; nullopt if it has not.
 std::optional<fs::file_time_type> failure_time(const Sequence& sequence) {
   std::error_code none;
-  const auto time = fs::last_write_time(sequence.output / "failure.txt", none);
+  const auto time = fs::last_write_time(sequence.output / kFailureFile, none);
   return none ? std::nullopt : std::optional(time);
 }
 
@@ -94,15 +103,14 @@ std::optional<Running> start(const BatchJob& job, const Waiting& waiting) {
   std::optional<Claim> claim = Claim::try_take(sequence.output);
   // Another worker may have done it between the look and the claim.
   if (!claim || waiting.done_by_another(job)) return std::nullopt;
-  for (const char* earlier : {"failure.txt", "log.txt"}) fs::remove(sequence.output / earlier);
-  if (!sequence.video.empty()) {
-    write_file_atomically(sequence.scene, scene_for_video(job.scene_template, sequence.video));
-  }
+  const ResultFolder folder(outputs_of(sequence), true);
+  if (!sequence.video.empty())
+    folder.write("scene.yaml", scene_for_video(job.scene_template, sequence.video));
   std::vector<std::string> words = job.command;
   words.insert(words.end(),
                {sequence.scene.string(), "-o", sequence.output.string(), "--resume", "-y"});
   return Running{sequence, std::move(*claim),
-                 ChildProcess(words, sequence.output / "log.txt", job.limits)};
+                 ChildProcess(words, folder.file(kLogFile), job.limits)};
 }
 
 // A worker that was killed after a sequence's last file has left its claim, which a claim taken
@@ -118,16 +126,27 @@ void note_end(const BatchJob& job, const Running& running, const ChildEnd& end, 
     if (end.exit_code == 0 || end.exit_code == kDegradedExit) return;
   }
   if (stopping && (end.exit_code == kInterruptedExit || end.signal)) return;
-  write_file_atomically(running.sequence.output / "failure.txt",
-                        failure_reason(job, end, running.sequence.output / "log.txt") + "\n");
+  const fs::path& folder = running.sequence.output;
+  write_file_atomically(folder / kFailureFile, failure_reason(job, end, folder / kLogFile) + "\n");
+}
+
+std::vector<Sequence> without(std::vector<Sequence> sequences,
+                              const std::vector<ChangedSequence>& changed) {
+  std::erase_if(sequences, [&](const Sequence& sequence) {
+    return std::ranges::any_of(changed,
+                               [&](const auto& each) { return each.name == sequence.name; });
+  });
+  return sequences;
 }
 
 class Runner {
  public:
   Runner(const BatchJob& job, const JobControl& control, const std::vector<Sequence>& sequences)
       : job_(job), control_(control), total_(sequences.size()) {
-    for (const Sequence& sequence : sequences)
+    for (const Sequence& sequence : sequences) {
+      refuse_what_is_not_ours(outputs_of(sequence));
       waiting_.push_back({sequence, failure_time(sequence)});
+    }
   }
 
   void run() {
@@ -196,14 +215,19 @@ BatchOutcome run_batch(const BatchJob& job, const JobControl& control) {
                                   ? "scene*.yaml files, or .yaml files that list cameras"
                                   : "video files"));
   }
-  fs::create_directories(job.output);
+  refuse_what_is_not_ours(batch_outputs(job));
   const std::vector<Sequence> own = shard_of(all, job.shard, job.shards);
   refuse_links(job, own);
+  const std::vector<ChangedSequence> changed =
+      changed_sequences(job, job.retry_failed ? sequences_to_do(job) : own);
+  Runner runner(job, control, without(sequences_to_do(job), changed));
+  fs::create_directories(job.output);
   clear_dead_claims(own);
-  Runner runner(job, control, sequences_to_do(job));
   runner.run();
-  write_batch_reports(all, job.output);
-  BatchOutcome outcome{.interrupted = runner.interrupted()};
+  write_batch_reports(all, batch_outputs(job));
+  BatchOutcome outcome{.changed = static_cast<int>(changed.size()),
+                       .changes = changes_text(changed),
+                       .interrupted = runner.interrupted()};
   for (const Sequence& sequence : own) {
     const SequenceState state = result_of(sequence).state;
     outcome.complete += state == SequenceState::kComplete;

@@ -3,16 +3,20 @@
 //
 // OUT/<sequence>/ is the result folder of one sequence (see io/archive/result_folder.h) with
 // log.txt, what its process said, and failure.txt, why there is no result. Run again, complete
-// sequences are passed over and all others done, from their checkpoints where they have left any.
+// sequences are passed over and all others done, from their checkpoints where they have left any;
+// those whose result or checkpoint is of other settings or inputs are left as they are and named.
 // Several workers may share OUT: each claims a sequence before it does it. summary.csv,
 // failures.txt and batch.html are made from the folders as they stand.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/job_control.h"
+#include "io/archive/result_folder.h"
+#include "io/config/config.h"
 #include "jobs/batch/batch_figures.h"
 #include "jobs/batch/child_process.h"
 
@@ -23,6 +27,8 @@ struct Sequence {
   std::filesystem::path scene, output;
   std::filesystem::path video{};  // where `scene` is yet to be made of a template and this video
 };
+
+inline constexpr const char* kFailureFile = "failure.txt";  // why there is no result
 
 enum class SequenceState { kWaiting, kComplete, kDegraded, kFailed };
 
@@ -43,12 +49,16 @@ struct BatchJob {
   int shard = 1,
       shards = 1;          // this worker does every shards-th sequence, beginning with the shard-th
   bool overwrite = false;  // do complete ones again
-  bool retry_failed = false;  // do none but those that failed
-  ChildLimits limits;         // of each sequence
+  bool retry_failed = false;               // do none but those that failed
+  ChildLimits limits;                      // of each sequence
+  std::optional<ConfigWithOrigin> config;  // that the command tracks with; see batch_changes.h
 };
 
 struct BatchOutcome {
   int complete = 0, degraded = 0, failed = 0, waiting = 0;  // of this worker's sequences
+  // Sequences whose results are of other settings or inputs, left as they are: changes_text().
+  int changed = 0;
+  std::string changes;
   bool interrupted = false;
 };
 
@@ -70,15 +80,17 @@ std::vector<Sequence> shard_of(const std::vector<Sequence>& sequences, int shard
 // What OUT/<sequence>/ says.
 SequenceResult result_of(const Sequence& sequence);
 
-// Those of this worker's shard that a run would do now.
+// Those of this worker's shard that a run would do now, if their inputs have not changed.
 std::vector<Sequence> sequences_to_do(const BatchJob& job);
 
 // UsageError for a folder without sequences.
 BatchOutcome run_batch(const BatchJob& job, const JobControl& control);
 
-// summary.csv, failures.txt and batch.html.
-void write_batch_reports(const std::vector<Sequence>& sequences,
-                         const std::filesystem::path& output);
+// summary.csv, failures.txt and batch.html. UsageError for such files that no batch has written.
+void write_batch_reports(const std::vector<Sequence>& sequences, const Outputs& outputs);
+
+// The batch's own folder, for them.
+Outputs batch_outputs(const BatchJob& job);
 
 std::string_view state_name(SequenceState state);
 

@@ -1,10 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <thread>
 
 #include <fmt/format.h>
 
-#include "io/archive/files.h"
 #include "io/config/text.h"
 #include "io/drawing/report_page.h"
 #include "jobs/batch/batch.h"
@@ -121,22 +121,25 @@ Claim claim_of(const std::filesystem::path& folder) {
   }
 }
 
-void remove_temporaries(const std::filesystem::path& folder) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (is_temporary_name(entry.path().filename().string())) std::filesystem::remove(entry.path());
-}
+constexpr std::array<std::string_view, 3> kReports{"summary.csv", "failures.txt", "batch.html"};
 
 }  // namespace
 
-void write_batch_reports(const std::vector<Sequence>& sequences,
-                         const std::filesystem::path& output) {
-  const Claim claim = claim_of(output);
-  remove_temporaries(output);
+Outputs batch_outputs(const BatchJob& job) {
+  // Scenes are found below their folder: as the output folder it would hold them.
+  return {job.output, "batch", {kReports.begin(), kReports.end()}, {job.folder}, ""};
+}
+
+void write_batch_reports(const std::vector<Sequence>& sequences, const Outputs& outputs) {
+  refuse_what_is_not_ours(outputs);
+  const Claim claim = claim_of(outputs.folder);
+  // Others may read the reports: they are replaced, never missing.
+  const ResultFolder folder(outputs, true, kReports);
   std::vector<SequenceResult> results;
   for (const Sequence& sequence : sequences) results.push_back(result_of(sequence));
-  write_file_atomically(output / "summary.csv", summary_csv(sequences, results));
-  write_file_atomically(output / "failures.txt", failures_txt(sequences, results));
-  write_file_atomically(output / "batch.html", overview_html(sequences, results));
+  folder.write("summary.csv", summary_csv(sequences, results));
+  folder.write("failures.txt", failures_txt(sequences, results));
+  folder.write("batch.html", overview_html(sequences, results));
 }
 
 }  // namespace walktrack

@@ -145,7 +145,7 @@ std::vector<Sequence> sequences_to_do(const BatchJob& job) {
 }
 
 SequenceResult result_of(const Sequence& sequence) {
-  const fs::path failure = sequence.output / "failure.txt";
+  const fs::path failure = sequence.output / kFailureFile;
   if (is_complete_result(sequence.output)) return complete_result(sequence.output / "run.json");
   if (!fs::exists(failure)) return {};
   SequenceResult result{.state = SequenceState::kFailed};

@@ -21,9 +21,8 @@ namespace {
 constexpr int kCannotStart = 127;
 
 // Runs between fork and exec: only calls that are safe there.
-[[noreturn]] void become(char* const* argv, const char* log, rlim_t memory_bytes, pid_t parent) {
+[[noreturn]] void become(char* const* argv, int out, rlim_t memory_bytes, pid_t parent) {
   const int in = ::open("/dev/null", O_RDONLY);
-  const int out = ::open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
   ::dup2(in, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(out, STDERR_FILENO);
@@ -39,6 +38,14 @@ constexpr int kCannotStart = 127;
   ::_exit(kCannotStart);
 }
 
+// A new file: what is there already, a link above all, is neither followed nor cut short.
+int new_log(const std::filesystem::path& log) {
+  const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (out >= 0) return out;
+  throw std::runtime_error(
+      fmt::format("{}: cannot be made: {}", log.string(), std::generic_category().message(errno)));
+}
+
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& log,
@@ -50,10 +57,11 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::fil
   for (std::string& word : copies) argv.push_back(word.data());
   argv.push_back(nullptr);
   const rlim_t memory_bytes = rlim_t{limits.memory_mb} << 20;
-  const std::string log_file = log.string();
+  const int out = new_log(log);
   const pid_t parent = ::getpid();
   pid_ = ::fork();
-  if (pid_ == 0) become(argv.data(), log_file.c_str(), memory_bytes, parent);
+  if (pid_ == 0) become(argv.data(), out, memory_bytes, parent);
+  ::close(out);
   if (pid_ < 0) {
     throw std::runtime_error(
         fmt::format("cannot start a child process: {}", std::generic_category().message(errno)));

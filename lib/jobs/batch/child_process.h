@@ -23,8 +23,9 @@ struct ChildEnd {
 
 class ChildProcess {
  public:
-  // Starts words[0] with the other words; what it prints goes to `log`, its input is empty. Throws
-  // std::runtime_error if there can be no child; a program that cannot be started ends with 127.
+  // Starts words[0] with the other words; what it prints goes to the new file `log`, its input is
+  // empty. Throws std::runtime_error if there is such a file or can be no child; a program that
+  // cannot be started ends with 127.
   ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& log,
                const ChildLimits& limits);
   // Kills the child if it still runs.

@@ -25,6 +25,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Names that begin with .walktrack_ are ours alone (io/archive/result_folder.h).
+constexpr const char *kProbe = ".walktrack_probe.", *kStale = ".walktrack_stale.";
+
 // "host.boot.namespace": workers of one place can see whether the other's process lives.
 std::string place_name() {
   std::array<char, 256> host{};
@@ -63,7 +66,7 @@ void remove_leftovers(const fs::path& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("probe.") || name.starts_with("stale.")) fs::remove(entry, ignored);
+    if (name.starts_with(kProbe) || name.starts_with(kStale)) fs::remove(entry, ignored);
   }
 }
 
@@ -74,7 +77,8 @@ void remove_leftovers(const fs::path& folder) {
 
 // False where the file exists and O_EXCL is among the flags.
 bool write_name(const fs::path& file, int flags) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0666);
+  const int descriptor =
+      ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | flags, 0666);
   if (descriptor < 0) {
     if (errno == EEXIST) return false;
     fail(file, errno);
@@ -89,7 +93,7 @@ bool write_name(const fs::path& file, int flags) {
 // claim of nobody. Where the file system has no links, the name comes a moment later.
 bool create_exclusively(const fs::path& file) {
   const fs::path own =
-      file.parent_path() / fmt::format("probe.{}.{}.new", worker_name(), ::gettid());
+      file.parent_path() / fmt::format("{}{}.{}.new", kProbe, worker_name(), ::gettid());
   write_name(own, O_TRUNC);
   struct stat facts {};
   const bool linked = ::link(own.c_str(), file.c_str()) == 0;
@@ -106,7 +110,7 @@ bool create_exclusively(const fs::path& file) {
 // Age by the clock of the file system's last writer here: a probe file's time minus the claim's, so
 // that the clocks of two machines need not agree.
 double age_seconds(const fs::path& file) {
-  const fs::path probe = file.parent_path() / fmt::format("probe.{}", worker_name());
+  const fs::path probe = file.parent_path() / fmt::format("{}{}", kProbe, worker_name());
   std::error_code missing;
   create_exclusively(probe);
   const auto now = fs::last_write_time(probe, missing);
@@ -124,7 +128,7 @@ std::optional<Claim> Claim::try_take(const fs::path& folder, double stale_second
     const auto judged = identity(file);
     if (!holder_is_dead(file) && age_seconds(file) <= stale_seconds) return std::nullopt;
     // Of several workers that find it stale, the rename succeeds for one.
-    const fs::path stale = folder / fmt::format("stale.{}", worker_name());
+    const fs::path stale = folder / fmt::format("{}{}", kStale, worker_name());
     std::error_code lost;
     fs::rename(file, stale, lost);
     if (lost) return std::nullopt;

@@ -13,7 +13,7 @@ inline constexpr double kStaleSeconds = 60;
 
 class Claim {
  public:
-  static constexpr const char* kFile = "claim";  // its name in the folder
+  static constexpr const char* kFile = ".walktrack_claim";  // its name in the folder
 
   // nullopt if another worker holds the folder.
   static std::optional<Claim> try_take(const std::filesystem::path& folder,

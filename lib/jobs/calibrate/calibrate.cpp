@@ -1,6 +1,7 @@
 #include "jobs/calibrate/calibrate.h"
 
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "core/errors.h"
 #include "core/version.h"
 #include "io/archive/files.h"
+#include "io/archive/result_folder.h"
 #include "io/calibration/calibration.h"
 #include "io/video/video.h"
 #include "jobs/calibrate/calibrate_parts.h"
@@ -36,10 +38,30 @@ void require(const CalibrateJob& job) {
     throw UsageError("--views and a board on the --floor need --board, --size and --spacing");
 }
 
-void write_picture(const fs::path& path, const cv::Mat& image) {
+// Endings of the files' names.
+constexpr const char *kCalibration = ".yaml", *kToml = ".toml", *kResiduals = "_residuals.csv",
+                     *kLensPicture = "_lens.png", *kPlacePicture = "_place.png",
+                     *kRun = "_run.json";
+
+// The marker is the camera's own: several are calibrated into one folder.
+Outputs outputs_of(const CalibrateJob& job) {
+  Outputs out{job.output,
+              "calibrate_" + job.name,
+              {},
+              {job.views, job.camera, job.floor, job.points},
+              job.name + kCalibration};
+  for (const char* end : {kCalibration, kToml, kResiduals, kLensPicture, kPlacePicture, kRun})
+    out.files.push_back(job.name + end);
+  return out;
+}
+
+// By the endings of their files' names; written when all has gone well.
+using Pictures = std::map<std::string, cv::Mat>;
+
+std::string png_of(const cv::Mat& image) {
   std::vector<uchar> png;
   cv::imencode(".png", image, png);
-  write_file_atomically(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+  return {png.begin(), png.end()};
 }
 
 void add_residuals(const std::string& of, int frame, const PixelPoints& found,
@@ -48,7 +70,8 @@ void add_residuals(const std::string& of, int frame, const PixelPoints& found,
     out.residuals.push_back({of, frame, static_cast<int>(i), found[i], misses[i]});
 }
 
-void find_lens(const CalibrateJob& job, const JobControl& control, CalibrateOutcome& out) {
+void find_lens(const CalibrateJob& job, const JobControl& control, CalibrateOutcome& out,
+               Pictures& pictures) {
   const BoardViews views = collect_views(job.views, *job.board, control);
   const auto fit = fit_lens(*job.board, views.points, views.width_px, views.height_px, job.model);
   const bool vague =
@@ -75,7 +98,7 @@ void find_lens(const CalibrateJob& job, const JobControl& control, CalibrateOutc
     out.notes.push_back(
         "the lens model folds over in the corners: take the board there, or choose "
         "a simpler --model");
-  write_picture(job.output / (job.name + "_lens.png"), lens_picture(views, *fit));
+  pictures[kLensPicture] = lens_picture(views, *fit);
 }
 
 // The floor board's points: x along its rows, z up, so y against its columns.
@@ -103,7 +126,7 @@ void check_size(const CalibrateJob& job, const Camera& lens, const BoardViews& v
                             fmt::format("{}x{} px, as the lens", lens.width_px, lens.height_px)));
 }
 
-void find_place(const CalibrateJob& job, CalibrateOutcome& out) {
+void find_place(const CalibrateJob& job, CalibrateOutcome& out, Pictures& pictures) {
   MeasuredPoints points;
   cv::Mat picture;
   if (job.points.empty()) {
@@ -127,7 +150,7 @@ void find_place(const CalibrateJob& job, CalibrateOutcome& out) {
   out.camera = fit.camera;
   out.place_rms_px = fit.rms_px;
   add_residuals("place", points.lines.front(), points.pixels, fit.misses, out);
-  write_picture(job.output / (job.name + "_place.png"), place_picture(picture, fit, points));
+  pictures[kPlacePicture] = place_picture(picture, fit, points);
 }
 
 std::string residuals_csv(const CalibrateOutcome& outcome) {
@@ -155,27 +178,30 @@ std::string run_text(const CalibrateJob& job, const CalibrateOutcome& outcome) {
 
 CalibrateOutcome calibrate(const CalibrateJob& job, const JobControl& control) {
   require(job);
-  const auto file = [&](const char* ending) { return job.output / (job.name + ending); };
-  refuse_existing(file(".yaml"), job.overwrite);
-  fs::create_directories(job.output);
+  const Outputs outputs = outputs_of(job);
+  refuse_what_is_not_ours(outputs);
+  refuse_existing(job.output / outputs.last, job.overwrite);
   CalibrateOutcome out;
+  Pictures pictures;
   if (job.views.empty()) {
     out.camera = read_calibration(job.camera, job.name);
   } else {
-    find_lens(job, control, out);
+    find_lens(job, control, out, pictures);
   }
   if (job.floor.empty() && job.points.empty()) {
     out.notes.push_back(
-        fmt::format("the camera has no place yet: --camera {} with --floor or "
-                    "--points gives it one",
-                    file(".yaml").string()));
+        fmt::format("the camera has no place yet: --camera {} with --floor or --points, and "
+                    "another folder for -o, gives it one",
+                    (job.output / outputs.last).string()));
   } else {
-    find_place(job, out);
+    find_place(job, out, pictures);
   }
-  write_file_atomically(file("_residuals.csv"), residuals_csv(out));
-  write_file_atomically(file(".toml"), toml_from_cameras({{job.name, out.camera}}));
-  write_file_atomically(file("_run.json"), run_text(job, out));
-  write_file_atomically(file(".yaml"), opencv_from_camera(out.camera));
+  const ResultFolder folder(outputs, job.overwrite);
+  for (const auto& [ending, image] : pictures) folder.write(job.name + ending, png_of(image));
+  folder.write(job.name + kResiduals, residuals_csv(out));
+  folder.write(job.name + kToml, toml_from_cameras({{job.name, out.camera}}));
+  folder.write(job.name + kRun, run_text(job, out));
+  folder.write(job.name + kCalibration, opencv_from_camera(out.camera));
   return out;
 }
 

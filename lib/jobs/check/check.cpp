@@ -63,6 +63,7 @@ bool CheckReport::failed() const {
 
 CheckReport check_scene(const CheckJob& job, const JobControl& control) {
   const Scene scene = read_scene(job.scene);
+  if (!job.pictures.empty()) refuse_what_is_not_ours(check_outputs(scene, job.pictures));
   CheckReport report;
   for (const SceneCamera& camera : scene.cameras) {
     report.cameras.push_back(

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "io/archive/result_folder.h"
 #include "jobs/check/check.h"
 
 namespace walktrack {
@@ -39,6 +40,9 @@ std::vector<OutOfStep> find_out_of_step(const std::vector<Camera>& cameras,
                                         const std::vector<FigurePath>& paths);
 
 void check_steps(const Scene& scene, const JobControl& control, CheckReport& report);
+
+// The folder of the pictures.
+Outputs check_outputs(const Scene& scene, const std::filesystem::path& folder);
 
 // Ground grid, world axes and a standing figure in the first frame of each camera.
 void write_check_pictures(const Scene& scene, const CheckReport& report,

@@ -3,7 +3,6 @@
 
 #include "body/kinematics.h"
 #include "core/errors.h"
-#include "io/archive/files.h"
 #include "io/drawing/overlay.h"
 #include "io/video/video.h"
 #include "jobs/check/check_parts.h"
@@ -26,11 +25,19 @@ JointPositions standing_figure(const Subject& subject, const Eigen::Vector2d& pl
   return forward_kinematics(body, pose).joints;
 }
 
+std::string picture_name(const SceneCamera& camera) { return "check_" + camera.name + ".png"; }
+
 }  // namespace
+
+Outputs check_outputs(const Scene& scene, const std::filesystem::path& folder) {
+  Outputs out{folder, "check", {}, files_of(scene), ""};
+  for (const SceneCamera& camera : scene.cameras) out.files.push_back(picture_name(camera));
+  return out;
+}
 
 void write_check_pictures(const Scene& scene, const CheckReport& report,
                           const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
+  const ResultFolder out(check_outputs(scene, folder), true);
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
     const SceneCamera& camera = scene.cameras[i];
     const CameraInspection& view = report.cameras[i].view;
@@ -46,8 +53,7 @@ void write_check_pictures(const Scene& scene, const CheckReport& report,
                                     camera.name, scene.subject.height, place.x(), place.y()));
     std::vector<uchar> png;
     cv::imencode(".png", frame, png);
-    write_file_atomically(folder / ("check_" + camera.name + ".png"),
-                          {reinterpret_cast<const char*>(png.data()), png.size()});
+    out.write(picture_name(camera), {reinterpret_cast<const char*>(png.data()), png.size()});
   }
 }
 

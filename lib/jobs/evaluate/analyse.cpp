@@ -76,7 +76,9 @@ AnalyseOutcome analyse(const AnalyseJob& job) {
   analysed.subject.height = job.height.value_or(stature_of(analysed.motion));
   analysed.subject.mass = job.mass.value_or(Subject{}.mass);
   analysed.angles = angle_rows(analysed.motion, body_lengths(analysed.subject));
-  const ResultFolder folder(job.output, job.overwrite);
+  Outputs outputs{job.output, "analyse", motion_table_files(), {file}};
+  outputs.files.emplace_back(kReportFile);
+  const ResultFolder folder(outputs, job.overwrite);
   KineticsConfig forces = job.config.values.kinetics;
   if (was_tracked(file)) forces.cutoff_hz = forces.tracked_cutoff_hz;
   const KineticsTotals totals = write_motion_tables(analysed, forces, folder);

@@ -178,12 +178,9 @@ std::vector<std::pair<std::string, double>> memory_of(const Scene& scene, const 
     out.emplace_back("learning it, before the first frame",
                      3.0 * images.background.samples * shrunk);
   }
-  if (!scene.initial) {
-    const double frames = std::ceil(config.tracker.sighting.window * plan.frame_rate);
-    const double flow_bytes = images.flow.enabled ? sizeof(FlowPixel) : 0;
+  if (!scene.initial)
     out.emplace_back("the search's window of frames",
-                     frames * shrunk * (sizeof(int32_t) + flow_bytes));
-  }
+                     search_window_bytes(scene, config, plan.frame_rate));
   const double record =
       double{sizeof(FrameRecord)} + config.tracker.samples * double{sizeof(JointPositions)};
   out.emplace_back("results of a minute of film", 60 * plan.frame_rate * record);

@@ -13,6 +13,7 @@
 #include "gait/prior_file.h"
 #include "gait/survival.h"
 #include "io/archive/files.h"
+#include "io/archive/result_folder.h"
 #include "jobs/prior/prior_pictures.h"
 
 namespace walktrack {
@@ -99,10 +100,22 @@ std::string cheapest_table(const std::vector<CheapestStep>& steps, double gravit
   return out;
 }
 
+constexpr const char* kGaitsFile = "gaits.csv";  // the last
+
+Outputs outputs_of(const PriorReportJob& job) {
+  return {
+      job.output,
+      "prior",
+      {"cost.svg", "cheapest.csv", "cheapest_step.svg", "strips.svg", "survival.csv", kGaitsFile},
+      {job.prior},
+      kGaitsFile};
+}
+
 }  // namespace
 
 bool build_prior(const PriorJob& job, const JobControl& control) {
   refuse_existing(job.output, job.overwrite);
+  refuse_input(job.output, {job.earlier});
   fs::path part = job.output;
   part += ".part";
   GaitPrior earlier;
@@ -126,20 +139,19 @@ bool build_prior(const PriorJob& job, const JobControl& control) {
 }
 
 void report_prior(const PriorReportJob& job, const JobControl& control) {
-  refuse_existing(job.output / "gaits.csv", job.overwrite);
   const GaitPrior prior = job.prior.empty() ? load_gait_prior() : read_prior(job.prior);
+  const ResultFolder folder(outputs_of(job), job.overwrite);
   const KneedParameters walker = adult_walker(job.height, job.mass);
   const WalkerUnits units = walker_units(walker);
   const CostTable costs = cost_table(prior);
   const auto steps = cheapest_steps(costs, units);
-  fs::create_directories(job.output);
-  write_file_atomically(job.output / "cost.svg", cost_picture(costs, units));
-  write_file_atomically(job.output / "cheapest.csv", cheapest_table(steps, units.gravity));
-  write_file_atomically(job.output / "cheapest_step.svg", cheapest_picture(steps, units));
-  write_file_atomically(job.output / "strips.svg", strips_picture(prior, walker));
-  write_file_atomically(job.output / "survival.csv", survival_table(prior, walker, job, control));
+  folder.write("cost.svg", cost_picture(costs, units));
+  folder.write("cheapest.csv", cheapest_table(steps, units.gravity));
+  folder.write("cheapest_step.svg", cheapest_picture(steps, units));
+  folder.write("strips.svg", strips_picture(prior, walker));
+  folder.write("survival.csv", survival_table(prior, walker, job, control));
   if (control.stopping()) return;
-  write_file_atomically(job.output / "gaits.csv", gaits_table(prior, units));
+  folder.write(kGaitsFile, gaits_table(prior, units));
 }
 
 void build_straight_prior(const PriorJob& job, const JobControl& control) {
@@ -154,18 +166,17 @@ void build_straight_prior(const PriorJob& job, const JobControl& control) {
 }
 
 void report_straight_prior(const PriorReportJob& job, const JobControl& control) {
-  refuse_existing(job.output / "gaits.csv", job.overwrite);
   const StraightPrior prior =
       job.prior.empty()
           ? load_straight_prior()
           : parse_straight_prior(read_text_file(job.prior, kMaxPriorBytes), job.prior.string());
+  const ResultFolder folder(outputs_of(job), job.overwrite);
   const StraightLeggedParameters walker = adult_straight_walker(job.height, job.mass);
   const WalkerUnits units = walker_units(walker);
-  fs::create_directories(job.output);
-  write_file_atomically(job.output / "cost.svg", cost_picture(cost_table(prior), units));
-  write_file_atomically(job.output / "survival.csv", survival_table(prior, walker, job, control));
+  folder.write("cost.svg", cost_picture(cost_table(prior), units));
+  folder.write("survival.csv", survival_table(prior, walker, job, control));
   if (control.stopping()) return;
-  write_file_atomically(job.output / "gaits.csv", gaits_table(prior, units));
+  folder.write(kGaitsFile, gaits_table(prior, units));
 }
 
 }  // namespace walktrack

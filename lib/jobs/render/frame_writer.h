@@ -2,33 +2,37 @@
 // was rendered to the last bit; an encoder adds its own, and does not promise the same twice.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include <opencv2/core/mat.hpp>
 
+#include "io/archive/result_folder.h"
 #include "io/video/video_writer.h"
 
 namespace walktrack {
 
 class FrameWriter {
  public:
-  // Into <folder>/<name>.mp4 or, as images, <folder>/<name>/%06d.png; images of an earlier run that
-  // are beyond this one's last are removed. Throws std::runtime_error if no encoder opens.
-  FrameWriter(const std::filesystem::path& folder, const std::string& name, bool images,
-              cv::Size size_px, double frame_rate);
+  // Into <folder>/<name>.mp4 or, as images, <folder>/<name>/%06d.png. Throws std::runtime_error if
+  // no encoder opens.
+  FrameWriter(const ResultFolder& folder, const std::string& name, bool images, cv::Size size_px,
+              double frame_rate);
 
   void write(const cv::Mat& frame);
   void close();
 
  private:
-  std::filesystem::path images_;  // their folder
-  size_t written_ = 0;
+  const ResultFolder& folder_;
+  std::string name_;
+  size_t written_ = 0;  // images
   std::optional<VideoWriter> video_;
 };
 
 // The name that a scene calls such a film by.
 std::string film_name(const std::string& name, bool images);
+
+// What the result folder calls its file or files by.
+std::string film_files(const std::string& name, bool images);
 
 }  // namespace walktrack

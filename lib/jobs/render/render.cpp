@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "core/parallel_for.h"
 #include "io/archive/files.h"
+#include "io/archive/result_folder.h"
 #include "io/calibration/calibration.h"
 #include "io/tables/angles_file.h"
 #include "io/tables/kinetics_file.h"
@@ -26,6 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kSceneFile = "scene.yaml";
 constexpr size_t kFramesPerThread = 2;   // in memory at a time
 constexpr double kRoundingShare = 1e-6;  // of a frame: a duration of whole frames includes the last
 
@@ -76,13 +78,13 @@ cv::Mat picture(const RenderJob& job, const Plane<Colour>& light, uint32_t strea
 }
 
 void write_truth_pictures(const RenderJob& job, const Stage& stage, const Filming& filming,
-                          size_t frame) {
+                          const ResultFolder& folder, size_t frame) {
   const RenderOptions& options = job.options;
   if (!options.labels && !options.flow && !options.depth) return;
   const auto now = actors_at(stage, filming.time(frame));
   const Plane<Sight> sights = render(filming.view, stage.world, now).sights;
   const auto file = [&](const char* kind, const char* suffix) {
-    return job.output / kind / filming.camera.name / fmt::format("{:06}.{}", frame, suffix);
+    return folder.file(fmt::format("{}/{}/{:06}.{}", kind, filming.camera.name, frame, suffix));
   };
   if (options.labels) write_labels(file("labels", "png"), labels_of(sights));
   if (options.depth) write_depth(file("depth", "pfm"), depth_of(filming.view, sights));
@@ -102,9 +104,10 @@ void make_truth_folders(const RenderJob& job, const std::string& camera) {
 
 // Renders `count` frames, some at a time in parallel, and writes them in order.
 template <typename MakeFrame>
-void write_film(const RenderJob& job, const std::string& name, const Filming& filming, size_t count,
-                int threads, const JobControl& control, const MakeFrame& make_frame) {
-  FrameWriter writer(job.output, name, job.options.images,
+void write_film(const RenderJob& job, const std::string& name, const Filming& filming,
+                const ResultFolder& folder, size_t count, int threads, const JobControl& control,
+                const MakeFrame& make_frame) {
+  FrameWriter writer(folder, name, job.options.images,
                      {filming.view.camera.width_px, filming.view.camera.height_px}, filming.rate);
   const size_t batch = kFramesPerThread * static_cast<size_t>(threads);
   std::vector<cv::Mat> images(batch);
@@ -117,20 +120,21 @@ void write_film(const RenderJob& job, const std::string& name, const Filming& fi
   if (!control.stopping()) writer.close();
 }
 
-void film(const RenderJob& job, const Stage& stage, const Filming& filming, int threads,
-          const JobControl& control) {
+void film(const RenderJob& job, const Stage& stage, const Filming& filming,
+          const ResultFolder& folder, int threads, const JobControl& control) {
   const std::string& name = filming.camera.name;
   make_truth_folders(job, name);
-  write_file_atomically(job.output / (name + ".yaml"), opencv_from_camera(filming.view.camera));
-  write_film(job, name, filming, filming.frames, threads, control, [&](size_t frame) {
-    write_truth_pictures(job, stage, filming, frame);
+  folder.write(name + ".yaml", opencv_from_camera(filming.view.camera));
+  write_film(job, name, filming, folder, filming.frames, threads, control, [&](size_t frame) {
+    write_truth_pictures(job, stage, filming, folder, frame);
     const Plane<Colour> light =
         exposed(stage, filming.view, job.options.shutter, filming.time(frame), filming.rate);
     return picture(job, light, 2 * filming.stream, static_cast<uint32_t>(frame));
   });
   if (job.options.background_frames == 0 || control.stopping()) return;
-  write_film(job, name + "_background", filming, static_cast<size_t>(job.options.background_frames),
-             threads, control, [&](size_t frame) {
+  write_film(job, name + "_background", filming, folder,
+             static_cast<size_t>(job.options.background_frames), threads, control,
+             [&](size_t frame) {
                return picture(job, filming.view.empty, 2 * filming.stream + 1,
                               static_cast<uint32_t>(frame));
              });
@@ -202,7 +206,8 @@ std::vector<Filming> film_crew(const RenderOptions& options, const Stage& stage,
 }
 
 // Forces at the scene's times, with the walker where the stage has put it.
-TableNotes write_kinetics(const RenderJob& job, WalkedGait walked, std::vector<double> times) {
+TableNotes write_kinetics(const RenderJob& job, WalkedGait walked, std::vector<double> times,
+                          const ResultFolder& folder) {
   const FilmedWalker& walker = job.walker;
   walked.world_from_plane = Eigen::Translation3d(walker.shift.x(), walker.shift.y(), 0) *
                             Eigen::AngleAxisd(walker.turn, Eigen::Vector3d::UnitZ()) *
@@ -211,8 +216,29 @@ TableNotes write_kinetics(const RenderJob& job, WalkedGait walked, std::vector<d
   for (double& time : times) time += job.options.start - walker.delay;
   Kinetics truth = ground_kinetics(walked, times, 1 / job.options.frame_rate);
   truth.time = of_scene;
-  write_file_atomically(job.output / "kinetics.csv", simulated_kinetics_csv(truth));
+  folder.write("kinetics.csv", simulated_kinetics_csv(truth));
   return simulated_kinetics_notes(truth, subject_of(walker));
+}
+
+Outputs outputs_of(const RenderJob& job, const std::vector<Filming>& cameras) {
+  const RenderOptions& options = job.options;
+  Outputs out{job.output,
+              "render",
+              {kSceneFile, "truth.csv", "angles.csv", "events.csv", "kinetics.csv", "tables.json"},
+              job.inputs,
+              kSceneFile};
+  for (const Filming& filming : cameras) {
+    const std::string& name = filming.camera.name;
+    out.files.push_back(name + ".yaml");
+    out.files.push_back(film_files(name, options.images));
+    if (options.background_frames > 0)
+      out.files.push_back(film_files(name + "_background", options.images));
+    if (options.labels) out.files.push_back(numbered_files("labels/" + name, ".png"));
+    if (options.flow) out.files.push_back(numbered_files("flow/" + name, ".flo"));
+    if (options.depth) out.files.push_back(numbered_files("depth/" + name, ".pfm"));
+    if (!filming.camera.calibration.empty()) out.inputs.push_back(filming.camera.calibration);
+  }
+  return out;
 }
 
 }  // namespace
@@ -220,10 +246,6 @@ TableNotes write_kinetics(const RenderJob& job, WalkedGait walked, std::vector<d
 size_t render_scene(const RenderJob& given, const JobControl& control) {
   RenderJob job = given;
   const int threads = thread_count(job.threads);
-  refuse_existing(job.output / "scene.yaml", job.overwrite);
-  fs::create_directories(job.output);
-  fs::remove(job.output / "scene.yaml");
-  fs::remove(job.output / "kinetics.csv");
   std::optional<WalkedGait> walked;
   if (job.gait) {
     const double end = job.options.duration.value_or(kDefaultWalkDuration) + job.options.start;
@@ -233,23 +255,24 @@ size_t render_scene(const RenderJob& given, const JobControl& control) {
   }
   const Stage stage = make_stage(job.walker, job.options, calibrations(job.options));
   const std::vector<Filming> cameras = film_crew(job.options, stage, threads);
+  const ResultFolder folder(outputs_of(job, cameras), job.overwrite);
   const Actor& actor = stage.actors.front();
   const std::vector<double> times = scene_times(stage, job.options.frame_rate);
   const Motion truth = truth_at(stage, times);
-  write_file_atomically(job.output / "truth.csv", motion_csv(truth));
+  folder.write("truth.csv", motion_csv(truth));
   const std::vector<AngleRow> angles = angle_rows(truth, actor.body.lengths);
-  write_file_atomically(job.output / "angles.csv", joint_angles_csv(angles));
-  write_file_atomically(job.output / "events.csv", events_csv(actor.motion, stage.duration));
+  folder.write("angles.csv", joint_angles_csv(angles));
+  folder.write("events.csv", events_csv(actor.motion, stage.duration));
   std::vector<TableNotes> notes{joint_angles_notes(job.options.frame_rate)};
-  if (walked) notes.push_back(write_kinetics(job, *walked, times));
-  write_file_atomically(job.output / "tables.json", tables_json(notes));
+  if (walked) notes.push_back(write_kinetics(job, *walked, times, folder));
+  folder.write("tables.json", tables_json(notes));
   size_t frames = 0;
   for (const Filming& filming : cameras) {
-    film(job, stage, filming, threads, control);
+    film(job, stage, filming, folder, threads, control);
     if (control.stopping()) return frames;
     frames += filming.frames;
   }
-  write_file_atomically(job.output / "scene.yaml", scene_yaml(job, cameras, truth));
+  folder.write(kSceneFile, scene_yaml(job, cameras, truth));
   return frames;
 }
 

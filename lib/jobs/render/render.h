@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "core/job_control.h"
 #include "io/scene/render_file.h"
@@ -19,13 +20,15 @@ struct RenderJob {
   FilmedWalker walker;
   std::optional<GaitWalk> gait;  // instead of the walker's motion
   RenderOptions options;
+  std::vector<std::filesystem::path> inputs;  // what motion and options were read from
   std::filesystem::path output;
   bool overwrite = false;
   int threads = 0;  // 0 = all that the process may use
 };
 
 // scene.yaml is written last: a folder that holds one is complete. UsageError if it is there
-// already and may not be overwritten. Returns the number of frames rendered, all cameras together.
+// already and may not be overwritten, or was not written by render_scene(). Returns the number of
+// frames rendered, all cameras together.
 size_t render_scene(const RenderJob& job, const JobControl& control);
 
 }  // namespace walktrack

@@ -94,9 +94,9 @@ std::vector<TrialResult> run_selftest(const SelftestJob& job, const JobControl& 
   std::vector<TrialResult> results(names.size());
   std::vector<bool> done(names.size(), false);
   std::list<Running> running;
-  fs::create_directories(job.folder);
   const auto place = [&](size_t i) { return job.folder / fmt::format("{:02}", i); };
   const auto log = [&](size_t i) { return job.folder / fmt::format("{:02}.log", i); };
+  fs::create_directories(job.folder);
   size_t next = 0;
   while ((next < names.size() || !running.empty()) && !control.stopping()) {
     if (next < names.size() && static_cast<int>(running.size()) < job.jobs) {

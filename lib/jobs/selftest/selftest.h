@@ -34,7 +34,8 @@ struct TrialResult {
 std::vector<std::string> trial_names(bool stress);
 
 // One trial in this process; films and results go to `folder`, which it makes. UsageError for an
-// unknown name; what the trial itself throws beyond errors for the user comes through.
+// unknown name and a folder that holds something; what the trial itself throws beyond errors for
+// the user comes through.
 TrialResult run_trial(const std::string& name, const std::filesystem::path& folder);
 
 // One line that a trial's process prints last, and back; kFailed for other lines.
@@ -44,7 +45,7 @@ TrialResult trial_from_line(const std::string& name, const std::string& line);
 struct SelftestJob {
   // A program and options that run one trial and print its line; "NAME -o FOLDER" is appended.
   std::vector<std::string> command;
-  std::filesystem::path folder;  // for films and results; what trials leave there is removed
+  std::filesystem::path folder;  // empty, for films and results; what trials leave is removed
   bool stress = false;
   int jobs = 1;  // trials at a time
 };

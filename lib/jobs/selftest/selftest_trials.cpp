@@ -292,6 +292,8 @@ std::vector<std::string> trial_names(bool stress) {
 }
 
 TrialResult run_trial(const std::string& name, const fs::path& folder) {
+  if (fs::exists(folder) && !fs::is_empty(folder))
+    throw UsageError(describe({folder.string(), 0, ""}, "files", "a new or empty folder"));
   for (const Trial& trial : kTrials) {
     if (name != trial.name) continue;
     TrialResult result = trial.run(folder);

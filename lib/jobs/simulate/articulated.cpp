@@ -10,6 +10,7 @@
 #include "core/version.h"
 #include "io/archive/result_folder.h"
 #include "io/drawing/stick_figure.h"
+#include "jobs/simulate/simulate.h"
 
 namespace walktrack {
 namespace {
@@ -244,7 +245,7 @@ SimulationEnd simulate_articulated_into(const std::filesystem::path& path, bool 
                                         const std::vector<std::string>& command_line) {
   const ArticulatedBody body = articulated_person(job.spec);
   const ArticulatedRecording recording = record(body, job);
-  const ResultFolder folder(path, overwrite);
+  const ResultFolder folder({path, "simulate", simulation_files(), {job.model_file}}, overwrite);
   folder.write("states.csv", states_csv(body, job, recording));
   if (job.pictures) {
     constexpr int kStripFigures = 12;

@@ -38,11 +38,12 @@ ArticulatedBody articulated_person(const ArticulatedSpec& spec);
 
 struct ArticulatedJob {
   ArticulatedSpec spec;
-  double duration = 2;            // s
-  double step = 1e-3;             // s
-  double sample_interval = 0.01;  // s
-  double frame_rate = 30;         // Hz
-  double slow_motion = 1;         // times slower than life
+  std::filesystem::path model_file{};  // that it was read from, if any
+  double duration = 2;                 // s
+  double step = 1e-3;                  // s
+  double sample_interval = 0.01;       // s
+  double frame_rate = 30;              // Hz
+  double slow_motion = 1;              // times slower than life
   Integrator integrator = Integrator::kRk4;
   bool pictures = true;
 };

@@ -197,11 +197,17 @@ std::string events_csv(const Recording& recording) {
   return csv;
 }
 
+std::vector<std::string> simulation_files() {
+  return {"states.csv", "strip.svg", "strip.png", "animation.mp4"};
+}
+
 SimulationEnd simulate_into(const std::filesystem::path& path, bool overwrite,
                             const SimulateJob& job, const std::vector<std::string>& command_line,
                             const JobControl& control) {
   const auto walker = make_walker(job.model);
-  const ResultFolder folder(path, overwrite);
+  Outputs outputs{path, "simulate", simulation_files(), {job.model_file}};
+  outputs.files.insert(outputs.files.end(), {"model.yaml", "events.csv"});
+  const ResultFolder folder(outputs, overwrite);
   const Recording recording = record(*walker, job, control);
   folder.write("model.yaml", model_as_yaml(job.model));
   folder.write("states.csv", states_csv(*walker, recording));

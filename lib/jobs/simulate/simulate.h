@@ -18,6 +18,7 @@ using NextWalker = std::function<std::unique_ptr<Walker>(const WalkerState&)>;
 
 struct SimulateJob {
   ModelSpec model;
+  std::filesystem::path model_file{};  // that it was read from, if any
   SimulationOptions simulation;
   double duration = 5;            // s
   int steps = 0;                  // > 0: stop after so many steps
@@ -50,6 +51,9 @@ std::string states_csv(const Walker& walker, const Recording& recording);
 // t, event, index, impulse of the ground (N s), work of the toe-off (J), travel and step length
 // (m).
 std::string events_csv(const Recording& recording);
+
+// What every simulation may write.
+std::vector<std::string> simulation_files();
 
 // Runs the job; the folder holds states.csv, events.csv, model.yaml, the pictures and run.json.
 // `command_line` is kept in run.json.

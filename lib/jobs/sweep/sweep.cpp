@@ -13,12 +13,11 @@
 #include "core/parallel_for.h"
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
-#include "io/archive/run_record.h"
-#include "io/archive/sha256.h"
 #include "io/tables/motion_file.h"
 #include "io/video/scene_video.h"
 #include "jobs/evaluate/evaluate.h"
 #include "jobs/track/track.h"
+#include "jobs/track/track_origin.h"
 #include "metrics/joint_error.h"
 #include "metrics/pareto.h"
 #include "metrics/statistics.h"
@@ -62,7 +61,6 @@ class Sweep {
     const SceneVideo video(job.scene);
     frame_rate_ = video.frame_rate();
     frames_ = static_cast<size_t>(std::max(1, video.frame_count()));
-    scene_digest_ = sha256(read_text_file(job.scene.file, kMaxBytes));
   }
 
   size_t frames() const { return frames_; }
@@ -82,7 +80,6 @@ class Sweep {
     if (control_.stopping()) return false;
     const TrackJob track = track_job(trial);
     if (job_.again || !measured(track)) {
-      refuse_other(track);
       const TrackOutcome outcome = track_scene(track, quiet(before));
       if (outcome.status == TrackStatus::kInterrupted) return false;
       if (outcome.status == TrackStatus::kCutShort)
@@ -114,24 +111,12 @@ class Sweep {
   // Whether the run's folder holds what this program would measure now.
   bool measured(const TrackJob& track) const {
     if (!is_complete_result(track.output)) return false;
-    const Json found =
-        Json::parse(read_text_file(track.output / "run.json", kMaxBytes), nullptr, false);
-    RunRecord wanted;
-    wanted.config = track.config;
-    wanted.scene_digest = scene_digest_;
-    const Json expected = Json::parse(run_json(wanted));
-    return found.is_object() && found.contains("scene") && found.contains("config") &&
-           found.value("program", Json()) == expected.at("program") &&
-           found.at("config") == expected.at("config") &&
-           found.at("scene").value("sha256", "") == scene_digest_;
-  }
-
-  void refuse_other(const TrackJob& track) const {
-    if (job_.again || !is_complete_result(track.output)) return;
+    const std::string changed =
+        changes_since(track.output, origin_of(track.config, input_digests(track.scene)));
+    if (changed.empty()) return true;
     throw UsageError(
-        fmt::format("{} holds a run of another scene, configuration or program; -y measures all "
-                    "runs again",
-                    track.output.string()));
+        fmt::format("{} holds a run of other settings or inputs ({}); -y measures all runs again",
+                    track.output.string(), changed));
   }
 
   // A run's own progress becomes a part of the sweep's; what it says is for its report.
@@ -149,7 +134,6 @@ class Sweep {
   const JobControl& control_;
   double frame_rate_ = 0;
   size_t frames_ = 0, done_ = 0, total_ = 0;  // frames of one run; of all runs
-  std::string scene_digest_;
 };
 
 double median(std::vector<double> values) {
@@ -221,6 +205,7 @@ std::optional<Truth> reference_of(const SweepJob& job, Sweep& sweep, const Sweep
 }  // namespace
 
 SweepReport run_sweep(const SweepJob& job, const JobControl& control) {
+  refuse_what_is_not_ours(sweep_outputs(job));
   if (job.config.values.budget.frame_ms > 0)
     throw UsageError("budget.frame_ms: a sweep measures settings as they are; leave it 0");
   SweepReport report;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/job_control.h"
+#include "io/archive/result_folder.h"
 #include "jobs/sweep/sweep_grid.h"
 
 namespace walktrack {
@@ -84,8 +85,9 @@ std::vector<std::string> sweep_advice(const SweepReport& report, const SweepWish
 std::string sweep_csv(const SweepReport& report);
 std::string sweep_json(const SweepReport& report, const std::vector<std::string>& advice);
 std::string sweep_markdown(const SweepReport& report, const std::vector<std::string>& advice);
-// The four files.
+// The four files, and the folder that they are in.
+Outputs sweep_outputs(const SweepJob& job);
 void write_sweep(const SweepReport& report, const std::vector<std::string>& advice,
-                 const std::filesystem::path& output);
+                 const SweepJob& job);
 
 }  // namespace walktrack

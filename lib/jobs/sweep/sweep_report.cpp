@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/version.h"
-#include "io/archive/files.h"
 #include "io/config/text.h"
 #include "io/drawing/trade_plot.h"
 #include "jobs/sweep/sweep.h"
@@ -201,18 +200,28 @@ std::string sweep_markdown(const SweepReport& report, const std::vector<std::str
   return text;
 }
 
+Outputs sweep_outputs(const SweepJob& job) {
+  Outputs out{job.output,
+              "sweep",
+              {"sweep.csv", "sweep.json", "sweep.md", "sweep.svg"},
+              files_of(job.scene),
+              ""};
+  out.inputs.push_back(job.truth);
+  return out;
+}
+
 void write_sweep(const SweepReport& report, const std::vector<std::string>& advice,
-                 const std::filesystem::path& output) {
+                 const SweepJob& job) {
   std::vector<TradePoint> points;
   for (const SweepRow& row : report.rows)
     points.push_back({name_of(report, row), row.frames_per_second(), row.error_mm, row.error_sd_mm,
                       row.holds, row.on_front});
-  std::filesystem::create_directories(output);
-  write_file_atomically(output / "sweep.csv", sweep_csv(report));
-  write_file_atomically(output / "sweep.json", sweep_json(report, advice));
-  write_file_atomically(output / "sweep.md", sweep_markdown(report, advice));
-  write_file_atomically(output / "sweep.svg", trade_plot_svg("Speed and accuracy: " + report.scene,
-                                                             report.error_is, points));
+  const ResultFolder folder(sweep_outputs(job), true);
+  folder.write("sweep.csv", sweep_csv(report));
+  folder.write("sweep.json", sweep_json(report, advice));
+  folder.write("sweep.md", sweep_markdown(report, advice));
+  folder.write("sweep.svg",
+               trade_plot_svg("Speed and accuracy: " + report.scene, report.error_is, points));
 }
 
 }  // namespace walktrack

@@ -67,6 +67,11 @@ std::vector<FootContact> foot_contacts(const Gait& gait) {
   return out;
 }
 
+std::vector<std::string> motion_table_files() {
+  return {"joints.trc",   "angles.csv",          "angles.mot",        "gait.json",  "gait.csv",
+          "kinetics.csv", "ground_reaction.mot", "joint_moments.sto", "tables.json"};
+}
+
 KineticsTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsConfig& config,
                                    const ResultFolder& folder) {
   write_angles(analysed, folder);

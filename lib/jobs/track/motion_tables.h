@@ -3,6 +3,7 @@
 // ground_reaction.mot and joint_moments.sto.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "camera/world_frame.h"
@@ -30,6 +31,9 @@ struct AnalysedMotion {
 // shows that both stood, is taken to share the ground as long as feet did elsewhere in the motion,
 // or 0.12 s (a walk at 1.3 m/s) if nowhere.
 std::vector<FootContact> foot_contacts(const Gait& gait);
+
+// All files that the tables may be.
+std::vector<std::string> motion_table_files();
 
 // Writes the tables; hands back the totals of the kinetics.
 KineticsTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsConfig& config,

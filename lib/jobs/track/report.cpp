@@ -109,8 +109,8 @@ std::filesystem::path write_report(const ResultFolder& folder, const ReportInput
   data["title"] = page.title;
   page.data_json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   page.clips = input.clips;
-  write_report_page(folder.file("report.html"), page);
-  return folder.file("report.html");
+  write_report_page(folder.file(kReportFile), page);
+  return folder.file(kReportFile);
 }
 
 }  // namespace walktrack

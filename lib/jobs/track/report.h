@@ -19,6 +19,8 @@
 
 namespace walktrack {
 
+inline constexpr const char* kReportFile = "report.html";
+
 struct ReportInput {
   std::filesystem::path source;  // the scene or the motion that it is about; for the title
   const AnalysedMotion& analysed;

@@ -82,14 +82,15 @@ std::string size_note(const Stature& stature) {
       stature.height, stature.sd);
 }
 
-RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrames& frames,
-                    const TrackOutcome& outcome, const Quality& quality,
-                    const WrittenTables& tables, double seconds) {
+RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& run,
+                    const TrackedFrames& frames, const TrackOutcome& outcome,
+                    const Quality& quality, const WrittenTables& tables, double seconds) {
   const Counts counts = count(frames);
   RunRecord out;
   out.command = "track";
   out.scene = job.scene.file.filename().string();
   out.scene_digest = sha256(read_text_file(job.scene.file, kMaxSceneBytes));
+  out.inputs = inputs;
   out.config = job.config;
   out.status = status_word(outcome.status);
   if (!outcome.trouble.empty()) out.notes.push_back(outcome.trouble);
@@ -169,10 +170,33 @@ std::string trouble_with(const Checkpoint& checkpoint, const TrackJob& job) {
   return frame_file_trouble(job.output / kFramesFile, checkpoint.records, checkpoint.record_bytes);
 }
 
+// Says what a complete result was made of otherwise, or refuses to make it again.
+void see_to_earlier_result(const TrackJob& job, const Origin& origin, const JobControl& control) {
+  if (!is_complete_result(job.output)) return;
+  const std::string changed = changes_since(job.output, origin);
+  if (!job.overwrite) {
+    throw UsageError(fmt::format("{} holds a complete result of {}; -y makes it again",
+                                 job.output.string(),
+                                 changed.empty() ? "these very settings and inputs"
+                                                 : "other settings or inputs (" + changed + ")"));
+  }
+  if (!changed.empty())
+    control.say(fmt::format("{}: made again, for it was of other settings or inputs ({})",
+                            job.output.string(), changed));
+}
+
 // The checkpoint to go on from, if that is wanted and there is one that fits.
 std::optional<Checkpoint> checkpoint_for(const TrackJob& job, const Origin& origin,
                                          const JobControl& control) {
-  if (!job.resume) return std::nullopt;
+  if (!job.resume) {
+    if (!job.overwrite && fs::exists(job.output / kCheckpointFile)) {
+      throw UsageError(fmt::format(
+          "{} holds the checkpoint of a run that was stopped; --resume goes on from it, -y starts "
+          "anew",
+          job.output.string()));
+    }
+    return std::nullopt;
+  }
   FoundCheckpoint found = read_checkpoint(job.output / kCheckpointFile, origin);
   if (found.checkpoint) {
     const std::string trouble = trouble_with(*found.checkpoint, job);
@@ -206,9 +230,14 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   const auto start = Clock::now();
   require_a_term(job.config.values.observation);
   SceneVideo video(job.scene);
-  const Origin origin = origin_of(job);
+  require_room_for_search(job.scene, job.config.values, video.frame_rate());
+  const Outputs outputs = track_outputs(job);
+  refuse_what_is_not_ours(outputs);
+  const Origin inputs = input_digests(job.scene);
+  const Origin origin = origin_of(job.config, inputs);
+  see_to_earlier_result(job, origin, control);
   std::optional<Checkpoint> checkpoint = checkpoint_for(job, origin, control);
-  const ResultFolder folder(job.output, job.overwrite,
+  const ResultFolder folder(outputs, job.overwrite,
                             checkpoint ? kFilesOfWork : std::span<const std::string_view>{});
   TrackRun run(job, video, folder, origin, std::move(checkpoint), control);
   TrackOutcome outcome;
@@ -237,7 +266,7 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   run.watch().add("output", spent_since(writing));
   const double seconds = seconds_since(start);
   const std::string record =
-      run_json(record_of(job, run, frames, outcome, quality, tables, seconds));
+      run_json(record_of(job, inputs, run, frames, outcome, quality, tables, seconds));
   outcome.look_at = write_report(
       folder, {job.scene.file, analysed, uncertainty, job.scene.cameras, record, clips});
   const bool partial =

@@ -23,7 +23,7 @@ struct TrackJob {
   Scene scene;
   ConfigWithOrigin config;
   std::filesystem::path output;
-  bool overwrite = false;  // a complete result, and a checkpoint that does not fit
+  bool overwrite = false;  // a complete result, and a checkpoint that is not gone on from
   bool resume = false;     // go on from the folder's checkpoint, if there is one
   bool overlay = true;
   std::vector<std::string> command_line;

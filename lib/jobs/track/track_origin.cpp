@@ -1,10 +1,14 @@
 #include "jobs/track/track_origin.h"
 
-#include <fmt/format.h>
+#include <algorithm>
 
-#include "core/version.h"
+#include "io/archive/checkpoint_file.h"
 #include "io/archive/files.h"
+#include "io/archive/result_folder.h"
+#include "io/archive/run_record.h"
 #include "io/archive/sha256.h"
+#include "io/video/film_digest.h"
+#include "jobs/track/track_run.h"
 
 namespace walktrack {
 
@@ -13,44 +17,42 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr size_t kMaxTextBytes = size_t{1} << 24;
+constexpr size_t kMaxRecordBytes = size_t{1} << 30;
 
-std::string program() {
-  const BuildFacts& facts = build_facts();
-  return fmt::format("{} {} {} {}", facts.version, facts.commit, facts.build_type, facts.compiler);
-}
-
-std::string scene_texts(const Scene& scene) {
-  std::string text = read_text_file(scene.file, kMaxTextBytes);
-  for (const SceneCamera& camera : scene.cameras)
-    text += read_text_file(camera.calibration, kMaxTextBytes);
-  return text;
-}
-
-std::string settings(const Config& config) {
-  std::string text;
-  for (const auto& [key, value] : config_values(config))
-    if (key != "threads") text += fmt::format("{}: {}\n", key, value);
-  return text;
-}
-
-// Of a printf pattern, which is no file, its folder stands for the frames.
-std::string film(const fs::path& path) {
-  if (path.empty()) return "none";
-  const fs::path seen = is_frame_pattern(path) ? path.parent_path() : path;
-  const auto size = fs::is_regular_file(seen) ? fs::file_size(seen) : 0;
-  return fmt::format("{} {}", size, fs::last_write_time(seen).time_since_epoch().count());
+std::string name_from(const Scene& scene, const fs::path& file) {
+  const fs::path name = file.lexically_relative(scene.file.parent_path());
+  return (name.empty() ? file : name).generic_string();
 }
 
 }  // namespace
 
-Origin origin_of(const TrackJob& job) {
-  std::string films;
-  for (const SceneCamera& camera : job.scene.cameras)
-    films += fmt::format("{}\n{}\n", film(camera.video), film(camera.background));
-  return {{"version of the program", program()},
-          {"scene", sha256(scene_texts(job.scene))},
-          {"configuration", sha256(settings(job.config.values))},
-          {"film", sha256(films)}};
+Origin input_digests(const Scene& scene) {
+  Origin out;
+  const auto add = [&](const fs::path& file, bool film) {
+    const std::string name = name_from(scene, file);
+    const bool there = std::ranges::any_of(out, [&](const auto& e) { return e.first == name; });
+    if (file.empty() || there) return;
+    out.emplace_back(name, film ? film_digest(file) : sha256(read_text_file(file, kMaxTextBytes)));
+  };
+  add(scene.file, false);
+  for (const SceneCamera& camera : scene.cameras) {
+    add(camera.calibration, false);
+    add(camera.video, true);
+    add(camera.background, true);
+  }
+  return out;
+}
+
+Origin origin_of(const ConfigWithOrigin& config, const Origin& inputs) {
+  RunRecord record;
+  record.config = config;
+  record.inputs = inputs;
+  return origin_in(run_json(record));
+}
+
+std::string changes_since(const fs::path& folder, const Origin& wanted) {
+  if (!is_complete_result(folder)) return read_checkpoint(folder / kCheckpointFile, wanted).changed;
+  return differences(origin_in(read_text_file(folder / kRunFile, kMaxRecordBytes)), wanted);
 }
 
 }  // namespace walktrack

@@ -1,14 +1,22 @@
-// What a track depends on: a checkpoint of it is fit for another process only where all of it is
-// the same.
+// What a track depends on: a checkpoint of it is fit for another process, and a result need not be
+// made again, only where all of it is the same.
 #pragma once
 
-#include "io/archive/checkpoint_file.h"
-#include "jobs/track/track.h"
+#include "io/archive/origin.h"
+#include "io/config/config.h"
+#include "io/scene/scene.h"
 
 namespace walktrack {
 
-// Program, scene with calibrations, configuration (threads change no result), and the films by
-// their sizes and times of change.
-Origin origin_of(const TrackJob& job);
+// The scene's file, calibrations and films, named from the scene's folder, with their digests
+// (io/video/film_digest.h). The truth is none of them.
+Origin input_digests(const Scene& scene);
+
+// Program, inputs and configuration (threads change no result).
+Origin origin_of(const ConfigWithOrigin& config, const Origin& inputs);
+
+// What the result that is in the folder was made of otherwise than is wanted now, in words; that
+// of its checkpoint where it is not complete. "" = nothing, or there is neither.
+std::string changes_since(const std::filesystem::path& folder, const Origin& wanted);
 
 }  // namespace walktrack

@@ -13,11 +13,17 @@
 #include "io/tables/motion_file.h"
 #include "io/video/scene_video.h"
 #include "io/video/video_writer.h"
+#include "jobs/track/report.h"
+#include "jobs/track/track_run.h"
 #include "tracker/smooth/model_error.h"
 
 namespace walktrack {
 
 namespace {
+
+std::string overlay_name(const SceneCamera& camera) {
+  return fmt::format("overlay_{}.mp4", camera.name);
+}
 
 double time_of(const TrackedFrames& frames, size_t i) {
   return static_cast<double>(i) / frames.frame_rate;
@@ -171,6 +177,15 @@ std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames) {
   return out;
 }
 
+Outputs track_outputs(const TrackJob& job) {
+  Outputs out{job.output, "track", motion_table_files(), files_of(job.scene)};
+  out.files.insert(out.files.end(), {"joints.csv", "uncertainty.csv", kReportFile});
+  out.files.insert(out.files.end(), kPassingFiles.begin(), kPassingFiles.end());
+  for (const SceneCamera& camera : job.scene.cameras)
+    if (job.overlay) out.files.push_back(overlay_name(camera));
+  return out;
+}
+
 Scene with_stature(const Scene& scene, const std::optional<Stature>& stature) {
   Scene out = scene;
   if (!stature) return out;
@@ -213,7 +228,7 @@ std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames&
   for (size_t c = 0; c < job.scene.cameras.size(); ++c) {
     const Camera& camera = job.scene.cameras[c].camera;
     const std::string& name = job.scene.cameras[c].name;
-    clips.push_back({name, folder.file(fmt::format("overlay_{}.mp4", name))});
+    clips.push_back({name, folder.file(overlay_name(job.scene.cameras[c]))});
     writers.emplace_back(clips.back().file, cv::Size(camera.width_px, camera.height_px),
                          frames.frame_rate);
   }

@@ -36,6 +36,9 @@ Ensemble ensemble_of(const TrackedFrames& frames);
 // When the walkers' weight changed onto a foot.
 std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames);
 
+// The result folder of a track: what is read, and every file that may be written.
+Outputs track_outputs(const TrackJob& job);
+
 // The scene with what was found out about its subject; weights that it does not give go with the
 // square of the height.
 Scene with_stature(const Scene& scene, const std::optional<Stature>& stature);

@@ -25,7 +25,10 @@ namespace walktrack {
 inline constexpr std::string_view kCheckpointFile = "checkpoint.bin", kFramesFile = "frames.bin";
 inline constexpr std::string_view kSmoothedFile = "smoothed_frames.bin",
                                   kPlantedFile = "planted_frames.bin";
+// Those that a run is resumed from; all that there are only while it works.
 inline constexpr std::array kFilesOfWork{kCheckpointFile, kFramesFile};
+inline constexpr std::array kPassingFiles{kCheckpointFile, kFramesFile, kSmoothedFile,
+                                          kPlantedFile};
 
 // When a checkpoint is worth its time.
 class CheckpointTimer {

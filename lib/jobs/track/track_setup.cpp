@@ -10,6 +10,7 @@
 #include "core/parallel_for.h"
 #include "io/video/video.h"
 #include "observation/background_sampler.h"
+#include "observation/flow.h"
 #include "observation/shrink.h"
 #include "tracker/motion/planar_body.h"
 
@@ -120,6 +121,29 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
     out.cameras.push_back(setup.observers.back().camera());
   }
   return setup;
+}
+
+double search_window_bytes(const Scene& scene, const Config& config, double frame_rate) {
+  double pixels = 0;
+  for (const SceneCamera& each : scene.cameras) {
+    const double shrink = working_scale(scene, each.camera, config).shrink;
+    pixels += each.camera.width_px / shrink * (each.camera.height_px / shrink);
+  }
+  const double flow_bytes = config.observation.flow.enabled ? sizeof(FlowPixel) : 0;
+  return std::ceil(config.tracker.sighting.window * frame_rate) * pixels *
+         (sizeof(int32_t) + flow_bytes);
+}
+
+void require_room_for_search(const Scene& scene, const Config& config, double frame_rate) {
+  constexpr double kGb = 1e9;
+  const double bytes = search_window_bytes(scene, config, frame_rate);
+  if (bytes <= kMostSearchBytes) return;
+  throw InputError(describe(
+      {scene.file.string(), 0, ""},
+      fmt::format("a frame rate and images for which the search would hold {:.1f} GB", bytes / kGb),
+      fmt::format("at most {:.1f} GB: a smaller observation.person_px shrinks images further, a "
+                  "film of fewer frames/s holds less",
+                  kMostSearchBytes / kGb)));
 }
 
 Region search_region(const Camera& camera, double subject_height) {

@@ -30,6 +30,13 @@ struct WorkingScale {
 };
 WorkingScale working_scale(const Scene& scene, const Camera& camera, const Config& config);
 
+// What the search for a walk holds at a time, of all cameras: the evidence of a window of frames,
+// B. It grows with the frame rate and with the pixels that are left after shrinking.
+double search_window_bytes(const Scene& scene, const Config& config, double frame_rate);
+inline constexpr double kMostSearchBytes = 8.0 * (1 << 30);
+// InputError, with what makes it less, where that is more than kMostSearchBytes.
+void require_room_for_search(const Scene& scene, const Config& config, double frame_rate);
+
 // Where to look in the next frame: around the walker once tracked, everywhere before.
 Region search_region(const Camera& camera, double subject_height);
 

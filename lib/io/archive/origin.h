@@ -1,0 +1,21 @@
+// What a result depends on: the program, the configuration and the content of what was read, each
+// by name, so that two results can be told apart in words.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace walktrack {
+
+// {"version of the program", "1.0 ..."}, {"filter.particles", "120"},
+// {"content of side.mp4", "9f86d0..."}, ...
+using Origin = std::vector<std::pair<std::string, std::string>>;
+
+inline constexpr const char* kContentOf = "content of ";
+
+// What is other in `wanted` than in `found`: "filter.particles 120 -> 60, side.mp4 has changed";
+// "" = nothing. Long lists end in "and 12 more".
+std::string differences(const Origin& found, const Origin& wanted);
+
+}  // namespace walktrack
