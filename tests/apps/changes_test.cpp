@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr const char* kWalk =
-    "frame_rate: 10\nduration: 0.3\ninitial: true\nbackground_frames: 2\n"
+    "frame_rate: 10\nduration: 0.3\ninitial: true\nbackground_frames: 2\nsensor: {noise: 0.01}\n"
     "walk: {speed: 1.2, start: [-0.2, 0]}\n"
     "cameras: [{name: side, azimuth_deg: -90, distance: 4, size: [64, 48]}]\n";
 

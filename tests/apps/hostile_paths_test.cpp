@@ -102,12 +102,12 @@ TEST_F(HostilePaths, DotsAndLinksOfScenesLeadNoResultAstray) {
 TEST_F(HostilePaths, LinksInTheOutputAreRefusedAndNotFollowed) {
   add("s");
   const std::string target = folder_.write("mine.txt", "mine");
-  fs::create_directories(folder_.path() / "out/s");
   for (const char* file :
        {"s/joints.csv", "s/uncertainty.csv", "s/log.txt", "s/failure.txt", "s/frames.bin",
         "s/checkpoint.bin", "s/run.partial.json", "s/overlay_side.mp4", "s/report.html",
         "s/kinetics.csv", "summary.csv", "failures.txt", "batch.html"}) {
     const fs::path link = folder_.path() / "out" / file;
+    fs::create_directories(folder_.path() / "out/s");
     fs::create_symlink(target, link);
     const ProgramResult run = batch(folder_ / "in", folder_ / "out");
     // What the batch itself would write stops it; the rest costs the sequence.
@@ -115,7 +115,7 @@ TEST_F(HostilePaths, LinksInTheOutputAreRefusedAndNotFollowed) {
     EXPECT_NE(run.exit_code, 0);
     EXPECT_EQ(read_file(target), "mine");
     EXPECT_TRUE(fs::is_symlink(link)) << file;
-    fs::remove(link);
+    fs::remove_all(folder_.path() / "out");
   }
   EXPECT_EQ(batch(folder_ / "in", folder_ / "out").exit_code, 0);
 }

@@ -2,6 +2,7 @@
 // overwritten, also with -y, and the message says what to do.
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <map>

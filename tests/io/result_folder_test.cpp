@@ -1,5 +1,6 @@
 #include "io/archive/result_folder.h"
 
+#include <array>
 #include <map>
 
 #include <gmock/gmock.h>

@@ -78,17 +78,17 @@ TEST_F(Track, SameSeedSameBytesForAnyThreadCount) {
 // What it holds is bounded, whatever rates and sizes a film has.
 TEST(SearchWindow, TooLargeForMemoryIsRefusedWithItsCure) {
   Scene scene = read_scene(kDemo / "scene.yaml");
-  const Config config;
-  EXPECT_LT(search_window_bytes(scene, config, 30), 1e8);
-  EXPECT_NO_THROW(require_room_for_search(scene, config, kFastestRate));
+  Config fine, coarse;
+  fine.observation.person_px = 4000;  // nothing is shrunk
+  coarse.observation.person_px = 40;
+  EXPECT_DOUBLE_EQ(search_window_bytes(scene, fine, 30), 2.0 * 640 * 480 * 36 * 4);
+  EXPECT_NO_THROW(require_room_for_search(scene, fine, kFastestRate));
   for (SceneCamera& camera : scene.cameras)
     camera.camera.width_px = camera.camera.height_px = kMostPixelsAlongASide;
   EXPECT_THAT(
-      message_of([&] { require_room_for_search(scene, config, 30); }),
-      testing::AllOf(testing::HasSubstr("would hold 19."),
+      message_of([&] { require_room_for_search(scene, fine, 30); }),
+      testing::AllOf(testing::HasSubstr("would hold 19.3 GB"),
                      testing::HasSubstr("at most 8.6 GB: a smaller observation.person_px")));
-  Config coarse;
-  coarse.observation.person_px = 40;
   EXPECT_NO_THROW(require_room_for_search(scene, coarse, 30));
 }
 
