@@ -79,9 +79,9 @@ int run_prior(const Arguments& arguments) {
       "build: how often every gait is tried again from its neighbours");
   if (!line.parse(arguments)) return kDone;
   if (show) {
-    line.refuse({"earlier", "level", "sweeps"}, "without --show, for building a table");
+    line.refuse({"earlier", "level", "sweeps"}, "it without --show, for building a table");
   } else {
-    line.refuse({"table", "height", "mass", "walkers"}, "with --show, for showing a table");
+    line.refuse({"table", "height", "mass", "walkers"}, "it with --show, for showing a table");
   }
   if (!(shown.height > 0.3 && shown.height < 3 && shown.mass > 1 && shown.mass < 500))
     throw UsageError(describe({"", 0, "--height, --mass"},
@@ -94,7 +94,8 @@ int run_prior(const Arguments& arguments) {
   shown.prior = table;
   job.earlier = earlier;
   const Model walker = model_named(model);
-  if (walker == Model::kAnthropomorphic) line.refuse({"earlier", "sweeps"}, "with --model kneed");
+  if (walker == Model::kAnthropomorphic)
+    line.refuse({"earlier", "sweeps"}, "it with --model kneed");
   if (walker == Model::kAnthropomorphic) job.grid.slopes = StraightPriorGrid().slopes;
   if (level) job.grid.slopes = {0};
   return show ? report(line, walker, shown) : build(line, walker, job);

@@ -24,7 +24,7 @@ namespace {
 void write_extremes(const CommandLine& line) {
   line.refuse({"model", "config", "set", "integrator", "step", "duration", "seconds", "steps",
                "sample", "slow", "no-pictures", "prior"},
-              "none of it with --extremes, whose walkers are fixed");
+              "--output, --threads, --yes with --extremes, whose walkers are fixed");
   StabilityJob job;
   job.threads = thread_count(line.config_of_run().values.threads);
   const std::string& output = line.common().output;
@@ -36,7 +36,7 @@ void write_extremes(const CommandLine& line) {
 SimulationEnd simulate_articulated(const CommandLine& line, const SimulateJob& shared,
                                    const std::vector<std::string>& command_line) {
   line.refuse({"steps", "prior", "speed", "speed-at", "step-length", "feedback"},
-              "none of it with the articulated body, which does not walk");
+              "options of the articulated body, which does not walk");
   ArticulatedJob job;
   apply_model_settings(entries(job.spec), line.common().config_file, line.common().settings);
   job.model_file = line.common().config_file;
@@ -72,7 +72,8 @@ class PriorOptions {
   void apply(SimulateJob& job, const CommandLine& line) {
     const CommonOptions& common = line.common();
     if (!wanted_)
-      return line.refuse({"speed", "speed-at", "step-length", "feedback"}, "together with --prior");
+      return line.refuse({"speed", "speed-at", "step-length", "feedback"},
+                         "it together with --prior");
     if (common.config_file.empty() && common.settings.empty())
       job.model.anthropomorphic = adult_straight_walker(1.75, 70);
     for (const std::string& setting : common.settings) refuse_what_the_table_sets(setting);

@@ -169,7 +169,9 @@ ConfigWithOrigin CommandLine::config_of_run() const {
 void CommandLine::refuse(const std::vector<std::string>& options,
                          const std::string& allowed) const {
   for (const std::string& option : options)
-    if (given(option)) throw UsageError(describe({"", 0, "--" + option}, "it", allowed));
+    if (given(option))
+      throw UsageError(
+          describe({"", 0, "--" + option}, "an option that means nothing here", allowed));
 }
 
 std::string CommandLine::required_output() const {
