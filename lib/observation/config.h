@@ -41,10 +41,23 @@ struct FlowConfig {
   double weight = 1;     // against the silhouettes, both per independent area
 };
 
+struct KeypointConfig {
+  bool enabled = false;
+  // Of one point: a network's points err together from joint to joint and for several frames.
+  double weight = .2;
+  // Probability that the names of a frame's left and right are swapped. Of clear views it is below
+  // one in a hundred, but those that there are come in runs of several frames, each of which would
+  // be counted.
+  double flip = .1;
+  double dof = 3;        // of the Student-t: the smaller, the more outliers are expected
+  double outlier = .25;  // radius in which stray points lie, share of the person's height
+};
+
 struct ObservationConfig {
   BackgroundConfig background;
   ForegroundConfig foreground;
   FlowConfig flow;
+  KeypointConfig keypoints;
   // Images are shrunk by a whole factor while a standing subject stays at least this high.
   double person_px = 120;
   double clip = 4;  // of a pixel's log-ratio, nats, both ways: what one pixel may say at most
