@@ -5,6 +5,8 @@
 // are met at their nearest frame, and a slow one shows the same frame several times, of which only
 // the first is fresh. So does one that has dropped frames: a container's time stamps tell where,
 // and the frames after the gap keep their time.
+//
+// A camera without a video shows plain pictures, as many as its keypoints speak of.
 #pragma once
 
 #include <string>
@@ -22,6 +24,7 @@ struct SceneFrames {
   double time = 0;              // s since first_frame
   std::vector<cv::Mat> images;  // one a camera, 8-bit BGR; overwritten by the next read
   std::vector<char> fresh;      // whether the camera has a new frame since the last step
+  std::vector<int> source;      // what that frame is called in its video (FrameSource::number)
 };
 
 class SceneVideo {
@@ -49,6 +52,7 @@ class SceneVideo {
   struct Ahead {
     int number = -1;   // at the camera's rate, counting those that were dropped
     double stamp = 0;  // s
+    int source = 0;    // see SceneFrames
     bool waits = false;
     cv::Mat image;
   };
