@@ -61,6 +61,16 @@ void add_observation(ParameterTable& table) {
   w.number("noise", &W::noise, 0.01, 255, "of grey values from frame to frame, of 256");
   w.number("dof", &W::dof, 0.5, 1000, "of the Student-t; smaller expects more outliers");
   w.number("weight", &W::weight, 0, 1000, "against the silhouettes");
+
+  using K = KeypointConfig;
+  ParameterGroup<K> k(table, "observation.keypoints", "points of a pose detector",
+                      &Config::observation, &O::keypoints);
+  k.choice(
+      "enabled", &K::enabled,
+      {{"auto", KeypointSwitch::kAuto}, {"on", KeypointSwitch::kOn}, {"off", KeypointSwitch::kOff}},
+      "auto: where the scene has their files, or with one or two cameras by the network");
+  k.integer("every", &K::every, 1, 1000, "frames, of which the network looks at one");
+  k.text("model", &K::model, "the shipped network, or the ONNX file of one of the same family");
 }
 
 void add_body(ParameterTable& table) {

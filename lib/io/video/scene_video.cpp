@@ -27,19 +27,22 @@ int frames_passed(double stamp, double before, double rate) {
   return static_cast<int>(std::lround((stamp - before) * rate));
 }
 
-FrameSource source_of(const SceneCamera& camera) {
-  const cv::Size size(camera.camera.width_px, camera.camera.height_px);
-  if (!camera.video.empty()) return FrameSource(camera.video, size);
-  return FrameSource(size, read_keypoints(camera.keypoints).people.rbegin()->first + 1);
+cv::Size size_of(const SceneCamera& camera) {
+  return {camera.camera.width_px, camera.camera.height_px};
 }
 
 }  // namespace
+
+FrameSource plain_frames(const SceneCamera& camera) {
+  return FrameSource(size_of(camera), read_keypoints(camera.keypoints).people.rbegin()->first + 1);
+}
 
 SceneVideo::SceneVideo(const Scene& scene)
     : first_frame_(scene.first_frame), next_frame_(scene.first_frame) {
   last_frame_ = scene.last_frame;
   for (const SceneCamera& camera : scene.cameras) {
-    sources_.push_back(source_of(camera));
+    sources_.push_back(camera.video.empty() ? plain_frames(camera)
+                                            : FrameSource(camera.video, size_of(camera)));
     start_frames_.push_back(camera.start_frame);
   }
   rate_ = scene.frame_rate.value_or(sources_.front().facts().frame_rate);

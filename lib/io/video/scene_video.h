@@ -6,7 +6,7 @@
 // the first is fresh. So does one that has dropped frames: a container's time stamps tell where,
 // and the frames after the gap keep their time.
 //
-// A camera without a video shows plain pictures, as many as its keypoints speak of.
+// A camera without a video shows plain_frames().
 #pragma once
 
 #include <string>
@@ -26,6 +26,10 @@ struct SceneFrames {
   std::vector<char> fresh;      // whether the camera has a new frame since the last step
   std::vector<int> source;      // what that frame is called in its video (FrameSource::number)
 };
+
+// Plain pictures in place of the video of a camera that has keypoints alone: up to the last frame
+// that they speak of.
+FrameSource plain_frames(const SceneCamera& camera);
 
 class SceneVideo {
  public:
