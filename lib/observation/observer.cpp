@@ -3,32 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 
 #include "core/errors.h"
-#include "core/parallel_for.h"
+#include "observation/observed_frame.h"
 #include "observation/shrink.h"
-#include "observation/silhouette.h"
 
 namespace walktrack {
 
 namespace {
 
-// Rows of the background that follow the light in one frame: every eighth, in turn.
-constexpr int kDriftRows = 8;
-// Rows that are worked on together.
-constexpr int kBand = 32;
-// Colours are learned from the inner part of each silhouette, where the body is surely.
-constexpr double kInner = 0.75;
-
 PixelRect image_area(const Camera& camera) { return {0, 0, camera.width_px, camera.height_px}; }
-
-// One pixel more on all sides where there is one: gradients need neighbours.
-PixelRect with_border(const PixelRect& area, const Camera& camera) {
-  return intersection({area.x0 - 1, area.y0 - 1, area.x1 + 1, area.y1 + 1}, image_area(camera));
-}
 
 cv::Mat occluder_mask(const Camera& camera, const std::vector<Polygon>& occluders, int shrink) {
   cv::Mat mask = cv::Mat::zeros(camera.height_px, camera.width_px, CV_8U);
@@ -45,32 +33,26 @@ cv::Mat occluder_mask(const Camera& camera, const std::vector<Polygon>& occluder
   return mask;
 }
 
-// The colours of a whole image, as a class of its own: what stands against the walker's colours
-// where no background is modelled.
-ColourTable scene_table(const ColourBins& bins, const cv::Mat& bgr) {
-  ForegroundConfig config;
-  config.classes.fill(0);
-  AppearanceModel scene(config, {true});
-  AppearanceModel::Counts counts = scene.empty_counts();
-  ColourPatch patch;
-  read_colours(bgr, {0, 0, bgr.cols, bgr.rows}, patch);
-  for (size_t i = 0; i < patch.luma.size(); ++i)
-    counts.weights[0][bins.bin(patch.luma[i], patch.orange[i], patch.green[i])] += 1;
-  counts.seen[0] = static_cast<double>(patch.luma.size());
-  scene.learn(bins, counts);
-  return scene.table(0);
+void require_size(const cv::Mat& frame_bgr, const Camera& calibrated) {
+  if (frame_bgr.type() == CV_8UC3 && frame_bgr.cols == calibrated.width_px &&
+      frame_bgr.rows == calibrated.height_px)
+    return;
+  const auto size = [](int w, int h) { return std::to_string(w) + " x " + std::to_string(h); };
+  throw InputError(describe(
+      {}, "a frame of " + size(frame_bgr.cols, frame_bgr.rows),
+      "8-bit BGR of " + size(calibrated.width_px, calibrated.height_px) + " px, as calibrated"));
 }
+
+template <typename Term>
+using PreparedOf = typename Term::Prepared;
+template <typename Term>
+using MemoryOf = typename Term::Memory;
 
 }  // namespace
 
 struct PreparedFrame::Content {
-  Region region;
-  cv::Mat bgr;                // shrunk
-  ColourPatch colours;        // of the region and a border
-  double gain = 1;            // strength of the light; 1 without a background
-  std::vector<float> behind;  // log densities under the background, row by row of the area
-  cv::Mat grey;               // empty unless flow or the picture needs it
-  FlowField flow;
+  ObservedFrame frame;
+  Terms::map<std::tuple, PreparedOf> prepared;
 };
 
 PreparedFrame::PreparedFrame() : content_(std::make_unique<Content>()) {}
@@ -78,42 +60,34 @@ PreparedFrame::PreparedFrame(PreparedFrame&&) noexcept = default;
 PreparedFrame& PreparedFrame::operator=(PreparedFrame&&) noexcept = default;
 PreparedFrame::~PreparedFrame() = default;
 
+const GreyImage& grey_of(ObservedFrame& frame) {
+  GreyImage& grey = frame.grey;
+  if (!grey.pixels.empty()) return grey;
+  grey = {frame.bgr.cols, frame.bgr.rows, std::vector<uint8_t>(frame.bgr.total())};
+  cv::cvtColor(frame.bgr, cv::Mat(grey.height, grey.width, CV_8U, grey.pixels.data()),
+               cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
 struct Observer::State {
-  using Content = PreparedFrame::Content;
+  State(const ObservationConfig& config, ObserverInput input)
+      : setting{config,
+                scaled_down(input.camera, input.shrink),
+                input.camera,
+                input.shrink,
+                input.threads,
+                !input.occluders.empty(),
+                occluder_mask(scaled_down(input.camera, input.shrink), input.occluders,
+                              input.shrink)},
+        memories(Terms::make<std::tuple, MemoryOf>(setting, input)) {}
 
-  State(const ObservationConfig& settings, ObserverInput input)
-      : config(settings),
-        camera(scaled_down(input.camera, input.shrink)),
-        full_camera(input.camera),
-        shrink(input.shrink),
-        background(std::move(input.background)),
-        threads(input.threads),
-        occluded(!input.occluders.empty()),
-        mask(occluder_mask(camera, input.occluders, input.shrink)),
-        appearance(settings.foreground, input.appearances),
-        broad(broad_table(bins)) {}
+  template <typename Term>
+  auto& memory() {
+    return std::get<MemoryOf<Term>>(memories);
+  }
 
-  bool uses_colours() const { return config.background.enabled || config.foreground.enabled; }
-  void read_background(int sharing, Content& frame) const;
-  void fill_planes(const Content& frame, LogRatioPlanes& planes);
-  int planes_wanted() const;
-  void fill_rows(const Content& frame, int begin, int end, LogRatioPlanes& planes) const;
-  void block_flow(FlowField& flow) const;
-
-  ObservationConfig config;
-  Camera camera, full_camera;
-  int shrink;
-  std::optional<BackgroundModel> background;
-  int threads;
-  bool occluded;
-  cv::Mat mask;  // 255 where an occluder stands
-  AppearanceModel appearance;
-  ColourBins bins;
-  ColourTable scene;  // only without a background model
-  ColourTable broad;
-  cv::Mat grey_before;
-  int64_t frames = 0;
-  ColourPatch patch;  // of the frame observed last
+  ObserverSetting setting;
+  Terms::map<std::tuple, MemoryOf> memories;
 };
 
 Region whole_image(const Camera& camera, double metres_per_px) {
@@ -154,207 +128,89 @@ std::array<bool, kAppearanceCount> appearances_of(const Body& body) {
 }
 
 Observer::Observer(const ObservationConfig& config, ObserverInput input)
-    : state_(std::make_unique<State>(config, std::move(input))) {
-  const State& s = *state_;
-  if (!config.background.enabled) return;
-  if (!s.background) throw InputError("background: enabled, but there is no model of it");
-  if (s.background->width != s.camera.width_px || s.background->height != s.camera.height_px) {
-    const auto size = [](int w, int h) { return std::to_string(w) + " x " + std::to_string(h); };
-    throw InputError(describe({"", 0, "background"},
-                              size(s.background->width, s.background->height) + " px",
-                              size(s.camera.width_px, s.camera.height_px) +
-                                  " px, the calibrated size divided by the shrink factor"));
-  }
-}
+    : state_(std::make_unique<State>(config, std::move(input))) {}
 
 Observer::Observer(Observer&&) noexcept = default;
 Observer& Observer::operator=(Observer&&) noexcept = default;
 Observer::~Observer() = default;
 
-const Camera& Observer::camera() const { return state_->camera; }
+const Camera& Observer::camera() const { return state_->setting.camera; }
 
 void Observer::hide(const std::vector<Polygon>& occluders) {
-  state_->occluded = !occluders.empty();
-  state_->mask = occluder_mask(state_->camera, occluders, state_->shrink);
+  ObserverSetting& setting = state_->setting;
+  setting.occluded = !occluders.empty();
+  setting.mask = occluder_mask(setting.camera, occluders, setting.shrink);
 }
 
-void Observer::forget_previous_frame() { state_->grey_before.release(); }
-
-bool Observer::knows_walker() const { return state_->appearance.any_learned(); }
+void Observer::forget_previous_frame() {
+  Terms::each([&]<typename Term>() { state_->memory<Term>().forget(); });
+}
 
 ObserverState Observer::state() const {
-  const State& s = *state_;
-  ObserverState out{s.background, s.appearance.states(), s.scene, 0, 0, {}, s.frames};
-  if (s.grey_before.empty()) return out;
-  out.grey_width = s.grey_before.cols;
-  out.grey_height = s.grey_before.rows;
-  out.grey_before.assign(s.grey_before.data, s.grey_before.data + s.grey_before.total());
+  ObserverState out;
+  Terms::each([&]<typename Term>() {
+    static_cast<typename Term::State&>(out) = state_->memory<Term>().state();
+  });
   return out;
 }
 
 void Observer::resume(ObserverState state) {
-  State& s = *state_;
-  const auto pixels = static_cast<size_t>(s.camera.width_px) * size_t(s.camera.height_px);
-  const bool fits =
-      state.background.has_value() == s.background.has_value() &&
-      (!state.background || state.background->luma.size() == s.background->luma.size()) &&
-      (state.grey_before.empty() || state.grey_before.size() == pixels) &&
-      state.appearance.size() == s.appearance.states().size();
-  if (!fits) throw InputError("an observer's state is of other images or classes than its camera");
-  s.background = std::move(state.background);
-  s.appearance.resume(std::move(state.appearance));
-  s.scene = std::move(state.scene);
-  s.frames = state.frames;
-  s.grey_before.release();
-  if (!state.grey_before.empty())
-    s.grey_before =
-        cv::Mat(state.grey_height, state.grey_width, CV_8U, state.grey_before.data()).clone();
+  const ObserverSetting& setting = state_->setting;
+  Terms::each([&]<typename Term>() {
+    if (!state_->memory<Term>().fits(setting, state))
+      throw InputError("an observer's state is of other images or classes than its camera");
+  });
+  Terms::each([&]<typename Term>() {
+    state_->memory<Term>().resume(setting, static_cast<typename Term::State&&>(state));
+  });
 }
 
-void Observer::observe(const cv::Mat& frame_bgr, const Region& region, CameraEvidence& out) {
+void Observer::observe(const cv::Mat& frame_bgr, const Region& region, CameraEvidence& out,
+                       const DetectedPeople& people) {
   PreparedFrame frame;
-  prepare(frame_bgr, region, state_->threads, frame);
+  prepare(frame_bgr, region, state_->setting.threads, frame, people);
   complete(frame, out);
 }
 
 void Observer::prepare(const cv::Mat& frame_bgr, const Region& region, int threads,
-                       PreparedFrame& prepared) const {
-  const State& s = *state_;
-  PreparedFrame::Content& out = *prepared.content_;
-  if (frame_bgr.type() != CV_8UC3 || frame_bgr.cols != s.full_camera.width_px ||
-      frame_bgr.rows != s.full_camera.height_px) {
-    throw InputError(describe(
-        {}, "a frame of " + std::to_string(frame_bgr.cols) + " x " + std::to_string(frame_bgr.rows),
-        "8-bit BGR of " + std::to_string(s.full_camera.width_px) + " x " +
-            std::to_string(s.full_camera.height_px) + " px, as calibrated"));
-  }
-  out.bgr = shrunk(frame_bgr, s.shrink);
-  out.region = region;
-  out.region.area = intersection(region.area, image_area(s.camera));
-  if (s.uses_colours()) read_colours(out.bgr, with_border(out.region.area, s.camera), out.colours);
-  if (s.config.background.enabled) s.read_background(threads, out);
-  out.grey.release();
-  if (s.config.flow.enabled || region.picture) cv::cvtColor(out.bgr, out.grey, cv::COLOR_BGR2GRAY);
-  out.flow.area = {};  // none, but for its memory, where there is no frame before
-  out.flow.pixels.clear();
-  if (s.config.flow.enabled && !s.grey_before.empty())
-    pair_frames(s.config.flow, s.grey_before, out.grey, out.region.area, out.flow);
+                       PreparedFrame& prepared, const DetectedPeople& people) const {
+  const ObserverSetting& setting = state_->setting;
+  if (!frame_bgr.empty()) require_size(frame_bgr, setting.full_camera);
+  PreparedFrame::Content& content = *prepared.content_;
+  ObservedFrame& frame = content.frame;
+  frame.bgr = frame_bgr.empty() ? cv::Mat() : shrunk(frame_bgr, setting.shrink);
+  frame.region = region;
+  frame.region.area = intersection(region.area, image_area(setting.camera));
+  frame.grey = {};
+  frame.people = &people;
+  Terms::each([&]<typename Term>() {
+    state_->memory<Term>().prepare(setting, frame, threads,
+                                   std::get<PreparedOf<Term>>(content.prepared));
+  });
+  frame.people = nullptr;
 }
 
 void Observer::complete(PreparedFrame& prepared, CameraEvidence& out) {
-  State& s = *state_;
-  PreparedFrame::Content& frame = *prepared.content_;
-  if (s.uses_colours()) s.fill_planes(frame, out.planes);
-  if (s.config.background.enabled && s.config.background.drift_rate > 0)
-    follow_drift(*s.background, s.config.background, frame.bgr, frame.gain,
-                 static_cast<int>(s.frames % kDriftRows), kDriftRows);
-  std::swap(s.patch, frame.colours);
-  std::swap(out.flow, frame.flow);
-  if (s.occluded) s.block_flow(out.flow);
-  if (s.config.flow.enabled) s.grey_before = frame.grey;
-  out.picture = {};
-  if (frame.region.picture)
-    out.picture = {frame.grey.cols, frame.grey.rows, {frame.grey.datastart, frame.grey.dataend}};
-  out.pixel_weight = independent_share(s.config, frame.region.metres_per_px);
-  ++s.frames;
-}
-
-// One generic plane until the walker's colours are known; without a background, nothing until then.
-int Observer::State::planes_wanted() const {
-  if (config.foreground.enabled && appearance.any_learned()) return appearance.classes();
-  return config.background.enabled ? 1 : 0;
-}
-
-// f(begin, end) for bands of rows that make up the area.
-template <typename F>
-void for_bands(const PixelRect& area, int threads, const F& f) {
-  const size_t bands = (static_cast<size_t>(area.height()) + kBand - 1) / kBand;
-  parallel_for(bands, threads, [&](size_t band) {
-    const int begin = area.y0 + static_cast<int>(band) * kBand;
-    f(begin, std::min(begin + kBand, area.y1));
+  const ObserverSetting& setting = state_->setting;
+  PreparedFrame::Content& content = *prepared.content_;
+  Terms::each([&]<typename Term>() {
+    state_->memory<Term>().complete(setting, content.frame,
+                                    std::get<PreparedOf<Term>>(content.prepared), out);
   });
+  out.pixel_weight = independent_share(setting.config, content.frame.region.metres_per_px);
 }
 
-void Observer::State::read_background(int sharing, Content& frame) const {
-  const PixelRect& area = frame.region.area;
-  frame.gain = light_gain(*background, frame.bgr);
-  const auto width = static_cast<size_t>(area.width());
-  frame.behind.resize(width * static_cast<size_t>(area.height()));
-  for_bands(area, sharing, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      background_log_density(
-          *background, config.background, frame.colours, area, y, frame.gain,
-          {frame.behind.data() + width * static_cast<size_t>(y - area.y0), width});
+bool Observer::learns() const {
+  bool any = false;
+  Terms::each([&]<typename Term>() { any = any || Term::Memory::learns(state_->setting.config); });
+  return any;
+}
+
+void Observer::learn(const CameraEvidence& evidence, const CapsuleList& capsules,
+                     const JointPositions* joints) {
+  Terms::each([&]<typename Term>() {
+    state_->memory<Term>().learn(state_->setting, evidence, {capsules, joints});
   });
-}
-
-void Observer::State::fill_planes(const Content& frame, LogRatioPlanes& planes) {
-  const PixelRect& area = frame.region.area;
-  if (!config.background.enabled && scene.empty()) scene = scene_table(bins, frame.bgr);
-  const bool learned = config.foreground.enabled && appearance.any_learned();
-  planes.plane_of = learned ? appearance.class_of() : std::array<int, kAppearanceCount>{};
-  resize(planes, area, planes_wanted());
-  if (planes.count == 0 || area.empty()) return;
-  for_bands(area, threads, [&](int begin, int end) { fill_rows(frame, begin, end, planes); });
-}
-
-void Observer::State::fill_rows(const Content& frame, int begin, int end,
-                                LogRatioPlanes& planes) const {
-  const PixelRect& area = planes.area;
-  const ColourPatch& seen = frame.colours;
-  const auto width = static_cast<size_t>(area.width());
-  std::vector<uint16_t> colours(width);
-  std::vector<float> of_scene(width), ratio(width);
-  for (int y = begin; y < end; ++y) {
-    const size_t at = seen.index(area.x0, y);
-    for (size_t i = 0; i < width; ++i)
-      colours[i] = bins.bin(seen.luma[at + i], seen.orange[at + i], seen.green[at + i]);
-    const float* behind = frame.behind.data() + width * static_cast<size_t>(y - area.y0);
-    if (!config.background.enabled) {
-      for (size_t i = 0; i < width; ++i) of_scene[i] = scene[colours[i]];
-      behind = of_scene.data();
-    }
-    const uint8_t* const blocked = occluded ? mask.ptr<uint8_t>(y) + area.x0 : nullptr;
-    for (int plane = 0; plane < planes.count; ++plane) {
-      const ColourTable& table = config.foreground.enabled ? appearance.table(plane) : broad;
-      for (size_t i = 0; i < width; ++i) ratio[i] = table[colours[i]] - behind[i];
-      for (size_t i = 0; blocked && i < width; ++i)
-        if (blocked[i]) ratio[i] = 0;
-      set_row(planes, plane, y, ratio, config.clip);
-    }
-  }
-}
-
-// Pixels that smoothing mixes with an occluder's say nothing.
-void Observer::State::block_flow(FlowField& flow) const {
-  constexpr int kReach = 2;
-  cv::Mat near;
-  cv::dilate(mask, near, cv::Mat::ones(2 * kReach + 1, 2 * kReach + 1, CV_8U));
-  auto pixel = flow.pixels.begin();
-  for (int y = flow.area.y0; y < flow.area.y1; ++y)
-    for (int x = flow.area.x0; x < flow.area.x1; ++x, ++pixel)
-      if (near.at<uint8_t>(y, x)) pixel->precision = 0;
-}
-
-void Observer::learn(const CameraEvidence& evidence, const CapsuleList& capsules) {
-  State& s = *state_;
-  if (!s.config.foreground.enabled) return;
-  AppearanceModel::Counts counts = s.appearance.empty_counts();
-  const CapsuleList inner = scaled_radii(capsules, kInner);
-  for (const VisibleRun& run : visible_runs(evidence.planes.area, inner)) {
-    const Appearance appearance = inner[static_cast<size_t>(run.capsule)].appearance;
-    const auto cls = static_cast<size_t>(s.appearance.class_of()[static_cast<size_t>(appearance)]);
-    for (int x = run.x0; x < run.x1; ++x) {
-      const size_t i = s.patch.index(x, run.y);
-      if (s.occluded && s.mask.at<uint8_t>(run.y, x)) continue;
-      const double ratio = log_ratio_at(evidence.planes, appearance, x, run.y);
-      const double foreground = 1 / (1 + std::exp(-ratio));
-      counts.weights[cls][s.bins.bin(s.patch.luma[i], s.patch.orange[i], s.patch.green[i])] +=
-          static_cast<float>(foreground);
-      counts.seen[cls] += 1;
-    }
-  }
-  s.appearance.learn(s.bins, counts);
 }
 
 }  // namespace walktrack

@@ -1,9 +1,9 @@
 // One camera through time: frames in, evidence out.
 //
-// An Observer owns what is learned about one camera's images - the background, the colours of the
-// walker, the frame before - and turns each frame into CameraEvidence, which any number of threads
-// may then ask about any number of poses. All pixels of evidence, regions and capsules are those of
-// camera(), the camera of the shrunk image.
+// An Observer owns what the likelihood terms (terms.h) learn about one camera's images and turns
+// each frame into CameraEvidence, which any number of threads may then ask about any number of
+// poses. All pixels of evidence, regions and capsules are those of camera(), the camera of the
+// shrunk image.
 //
 // It does so in two steps: most of the work can be done while poses of the frame before are still
 // weighed (prepare); what depends on them, the walker's colours, comes last (complete).
@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "observation/appearance.h"
 #include "observation/background.h"
 #include "observation/config.h"
-#include "observation/flow.h"
+#include "observation/keypoints.h"
 #include "observation/planes.h"
+#include "observation/terms.h"
 
 namespace walktrack {
 
@@ -38,13 +38,6 @@ Region whole_image(const Camera& camera, double metres_per_px);
 // x, y), with `margin` metres to all sides. Empty when none of it is in front of the camera.
 Region person_region(const Camera& camera, const Eigen::Vector2d& position, double height,
                      double margin);
-
-struct CameraEvidence {
-  LogRatioPlanes planes;    // no planes when foreground and background are both off
-  FlowField flow;           // no samples when flow is off or there is no frame before
-  double pixel_weight = 1;  // independent pixels in a pixel: the temper of all sums over pixels
-  GreyImage picture;        // the whole image; empty unless Region::picture
-};
 
 // What a frame shows, whatever the walker looks like. Keeps its memory from frame to frame.
 class PreparedFrame {
@@ -72,25 +65,17 @@ struct ObserverInput {
   std::array<bool, kAppearanceCount> appearances{};  // in use; see appearances_of
   std::optional<BackgroundModel> background;  // of shrunk frames; needed if that term is enabled
   std::vector<Polygon> occluders;
-  int threads = 1;  // that share the rows of a frame; the evidence is the same for any number
+  int threads = 1;       // that share the rows of a frame; the evidence is the same for any number
+  bool pictures = true;  // false: all frames are empty, and only keypoints are given
 };
 
 // Which appearances a body's parts have.
 std::array<bool, kAppearanceCount> appearances_of(const Body& body);
 
-// All that an observer has learned and remembers between frames.
-struct ObserverState {
-  std::optional<BackgroundModel> background;
-  std::vector<AppearanceState> appearance;
-  ColourTable scene;  // the colours of the first image; only without a background
-  int grey_width = 0, grey_height = 0;
-  std::vector<uint8_t> grey_before;  // the last frame; empty = none
-  int64_t frames = 0;
-};
-
 class Observer {
  public:
-  // Throws InputError when the background is enabled and missing or of another size.
+  // Throws InputError when the background is enabled and missing or of another size, unless there
+  // are no pictures.
   Observer(const ObservationConfig& config, ObserverInput input);
   Observer(Observer&&) noexcept;
   Observer& operator=(Observer&&) noexcept;
@@ -98,14 +83,16 @@ class Observer {
 
   const Camera& camera() const;
 
-  // The evidence of the next frame (8-bit BGR, of the size of the calibrated camera). Flow is
-  // measured against the frame of the last call. `out` keeps its memory from frame to frame.
-  void observe(const cv::Mat& frame_bgr, const Region& region, CameraEvidence& out);
+  // The evidence of the next frame (8-bit BGR, of the size of the calibrated camera; empty = there
+  // is no picture). Flow is measured against the frame of the last call. `out` keeps its memory
+  // from frame to frame.
+  void observe(const cv::Mat& frame_bgr, const Region& region, CameraEvidence& out,
+               const DetectedPeople& people = {});
 
   // The same in two steps. `frame_bgr` has to stay as it is until the second, and the rows of the
-  // first are shared by `threads`. Between them only learn() may be called.
-  void prepare(const cv::Mat& frame_bgr, const Region& region, int threads,
-               PreparedFrame& out) const;
+  // first are shared by `threads`. Between them only learn() and hide() may be called.
+  void prepare(const cv::Mat& frame_bgr, const Region& region, int threads, PreparedFrame& out,
+               const DetectedPeople& people = {}) const;
   void complete(PreparedFrame& frame, CameraEvidence& out);
 
   // From the next frame on, these stand in front of the walker instead of ObserverInput::occluders.
@@ -114,11 +101,12 @@ class Observer {
   // Frames were dropped: the next one has no flow.
   void forget_previous_frame();
 
-  // Learns the walker's colours in the frame observed last from a pose that fits it well.
-  void learn(const CameraEvidence& evidence, const CapsuleList& capsules);
-
-  // Whether any class has been learned.
-  bool knows_walker() const;
+  // Whether any term of this configuration learns from poses.
+  bool learns() const;
+  // Learns in the frame observed last from a pose that fits it well. `joints`: the same pose's, in
+  // the world; without them, terms that ask for them learn nothing.
+  void learn(const CameraEvidence& evidence, const CapsuleList& capsules,
+             const JointPositions* joints = nullptr);
 
   // An observer made of the same configuration and input that takes the state of another one, left
   // there between two frames, goes on as that one. InputError for a state of images of another

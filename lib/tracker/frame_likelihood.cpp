@@ -1,14 +1,10 @@
 #include "tracker/frame_likelihood.h"
 
-#include <algorithm>
+#include <optional>
 
 namespace walktrack {
 
 namespace {
-
-PosedParts parts_of(const Body& body, const Pose& pose) {
-  return pose_parts(body, forward_kinematics(body, pose));
-}
 
 // Walking people keep their hips up: below .82 of the leg's length the pose becomes improbable,
 // 1 % of it counting as one standard deviation (the prior's longest steps lower the hip to .83).
@@ -17,48 +13,44 @@ double log_uprightness(const BodyModel& model, const Pose& pose) {
   return below > 0 ? -0.5 * (below / 0.01) * (below / 0.01) : 0;
 }
 
-bool any_flow(const SceneEvidence& evidence) {
-  return std::any_of(evidence.begin(), evidence.end(),
-                     [](const CameraEvidence& camera) { return !camera.flow.pixels.empty(); });
-}
-
 }  // namespace
 
 FrameLikelihood::FrameLikelihood(const TrackerScene& scene, const SceneEvidence& evidence,
                                  bool with_motion)
-    : scene_(scene), evidence_(evidence), motion_(with_motion && any_flow(evidence)) {}
+    : scene_(scene),
+      evidence_(evidence),
+      with_motion_(with_motion),
+      late_(any([]<typename Term>() { return Term::kStage == TermStage::kLate; })),
+      before_(any([]<typename Term>() { return kWeighsParticles<Term> && Term::kAsksBefore; })) {}
 
 FrameLikelihood::Account::Account(const FrameLikelihood& frame, const WalkerParticle& particle)
-    : frame_(frame),
-      particle_(particle),
-      parts_(parts_of(frame.scene_.model.body, particle.pose)) {}
+    : frame_(frame), particle_(particle), now_(frame.scene_.model.body, particle.pose) {}
 
 double FrameLikelihood::Account::operator()(int stage) const {
-  if (stage > 0) return all_else();
-  const double prior = log_uprightness(frame_.scene_.model, particle_.pose);
-  return frame_.evidence_.empty() ? prior : prior + silhouettes(0);
+  return stage > 0 ? all_else() : first_camera();
 }
 
-double FrameLikelihood::Account::all_else() const {
-  double sum = 0;
-  for (size_t c = 1; c < frame_.evidence_.size(); ++c) sum += silhouettes(c);
-  if (!frame_.motion_) return sum;
-  const PosedParts before = parts_of(frame_.scene_.model.body, particle_.pose_before);
-  for (size_t c = 0; c < frame_.evidence_.size(); ++c) sum += flow(c, before);
+double FrameLikelihood::Account::first_camera() const {
+  double sum = log_uprightness(frame_.scene_.model, particle_.pose);
+  if (frame_.evidence_.empty()) return sum;
+  Terms::each([&]<typename Term>() {
+    if constexpr (Term::kStage == TermStage::kEarly) sum += of_camera<Term>(0, nullptr);
+  });
   return sum;
 }
 
-double FrameLikelihood::Account::silhouettes(size_t camera) const {
-  return silhouette_log_likelihood(frame_.evidence_[camera],
-                                   project_parts(frame_.scene_.cameras[camera], parts_));
-}
-
-double FrameLikelihood::Account::flow(size_t camera, const PosedParts& before) const {
-  const CameraEvidence& evidence = frame_.evidence_[camera];
-  if (evidence.flow.pixels.empty()) return 0;
-  const Camera& view = frame_.scene_.cameras[camera];
-  return flow_log_likelihood(frame_.scene_.observation.flow, evidence, project_parts(view, parts_),
-                             project_parts(view, before));
+double FrameLikelihood::Account::all_else() const {
+  std::optional<PosedBody> before;
+  if (frame_.before_) before.emplace(frame_.scene_.model.body, particle_.pose_before);
+  double sum = 0;
+  Terms::each([&]<typename Term>() {
+    if constexpr (kWeighsParticles<Term>) {
+      constexpr size_t kFirst = Term::kStage == TermStage::kEarly ? 1 : 0;
+      for (size_t c = kFirst; c < frame_.evidence_.size(); ++c)
+        sum += of_camera<Term>(c, before ? &*before : nullptr);
+    }
+  });
+  return sum;
 }
 
 }  // namespace walktrack

@@ -1,10 +1,10 @@
 // What the images of one frame say about particles, in stages that are asked one after the other: a
 // proposal that the first camera speaks against need not be shown to the others
-// (filter/particle_filter.h).
+// (filter/particle_filter.h). The terms and their stages are those of observation/terms.h.
 #pragma once
 
-#include "body/kinematics.h"
 #include "filter/particle_filter.h"
+#include "observation/terms.h"
 #include "tracker/scene.h"
 
 namespace walktrack {
@@ -14,10 +14,10 @@ class FrameLikelihood {
   // `with_motion`: particles have a frame before this one, so that flow says something.
   FrameLikelihood(const TrackerScene& scene, const SceneEvidence& evidence, bool with_motion);
 
-  // Silhouettes of the first camera, then all else: the other cameras' silhouettes, and flow where
-  // any was measured. More stages would save little more, and every stage that can reject a move
-  // costs some that all of them together would accept.
-  int stages() const { return evidence_.size() > 1 || motion_ ? kMaxStages : 1; }
+  // The early terms of the first camera, then all else: those of the other cameras, and the late
+  // terms that say anything. More stages would save little more, and every stage that can reject a
+  // move costs some that all of them together would accept.
+  int stages() const { return evidence_.size() > 1 || late_ ? kMaxStages : 1; }
 
   class Account {
    public:
@@ -26,21 +26,44 @@ class FrameLikelihood {
     double operator()(int stage) const;
 
    private:
-    double silhouettes(size_t camera) const;
-    double flow(size_t camera, const PosedParts& before) const;
+    double first_camera() const;
     double all_else() const;
+    template <typename Term>
+    double of_camera(size_t c, const PosedBody* before) const {
+      const CameraEvidence& evidence = frame_.evidence_[c];
+      if (!frame_.asks<Term>(evidence)) return 0;
+      const TrackerScene& scene = frame_.scene_;
+      return Term::log_likelihood(scene.observation, evidence, scene.cameras[c], now_, before);
+    }
 
     const FrameLikelihood& frame_;
     const WalkerParticle& particle_;
-    PosedParts parts_;
+    PosedBody now_;
   };
 
   Account operator()(const WalkerParticle& particle) const { return {*this, particle}; }
 
  private:
+  template <typename Term>
+  bool asks(const CameraEvidence& camera) const {
+    return (with_motion_ || !Term::kAsksBefore) && Term::says(camera);
+  }
+  // Whether any term that is `wanted` is asked about any camera.
+  template <typename F>
+  bool any(const F& wanted) const {
+    bool found = false;
+    Terms::each([&]<typename Term>() {
+      if (wanted.template operator()<Term>())
+        for (const CameraEvidence& camera : evidence_) found = found || asks<Term>(camera);
+    });
+    return found;
+  }
+
   const TrackerScene& scene_;
   const SceneEvidence& evidence_;
-  bool motion_;
+  bool with_motion_;
+  bool late_;    // any late term says something
+  bool before_;  // any term is asked that compares with the frame before
 };
 
 }  // namespace walktrack

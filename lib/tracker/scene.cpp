@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "body/kinematics.h"
 #include "tracker/motion/kneed_motion.h"
 
 namespace walktrack {
@@ -14,10 +13,6 @@ namespace {
 // The speeds of the figure book, m/s.
 constexpr double kSlowestPage = 0.5, kPageStep = 0.2;
 constexpr int kPages = 9;
-
-PosedParts parts_of(const Body& body, const Pose& pose) {
-  return pose_parts(body, forward_kinematics(body, pose));
-}
 
 }  // namespace
 
@@ -53,11 +48,10 @@ double place_score(const TrackerScene& scene, const SceneEvidence& evidence, con
   for (Pose pose : figures) {
     pose.root.head<2>() = position;
     pose.heading = heading;
-    const PosedParts parts = parts_of(body, pose);
+    const PosedBody posed(body, pose);
     double sum = 0;
     for (size_t c = 0; c < evidence.size(); ++c)
-      sum += log_likelihood(scene.observation, evidence[c], project_parts(scene.cameras[c], parts),
-                            nullptr);
+      sum += still_log_likelihood(scene.observation, evidence[c], scene.cameras[c], posed);
     best = std::max(best, sum);
   }
   return best;

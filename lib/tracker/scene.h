@@ -7,7 +7,6 @@
 
 #include "camera/camera.h"
 #include "gait/gait_prior.h"
-#include "observation/likelihood.h"
 #include "observation/observer.h"
 #include "tracker/detect/sighting.h"
 #include "tracker/motion/particle.h"

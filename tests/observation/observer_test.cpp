@@ -8,7 +8,7 @@
 #include "core/errors.h"
 #include "core/parallel_for.h"
 #include "observation/background_sampler.h"
-#include "observation/likelihood.h"
+#include "tests/observation/picture_terms.h"
 #include "tests/observation/rendered.h"
 #include "tests/observation/scenes.h"
 
@@ -106,7 +106,6 @@ TEST(Observer, OnePlaneUntilTheWalkerIsLearned) {
   const CapsuleList capsules = world.capsules(world.pose(0));
   const double generic = silhouette_log_ratio(evidence.planes, capsules);
   observer.learn(evidence, capsules);
-  EXPECT_TRUE(observer.knows_walker());
   observer.observe(world.frame(world.pose(0)), whole_image(observer.camera(), 0.01), evidence);
   EXPECT_EQ(evidence.planes.count, 4);  // trunk, legs, feet, head
   EXPECT_GT(silhouette_log_ratio(evidence.planes, capsules), generic);

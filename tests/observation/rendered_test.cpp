@@ -1,10 +1,10 @@
 // The likelihood on walks rendered by an independent program, whose bodies are not ours.
 #include "tests/observation/rendered.h"
+#include "tests/observation/picture_terms.h"
 
 #include <gtest/gtest.h>
 
 #include "observation/background_sampler.h"
-#include "observation/likelihood.h"
 #include "tests/observation/perturbed.h"
 #include "tests/observation/scenes.h"
 

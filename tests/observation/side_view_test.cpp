@@ -10,9 +10,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "observation/background_sampler.h"
-#include "observation/likelihood.h"
 #include "observation/shrink.h"
 #include "tests/observation/perturbed.h"
+#include "tests/observation/picture_terms.h"
 #include "tests/observation/rendered.h"
 #include "tests/observation/scenes.h"
 

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "observation/background_sampler.h"
-#include "observation/likelihood.h"
 #include "tests/observation/perturbed.h"
+#include "tests/observation/picture_terms.h"
 #include "tests/observation/rendered.h"
 #include "tests/observation/scenes.h"
 

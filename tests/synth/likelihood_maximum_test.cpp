@@ -15,9 +15,9 @@
 #include "core/conventions.h"
 #include "observation/background_sampler.h"
 #include "observation/capsules.h"
-#include "observation/likelihood.h"
 #include "synth/sensor.h"
 #include "synth/view.h"
+#include "tests/observation/picture_terms.h"
 #include "tests/observation/scenes.h"
 
 namespace walktrack {

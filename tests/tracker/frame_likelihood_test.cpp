@@ -6,6 +6,7 @@
 
 #include "fixture.h"
 #include "made_evidence.h"
+#include "tests/observation/picture_terms.h"
 #include "tests/observation/scenes.h"
 
 namespace walktrack {

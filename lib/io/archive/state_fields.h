@@ -120,10 +120,32 @@ void fields(Archive& archive, T& value) {
   archive(area, metres_per_px, picture);
 }
 
+template <typename Archive, ArchivedAs<GreyImage> T>
+void fields(Archive& archive, T& value) {
+  auto& [width, height, pixels] = value;
+  archive(width, height, pixels);
+}
+
+template <typename Archive, ArchivedAs<SilhouetteTerm::State> T>
+void fields(Archive& archive, T& value) {
+  auto& [background, appearance, scene, frames] = value;
+  archive(background, appearance, scene, frames);
+}
+
+template <typename Archive, ArchivedAs<FlowTerm::State> T>
+void fields(Archive& archive, T& value) {
+  auto& [grey_before] = value;
+  archive(grey_before);
+}
+
+// By likelihood term. A term whose state is not empty has fields() here or beside it.
 template <typename Archive, ArchivedAs<ObserverState> T>
 void fields(Archive& archive, T& value) {
-  auto& [background, appearance, scene, grey_width, grey_height, grey_before, frames] = value;
-  archive(background, appearance, scene, grey_width, grey_height, grey_before, frames);
+  Terms::each([&]<typename Term>() {
+    using State =
+        std::conditional_t<std::is_const_v<T>, const typename Term::State, typename Term::State>;
+    if constexpr (!std::is_empty_v<typename Term::State>) archive(static_cast<State&>(value));
+  });
 }
 
 template <typename Archive, ArchivedAs<Spread> T>

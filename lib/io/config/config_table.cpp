@@ -1,6 +1,9 @@
 #include "io/config/config_table.h"
 
 #include <limits>
+#include <utility>
+
+#include "observation/terms.h"
 
 namespace walktrack {
 
@@ -16,6 +19,17 @@ void add_run(ParameterTable& table) {
   top.integer("threads", &Config::threads, 0, kMostThreads, "threads, 0 = all of the machine");
 }
 
+// Where likelihood terms write down the keys of their configuration.
+struct TermGroups {
+  ParameterTable& table;
+
+  template <typename Group>
+  ParameterGroup<Group> group(const std::string& name, std::string about,
+                              Group ObservationConfig::*member) const {
+    return {table, "observation." + name, std::move(about), &Config::observation, member};
+  }
+};
+
 void add_observation(ParameterTable& table) {
   using O = ObservationConfig;
   ParameterGroup<O> o(table, "observation", "how images become likelihoods", &Config::observation);
@@ -25,42 +39,8 @@ void add_observation(ParameterTable& table) {
   o.number("independent_m", &O::independent_m, 1e-3, 1,
            "side of a patch on the body that counts as one independent pixel, m");
 
-  using B = BackgroundConfig;
-  ParameterGroup<B> b(table, "observation.background", "the empty scene", &Config::observation,
-                      &O::background);
-  b.flag("enabled", &B::enabled, "whether the background is modelled");
-  b.integer("samples", &B::samples, 1, 10'000, "frames that the model is made of");
-  b.number("noise", &B::noise, 0.1, 255, "smallest deviation of a channel, grey levels of 256");
-  b.number("jitter_px", &B::jitter_px, 0, 100, "how far edges move about, px of the shrunk image");
-  b.number("shadow_darkest", &B::shadow_darkest, 0, 0.99,
-           "share of its value that a shadow leaves");
-  b.number("shadow_share", &B::shadow_share, 0, 0.8, "prior probability of a shadow");
-  b.number("shadow_tint", &B::shadow_tint, 0.1, 255, "deviation of a shadow's chroma, grey levels");
-  b.number("shadow_sky", &B::shadow_sky, 0, 1,
-           "and more of it per grey level that the shadow takes");
-  b.number("gradient_weight", &B::gradient_weight, 0, 1, "of the luma gradient against the colour");
-  b.number("unknown_share", &B::unknown_share, 1e-6, 0.1,
-           "of the background looking like nothing seen");
-  b.number("drift_rate", &B::drift_rate, 0, 1, "share of a frame that the model takes on");
-
-  using F = ForegroundConfig;
-  ParameterGroup<F> f(table, "observation.foreground", "how the walker looks", &Config::observation,
-                      &O::foreground);
-  f.flag("enabled", &F::enabled, "whether appearance is modelled");
-  f.list("classes", &F::classes, 0, kAppearanceCount - 1,
-         "models of trunk, legs, feet, head, arms; equal numbers share one");
-  f.number("broad_share", &F::broad_share, 0, 1, "of a model that expects any colour");
-  f.number("prior_pixels", &F::prior_pixels, 0, kAnyPositive, "weight of any colour, pixels");
-  f.number("learning_rate", &F::learning_rate, 0, 1, "share of a new frame in the recent half");
-  f.number("anchor_share", &F::anchor_share, 0, 1, "share of the first frames, never forgotten");
-
-  using W = FlowConfig;
-  ParameterGroup<W> w(table, "observation.flow", "optical flow", &Config::observation, &O::flow);
-  w.flag("enabled", &W::enabled, "whether the way from frame to frame is looked at");
-  w.number("error_px", &W::error_px, 0, 1000, "of a pose's motion that is still right, px");
-  w.number("noise", &W::noise, 0.01, 255, "of grey values from frame to frame, of 256");
-  w.number("dof", &W::dof, 0.5, 1000, "of the Student-t; smaller expects more outliers");
-  w.number("weight", &W::weight, 0, 1000, "against the silhouettes");
+  TermGroups groups{table};
+  Terms::each([&]<typename Term>() { Term::describe(groups); });
 
   using K = KeypointConfig;
   ParameterGroup<K> k(table, "observation.keypoints", "points of a pose detector",

@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <array>
 
+#include "observation/terms.h"
+
 namespace walktrack {
 
 namespace {
 
-// Nanoseconds, as scripts/measure_costs.py prints them.
+// Nanoseconds, as scripts/measure_costs.py prints them; those of the terms are beside the terms.
 constexpr double kDecoding = 2.22;
-constexpr double kBackground = 22.2;
-constexpr double kAppearance = 2.0e5;
-constexpr double kFlowMeasured = 31;
-constexpr double kFlowWeighed = 602;
 constexpr double kPartProjected = 121;
-constexpr double kRowSummed = 8.71;
 constexpr double kWalker = 7.54e3;
 constexpr double kPartPosed = 60;
 constexpr double kFrame = 1.23e5;
@@ -27,16 +24,17 @@ constexpr std::array<double, 3> kLayers{3.9, 4.7, 4.9};
 
 constexpr double kMsPerNs = 1e-6;
 
-FrameCost::OfCamera camera_cost(const FrameWork& work, const CameraWork& camera, double poses) {
-  const double parts = poses * work.parts;
-  FrameCost::OfCamera out;
-  out.decoding = kMsPerNs * kDecoding * camera.filmed_px;
-  if (work.background) out.background = kMsPerNs * kBackground * camera.region_px;
-  out.appearance = kMsPerNs * kAppearance * work.classes;
-  if (work.flow) out.flow = kMsPerNs * (kFlowMeasured * camera.region_px + kFlowWeighed * parts);
-  const bool silhouettes = work.background || work.classes > 0;
-  if (silhouettes || work.flow) out.projection = kMsPerNs * kPartProjected * parts;
-  if (silhouettes) out.silhouettes = kMsPerNs * kRowSummed * poses * camera.rows;
+Costs camera_cost(const FrameWork& work, const CameraWork& camera, double poses) {
+  Costs out{{"decoding", kMsPerNs * kDecoding * camera.filmed_px}};
+  bool weighs = false;
+  Terms::each([&]<typename Term>() {
+    const TermWork asked{camera.region_px, camera.rows, poses, work.parts, work.classes};
+    for (const TermCost& cost : Term::cost(work.terms, asked)) {
+      weighs = true;
+      out.emplace_back(cost.what, kMsPerNs * cost.cpu_ns);
+    }
+  });
+  if (weighs) out.emplace_back("projection", kMsPerNs * kPartProjected * poses * work.parts);
   return out;
 }
 
@@ -52,9 +50,15 @@ FrameCost frame_cost(const FrameWork& work) {
   return out;
 }
 
+double sum(const Costs& costs) {
+  double total = 0;
+  for (const auto& [what, ms] : costs) total += ms;
+  return total;
+}
+
 double FrameCost::sum() const {
   double total = walker + poses;
-  for (const OfCamera& camera : cameras) total += camera.sum();
+  for (const Costs& camera : cameras) total += walktrack::sum(camera);
   return total;
 }
 

@@ -2,11 +2,12 @@
 // takes.
 //
 //   decoding     a d                      a: pixels of a camera's frame as it is filmed
-//   background   b r                      r: pixels of the shrunk image around the walker
-//   appearance   c k                      k: appearances told apart
-//   flow         e r + f n m              n: poses weighed, m: parts of the body
+//   each likelihood term that is on, see Term::cost (observation/terms.h), such as
+//     background   b r                    r: pixels of the shrunk image around the walker
+//     appearance   c k                    k: appearances told apart
+//     flow         e r + f n m            n: poses weighed, m: parts of the body
+//     silhouettes  h n y                  y: rows of the shrunk image that the walker covers
 //   projection   g n m                    parts and their outlines in the image
-//   silhouettes  h n y                    y: rows of the shrunk image that the walker covers
 // these for every camera, n being the particles and those moves that the first camera has let
 // through for all cameras but the first; and once for all
 //   walker       w p                      p: particles
@@ -22,7 +23,10 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "observation/config.h"
 
 namespace walktrack {
 
@@ -39,21 +43,20 @@ struct FrameWork {
   double poses = 0;  // weighed in a frame by the first camera, all particles and moves together
   int parts = 0;     // of the body
   int classes = 0;   // appearances told apart; 0 = appearance is off
-  bool background = true, flow = true;
+  ObservationConfig terms;
 };
 
-// CPU ms a frame; what is off is 0.
+// CPU ms by what they go into; what is off is not in it.
+using Costs = std::vector<std::pair<std::string, double>>;
+
+// CPU ms a frame.
 struct FrameCost {
-  struct OfCamera {
-    double decoding = 0, background = 0, appearance = 0, flow = 0, projection = 0, silhouettes = 0;
-    double sum() const {
-      return decoding + background + appearance + flow + projection + silhouettes;
-    }
-  };
-  std::vector<OfCamera> cameras;  // in the order of the work
+  std::vector<Costs> cameras;  // in the order of the work
   double walker = 0, poses = 0;
   double sum() const;
 };
+
+double sum(const Costs& costs);
 
 FrameCost frame_cost(const FrameWork& work);
 

@@ -54,8 +54,7 @@ FrameWork frame_work(const Scene& scene, const Config& config) {
   work.poses = filter.particles * (1 + layers * filter.moves);
   work.parts = static_cast<int>(body.parts.size());
   work.classes = classes_of(config.observation, body);
-  work.background = config.observation.background.enabled;
-  work.flow = config.observation.flow.enabled;
+  work.terms = config.observation;
   return work;
 }
 
@@ -120,7 +119,6 @@ double slope_deg(const Scene& scene) {
 
 std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& config) {
   const Config& values = config.values;
-  const ObservationConfig& images = values.observation;
   Items items(scene, config);
   add_walker(values, items);
   items.fact("legs, trunk", true, "tilt, hips, knees and ankles in the walk's upright planes",
@@ -130,11 +128,9 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
              items.origin("motion.path"));
   items.flag("head", "body.head", values.body.head, "head and neck");
   items.flag("arms", "body.arms", values.body.arms, "both arms, 6 angles more");
-  items.flag("background", "observation.background.enabled", images.background.enabled,
-             "how the empty scene looks");
-  items.flag("appearance", "observation.foreground.enabled", images.foreground.enabled,
-             "how the walker looks, learned on the way");
-  items.flag("flow", "observation.flow.enabled", images.flow.enabled, "how the pixels move");
+  for (const TermSwitch& term : term_switches())
+    items.flag(std::string(term.plan_name), fmt::format("observation.{}.enabled", term.key),
+               term.on(values.observation), std::string(term.what));
   const bool slope = !scene.gravity.head<2>().isZero();
   items.fact("slope", slope,
              slope ? fmt::format("{:.1f} degrees", slope_deg(scene)) : "the ground is level",
@@ -270,7 +266,7 @@ Plan plan_scene(const Scene& scene, const ConfigWithOrigin& config) {
     const WorkingScale scale = working_scale(scene, camera.camera, config.values);
     plan.cameras.push_back({camera.name, camera.camera.width_px, camera.camera.height_px,
                             scale.shrink, scale.person_px / scale.shrink,
-                            plan.cost.cameras[c].sum()});
+                            sum(plan.cost.cameras[c])});
   }
   plan.items = items_of(scene, config);
   plan.state = state_of(scene, config.values);

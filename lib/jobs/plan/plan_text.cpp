@@ -1,4 +1,6 @@
 // The plan for people and for programs.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -13,20 +15,18 @@ using Json = nlohmann::ordered_json;
 constexpr double kMiB = 1024 * 1024, kMsPerSecond = 1000, kPercent = 100;
 
 // Time by what it goes into, all cameras together, in the order of the work.
-std::vector<std::pair<std::string, double>> stages(const FrameCost& cost) {
-  FrameCost::OfCamera all;
-  for (const FrameCost::OfCamera& camera : cost.cameras) {
-    all.decoding += camera.decoding;
-    all.background += camera.background;
-    all.appearance += camera.appearance;
-    all.flow += camera.flow;
-    all.projection += camera.projection;
-    all.silhouettes += camera.silhouettes;
+Costs stages(const FrameCost& cost) {
+  Costs out;
+  for (const Costs& camera : cost.cameras) {
+    for (const auto& [what, ms] : camera) {
+      const auto same = [&](const auto& each) { return each.first == what; };
+      const auto found = std::find_if(out.begin(), out.end(), same);
+      found == out.end() ? void(out.emplace_back(what, ms)) : void(found->second += ms);
+    }
   }
-  return {{"decoding", all.decoding},     {"background", all.background},
-          {"appearance", all.appearance}, {"flow", all.flow},
-          {"walker", cost.walker},        {"poses", cost.poses},
-          {"projection", all.projection}, {"silhouettes", all.silhouettes}};
+  out.emplace_back("walker", cost.walker);
+  out.emplace_back("poses", cost.poses);
+  return out;
 }
 
 std::string items_text(const Plan& plan) {

@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "io/archive/files.h"
+#include "observation/terms.h"
 
 namespace walktrack {
 
@@ -17,7 +18,6 @@ namespace {
 constexpr const char* kOrigin = "--over";
 constexpr std::string_view kCameras = "cameras", kTerms = "terms", kAllTerms = "all",
                            kConfig = "config";
-constexpr std::array<std::string_view, 3> kTermNames{"background", "foreground", "flow"};
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kShortNames{
     {{"model", "motion.model"},
      {"path", "motion.path"},
@@ -82,16 +82,24 @@ std::vector<SceneCamera> chosen_cameras(const std::string& value,
          fmt::format("1 to {}, or names of {} joined by +", all.size(), fmt::join(names, ", ")));
 }
 
+// The words that `terms` takes.
+std::vector<std::string_view> term_names() {
+  std::vector<std::string_view> names;
+  for (const TermSwitch& each : term_switches()) names.push_back(each.key);
+  return names;
+}
+
 std::vector<std::pair<std::string, std::string>> term_flags(const std::string& value) {
   const std::vector<std::string> on = split(value, '+');
-  const bool known = std::all_of(on.begin(), on.end(), [](const std::string& word) {
-    return std::find(kTermNames.begin(), kTermNames.end(), word) != kTermNames.end();
+  const std::vector<std::string_view> names = term_names();
+  const bool known = std::all_of(on.begin(), on.end(), [&](const std::string& word) {
+    return std::find(names.begin(), names.end(), word) != names.end();
   });
   if (!known && value != kAllTerms)
     refuse(std::string(kTerms), value,
-           fmt::format("all, or {} joined by +", fmt::join(kTermNames, ", ")));
+           fmt::format("all, or {} joined by +", fmt::join(names, ", ")));
   std::vector<std::pair<std::string, std::string>> flags;
-  for (const std::string_view term : kTermNames) {
+  for (const std::string_view term : names) {
     const bool enabled = value == kAllTerms || std::find(on.begin(), on.end(), term) != on.end();
     flags.emplace_back(fmt::format("observation.{}.enabled", term), enabled ? "true" : "false");
   }
@@ -101,7 +109,7 @@ std::vector<std::pair<std::string, std::string>> term_flags(const std::string& v
 // How much a value promises; nullopt for a word.
 std::optional<double> richness(const std::string& knob, const std::string& value) {
   if (value == "true" || value == "false") return value == "true" ? 1 : 0;
-  if (value == kAllTerms) return kTermNames.size();
+  if (value == kAllTerms) return static_cast<double>(term_switches().size());
   const std::optional<double> number = number_from_text(value);
   if (number || (knob != kCameras && knob != kTerms)) return number;
   return static_cast<double>(split(value, '+').size());

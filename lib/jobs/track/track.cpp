@@ -150,10 +150,15 @@ TrackStatus judge(const TrackRun& run, const Quality& quality, const SceneVideo&
 
 // With every term off there would be nothing but the walker's own gait.
 void require_a_term(const ObservationConfig& observation) {
-  if (observation.background.enabled || observation.foreground.enabled || observation.flow.enabled)
-    return;
-  throw UsageError(describe({"", 0, "observation"}, "no term that is enabled",
-                            "background, foreground or flow with enabled: true"));
+  const std::vector<TermSwitch> switches = term_switches();
+  std::vector<std::string_view> names;
+  for (const TermSwitch& each : switches) {
+    if (each.on(observation)) return;
+    names.push_back(each.key);
+  }
+  throw UsageError(
+      describe({"", 0, "observation"}, "no term that is enabled",
+               fmt::format("one or more of {} with enabled: true", fmt::join(names, ", "))));
 }
 
 // The checkpoint to go on from, if that is wanted and there is one that fits.

@@ -186,15 +186,17 @@ void TrackRun::pace(const Moment& since) {
       budget_.next(used, seconds_since(since.clock) - filter_seconds_, filter_seconds_));
 }
 
-// Once tracked, every frame teaches what the walker looks like: where the particles are, for
-// colours that follow the pose which they were used to find would confirm themselves.
+// Once tracked, every frame teaches what the walker looks like and how detections err: where the
+// particles are, for colours that follow the pose which they were used to find would confirm
+// themselves.
 void TrackRun::learn() {
-  if (!tracker_.tracking() || !job_.config.values.observation.foreground.enabled) return;
+  if (!tracker_.tracking() || !setup_.observers.front().learns()) return;
   const Moment start;
   const Body& body = tracker_.body();
-  const PosedParts parts = pose_parts(body, forward_kinematics(body, tracker_.mean_pose()));
+  const PosedBody found(body, tracker_.mean_pose());
   parallel_for(setup_.observers.size(), threads_, [&](size_t c) {
-    setup_.observers[c].learn(evidence_[c], project_parts(setup_.scene.cameras[c], parts));
+    setup_.observers[c].learn(evidence_[c], project_parts(setup_.scene.cameras[c], found.parts),
+                              &found.skeleton.joints);
   });
   watch_.add("appearance", spent_since(start));
 }

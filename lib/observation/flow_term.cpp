@@ -1,0 +1,70 @@
+#include "observation/flow_term.h"
+
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+
+#include "observation/observed_frame.h"
+
+namespace walktrack {
+
+namespace {
+
+// CPU of a frame, nanoseconds, as scripts/measure_costs.py prints them.
+constexpr double kFlowMeasured = 31;
+constexpr double kFlowWeighed = 602;
+
+// Pixels that smoothing mixes with an occluder's say nothing.
+void block(const cv::Mat& mask, FlowField& flow) {
+  constexpr int kReach = 2;
+  cv::Mat near;
+  cv::dilate(mask, near, cv::Mat::ones(2 * kReach + 1, 2 * kReach + 1, CV_8U));
+  auto pixel = flow.pixels.begin();
+  for (int y = flow.area.y0; y < flow.area.y1; ++y)
+    for (int x = flow.area.x0; x < flow.area.x1; ++x, ++pixel)
+      if (near.at<uint8_t>(y, x)) pixel->precision = 0;
+}
+
+}  // namespace
+
+void FlowTerm::Memory::prepare(const ObserverSetting& setting, ObservedFrame& frame, int,
+                               Prepared& out) const {
+  out.flow.area = {};  // none, but for its memory, where there is no frame before
+  out.flow.pixels.clear();
+  if (!setting.config.flow.enabled || frame.bgr.empty() || state_.grey_before.pixels.empty())
+    return;
+  pair_frames(setting.config.flow, state_.grey_before, grey_of(frame), frame.region.area, out.flow);
+}
+
+void FlowTerm::Memory::complete(const ObserverSetting& setting, ObservedFrame& frame,
+                                Prepared& prepared, CameraEvidence& out) {
+  std::swap(out.flow, prepared.flow);
+  if (!setting.config.flow.enabled) return;
+  if (setting.occluded) block(setting.mask, out.flow);
+  state_.grey_before = frame.bgr.empty() ? GreyImage{} : grey_of(frame);
+}
+
+bool FlowTerm::Memory::fits(const ObserverSetting& setting, const State& state) const {
+  const GreyImage& grey = state.grey_before;
+  const bool sized =
+      grey.width == setting.camera.width_px && grey.height == setting.camera.height_px &&
+      grey.pixels.size() == static_cast<size_t>(grey.width) * static_cast<size_t>(grey.height);
+  return grey.pixels.empty() || sized;
+}
+
+bool FlowTerm::says(const CameraEvidence& evidence) { return !evidence.flow.pixels.empty(); }
+
+double FlowTerm::log_likelihood(const ObservationConfig& config, const CameraEvidence& evidence,
+                                const Camera& camera, const PosedBody& now,
+                                const PosedBody* before) {
+  return evidence.pixel_weight * config.flow.weight *
+         flow_log_ratio(config.flow, evidence.flow, project_parts(camera, now.parts),
+                        project_parts(camera, before->parts));
+}
+
+TermCosts FlowTerm::cost(const ObservationConfig& config, const TermWork& work) {
+  if (!config.flow.enabled) return {};
+  return {{"flow", kFlowMeasured * work.region_px + kFlowWeighed * work.poses * work.parts}};
+}
+
+}  // namespace walktrack

@@ -1,0 +1,69 @@
+// Optical flow: how well this frame and the one before agree along the motion of a pose (flow.h).
+#pragma once
+
+#include <array>
+
+#include "observation/flow.h"
+#include "observation/term.h"
+
+namespace walktrack {
+
+struct FlowTerm {
+  static constexpr std::string_view kName = "flow";
+  static constexpr TermStage kStage = TermStage::kLate;
+  static constexpr bool kAsksBefore = true;
+  static constexpr std::array kSwitches{
+      TermSwitch{"flow", "flow", "how the pixels move",
+                 [](const ObservationConfig& c) { return c.flow.enabled; }}};
+
+  struct Evidence {
+    FlowField flow;  // no samples when flow is off or there is no frame before
+  };
+
+  struct State {
+    GreyImage grey_before;  // the last frame; empty = none
+  };
+
+  struct Prepared {
+    FlowField flow;
+  };
+
+  class Memory {
+   public:
+    Memory(const ObserverSetting&, ObserverInput&) {}
+    void prepare(const ObserverSetting& setting, ObservedFrame& frame, int threads,
+                 Prepared& out) const;
+    void complete(const ObserverSetting& setting, ObservedFrame& frame, Prepared& prepared,
+                  CameraEvidence& out);
+    void forget() { state_ = {}; }
+    static bool learns(const ObservationConfig&) { return false; }
+    void learn(const ObserverSetting&, const CameraEvidence&, const FoundPose&) {}
+    State state() const { return state_; }
+    bool fits(const ObserverSetting& setting, const State& state) const;
+    void resume(const ObserverSetting&, State state) { state_ = std::move(state); }
+
+   private:
+    State state_;
+  };
+
+  template <typename Groups>
+  static void describe(Groups& groups);
+
+  static bool says(const CameraEvidence& evidence);
+  static double log_likelihood(const ObservationConfig& config, const CameraEvidence& evidence,
+                               const Camera& camera, const PosedBody& now, const PosedBody* before);
+  static TermCosts cost(const ObservationConfig& config, const TermWork& work);
+};
+
+template <typename Groups>
+void FlowTerm::describe(Groups& groups) {
+  using W = FlowConfig;
+  auto w = groups.group("flow", "optical flow", &ObservationConfig::flow);
+  w.flag("enabled", &W::enabled, "whether the way from frame to frame is looked at");
+  w.number("error_px", &W::error_px, 0, 1000, "of a pose's motion that is still right, px");
+  w.number("noise", &W::noise, 0.01, 255, "of grey values from frame to frame, of 256");
+  w.number("dof", &W::dof, 0.5, 1000, "of the Student-t; smaller expects more outliers");
+  w.number("weight", &W::weight, 0, 1000, "against the silhouettes");
+}
+
+}  // namespace walktrack

@@ -1,0 +1,30 @@
+// What terms are given of a camera and of one of its frames. Internal to this module: OpenCV is
+// seen here.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "observation/observer.h"
+
+namespace walktrack {
+
+struct ObserverSetting {
+  ObservationConfig config;
+  Camera camera, full_camera;  // of the shrunk image, and as calibrated
+  int shrink;
+  int threads;
+  bool occluded;  // whether anything stands in front of the subject
+  cv::Mat mask;   // 255 where it does
+};
+
+struct ObservedFrame {
+  Region region;
+  cv::Mat bgr;                             // shrunk; empty without a picture
+  const DetectedPeople* people = nullptr;  // only while the frame is prepared
+  GreyImage grey;                          // see grey_of()
+};
+
+// The grey image, made when a term first asks for it.
+const GreyImage& grey_of(ObservedFrame& frame);
+
+}  // namespace walktrack

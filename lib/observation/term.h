@@ -1,0 +1,83 @@
+// What a likelihood term is. README.md says how to add one; terms.h holds the list of all of them.
+//
+// A term is a struct that is never made, with
+//   kName       as results and documents call it
+//   kStage      when a particle is asked about it
+//   kAsksBefore whether it needs the pose of the frame before as well
+//   kSwitches   the parts of the configuration that turn it on, none for a term that is always
+//   there Evidence    what one frame of one camera holds for it; a base of CameraEvidence State
+//   what it remembers from frame to frame; a base of ObserverState Memory      the State with its
+//   rules: prepare() while particles are still busy with the frame
+//               before, complete() when they are done, learn() from the pose that was found
+//   describe    the keys of its configuration (io/config/config_table.cpp)
+//   says        whether a frame's evidence holds anything
+//   log_likelihood  of a body, up to a constant of the frame, nats; thread-safe, no allocations
+//   cost        CPU time of a frame
+// A term that is off says nothing, prepares nothing and holds no memory.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "body/kinematics.h"
+#include "observation/config.h"
+
+namespace walktrack {
+
+struct Camera;
+class CapsuleList;
+struct CameraEvidence;   // terms.h
+struct ObserverInput;    // observer.h
+struct ObserverSetting;  // observed_frame.h
+struct ObservedFrame;    // observed_frame.h
+
+// Delayed acceptance (filter/particle_filter.h): a move that one stage rejects is not shown to the
+// next. Terms that are quick or strong come first.
+enum class TermStage {
+  kEarly,   // the first camera's before anything else, those of other cameras with the late terms
+  kLate,    // after all early terms of the first camera
+  kTracks,  // never of a particle: only of whole tracks
+};
+
+// A body and where its parts are. Lives on the stack.
+struct PosedBody {
+  PosedBody(const Body& body, const Pose& pose)
+      : skeleton(forward_kinematics(body, pose)), parts(pose_parts(body, skeleton)) {}
+
+  Skeleton skeleton;
+  PosedParts parts;
+};
+
+// A flag of the configuration, observation.<key>.enabled.
+struct TermSwitch {
+  std::string_view key;
+  std::string_view plan_name;  // what `walktrack plan` calls it
+  std::string_view what;       // and says of it
+  bool (*on)(const ObservationConfig&);
+};
+
+// What there is to be done in a frame of one camera.
+struct TermWork {
+  double region_px = 0;  // pixels of the shrunk image around the subject
+  double rows = 0;       // that the subject covers there
+  double poses = 0;      // asked about, particles and moves together
+  int parts = 0;         // of the body
+  int classes = 0;       // appearances told apart; 0 = appearance is off
+};
+
+struct TermCost {
+  std::string_view what;  // it is spent on
+  double cpu_ns;
+};
+// Empty for a term that is off.
+using TermCosts = std::vector<TermCost>;
+
+// A pose that was found in the frame observed last.
+struct FoundPose {
+  const CapsuleList& capsules;
+  const JointPositions* joints;  // world; nullptr = not known
+};
+
+}  // namespace walktrack

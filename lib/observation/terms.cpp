@@ -1,0 +1,13 @@
+#include "observation/terms.h"
+
+namespace walktrack {
+
+std::vector<TermSwitch> term_switches() {
+  std::vector<TermSwitch> out;
+  Terms::each([&]<typename Term>() {
+    out.insert(out.end(), Term::kSwitches.begin(), Term::kSwitches.end());
+  });
+  return out;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,72 @@
+// The likelihood terms: the one list that evidence, likelihood, configuration, plan and reports go
+// through. The order is that of sums and of tables.
+//
+//   log p(images | pose) = sum over terms and cameras of T::log_likelihood + constant
+#pragma once
+
+#include <cstddef>
+
+#include "observation/flow_term.h"
+#include "observation/leg_order_term.h"
+#include "observation/silhouette_term.h"
+
+namespace walktrack {
+
+template <typename... T>
+struct TermList {
+  static constexpr size_t kCount = sizeof...(T);
+
+  // Members of all terms under one roof: each keeps its own names.
+  struct Evidence : T::Evidence... {};
+  struct State : T::State... {};
+
+  // f.template operator()<Term>() for each of them, in order.
+  template <typename F>
+  static constexpr void each(F&& f) {
+    (f.template operator()<T>(), ...);
+  }
+  // Something of each term in one: map<std::tuple, MemoryOf>, made from the same arguments.
+  template <template <typename...> typename Of, template <typename> typename From>
+  using map = Of<From<T>...>;
+  template <template <typename...> typename Of, template <typename> typename From, typename... A>
+  static map<Of, From> make(A&... arguments) {
+    return {From<T>(arguments...)...};
+  }
+};
+
+using Terms = TermList<SilhouetteTerm, FlowTerm, LegOrderTerm>;
+
+// What a frame of one camera says.
+struct CameraEvidence : Terms::Evidence {
+  double pixel_weight = 1;  // independent pixels in a pixel: the temper of all sums over pixels
+};
+
+// What an observer of one camera has learned and remembers between frames.
+struct ObserverState : Terms::State {};
+
+// Whether particles are asked about a term at all.
+template <typename Term>
+inline constexpr bool kWeighsParticles = Term::kStage != TermStage::kTracks;
+
+// Whether a term can tell a track's left leg from its right one by itself.
+template <typename Term>
+inline constexpr bool kTellsLegsApart = requires {
+  &Term::names_log_odds;
+};
+
+// Of one camera: all terms that need no frame before.
+inline double still_log_likelihood(const ObservationConfig& config, const CameraEvidence& evidence,
+                                   const Camera& camera, const PosedBody& body) {
+  double sum = 0;
+  Terms::each([&]<typename Term>() {
+    if constexpr (kWeighsParticles<Term> && !Term::kAsksBefore)
+      if (Term::says(evidence))
+        sum += Term::log_likelihood(config, evidence, camera, body, nullptr);
+  });
+  return sum;
+}
+
+// The flags that turn terms on.
+std::vector<TermSwitch> term_switches();
+
+}  // namespace walktrack
