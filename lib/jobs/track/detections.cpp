@@ -44,8 +44,14 @@ bool keypoints_wanted(const Scene& scene, const KeypointConfig& config) {
          pose_model_file(config.model).has_value();
 }
 
+KeypointConfig decided_keypoints(const Scene& scene, const Config& config) {
+  KeypointConfig out = config.observation.keypoints;
+  out.enabled = keypoints_wanted(scene, out) ? KeypointSwitch::kOn : KeypointSwitch::kOff;
+  return out;
+}
+
 Detections::Detections(const Scene& scene, const KeypointConfig& config,
-                       std::span<const int> shrinks, std::span<const double> person_px)
+                       std::span<const WorkingScale> scales)
     : every_(config.every), height_(scene.subject.height) {
   std::string model;
   const auto file = pose_model_file(config.model);
@@ -53,13 +59,13 @@ Detections::Detections(const Scene& scene, const KeypointConfig& config,
     const size_t c = cameras_.size();
     Viewer viewer;
     viewer.name = camera.name;
-    viewer.shrink = shrinks[c];
+    viewer.shrink = scales[c].shrink;
     if (!camera.keypoints.path.empty()) viewer.file = checked_keypoints(camera);
     if (wants_network(camera)) {
       if (!has_pose_net() || !file) fail_without_network(config);
       if (model.empty()) model = read_text_file(*file, kMaxModelBytes);
       viewer.net.emplace(model, file->string());
-      viewer.finder.emplace(camera.camera.width_px, camera.camera.height_px, person_px[c]);
+      viewer.finder.emplace(camera.camera.width_px, camera.camera.height_px, scales[c].person_px);
       network_ = true;
     }
     cameras_.push_back(std::move(viewer));

@@ -19,9 +19,16 @@ namespace walktrack {
 // Cameras up to which left and right may be in doubt without keypoints.
 inline constexpr size_t kCamerasInDoubt = 2;
 
+// How large a camera's images are worked on.
+struct WorkingScale {
+  double person_px;  // height of the standing subject in the image as it is filmed
+  int shrink;        // factor by which images are shrunk
+};
 // Whether keypoints are used: as configured, or `auto`: where every camera has a file, or where
 // there are few cameras and a network.
 bool keypoints_wanted(const Scene& scene, const KeypointConfig& config);
+// The configuration's keypoints with that decided: on or off.
+KeypointConfig decided_keypoints(const Scene& scene, const Config& config);
 
 // What is asked for a frame of one camera.
 struct FrameToLookAt {
@@ -38,8 +45,8 @@ class Detections {
   Detections() = default;
   // As the configuration says: reads the files, loads the network for cameras without. Errors of
   // keypoint_file.h and pose_net.h; UsageError where the network is wanted and not there.
-  Detections(const Scene& scene, const KeypointConfig& config, std::span<const int> shrinks,
-             std::span<const double> person_px);
+  Detections(const Scene& scene, const KeypointConfig& config,
+             std::span<const WorkingScale> scales);
 
   bool on() const { return !cameras_.empty(); }
   bool uses_network() const { return network_; }
