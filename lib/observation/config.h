@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "body/body.h"
 
@@ -41,8 +42,14 @@ struct FlowConfig {
   double weight = 1;     // against the silhouettes, both per independent area
 };
 
+enum class KeypointSwitch { kAuto, kOn, kOff };
+
+// Points of a pose detector: from the scene's files, or from the built-in network where a camera
+// has none.
 struct KeypointConfig {
-  bool enabled = false;
+  KeypointSwitch enabled = KeypointSwitch::kAuto;  // decided before anything is tracked
+  int every = 1;                                   // frames, of which the network looks at one
+  std::string model = "movenet_lightning";  // the shipped network, or a file of the same family
   // Of one point: a network's points err together from joint to joint and for several frames.
   double weight = .2;
   // Probability that the names of a frame's left and right are swapped. Of clear views it is below

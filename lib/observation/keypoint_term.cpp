@@ -115,7 +115,7 @@ KeypointTerm::Memory::Memory(const ObserverSetting&, ObserverInput& input)
 void KeypointTerm::Memory::prepare(const ObserverSetting& setting, ObservedFrame& frame, int,
                                    Prepared& out) const {
   out.people.clear();
-  if (!setting.config.keypoints.enabled) return;
+  if (!is_on(setting.config.keypoints)) return;
   for (const DetectedPerson& person : *frame.people) {
     const SeenPoints points = seen_points(person, setting.shrink, arms_);
     if (any_point(points)) out.people.push_back(points);
@@ -168,7 +168,7 @@ double KeypointTerm::log_likelihood(const ObservationConfig& config, const Camer
 }
 
 TermCosts KeypointTerm::cost(const ObservationConfig& config, const TermWork& work) {
-  if (!config.keypoints.enabled) return {};
+  if (!is_on(config.keypoints)) return {};
   return {{"keypoints", kPointsCompared * work.poses}};
 }
 

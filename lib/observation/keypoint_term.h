@@ -44,13 +44,15 @@ struct KeypointUse {
   int64_t legs_flipped = 0;  // with the names of the legs swapped
 };
 
+inline bool is_on(const KeypointConfig& config) { return config.enabled == KeypointSwitch::kOn; }
+
 struct KeypointTerm {
   static constexpr std::string_view kName = "keypoints";
   static constexpr TermStage kStage = TermStage::kEarly;
   static constexpr bool kAsksBefore = false;
   static constexpr std::array kSwitches{
       TermSwitch{"keypoints", "keypoints", "points of the body that a pose network has found",
-                 [](const ObservationConfig& c) { return c.keypoints.enabled; }}};
+                 [](const ObservationConfig& c) { return is_on(c.keypoints); }}};
 
   struct Evidence {
     KeypointEvidence keypoints;  // nobody when the term is off or the detector saw nobody
@@ -73,7 +75,7 @@ struct KeypointTerm {
     void complete(const ObserverSetting& setting, ObservedFrame& frame, Prepared& prepared,
                   CameraEvidence& out);
     void forget() {}
-    static bool learns(const ObservationConfig& config) { return config.keypoints.enabled; }
+    static bool learns(const ObservationConfig& config) { return is_on(config.keypoints); }
     void learn(const ObserverSetting& setting, const CameraEvidence& evidence,
                const FoundPose& found);
     State state() const { return state_; }
@@ -104,8 +106,16 @@ struct KeypointTerm {
 template <typename Groups>
 void KeypointTerm::describe(Groups& groups) {
   using K = KeypointConfig;
-  auto k = groups.group("keypoints", "points of a pose network", &ObservationConfig::keypoints);
-  k.flag("enabled", &K::enabled, "whether keypoints that come with the frames are used");
+  auto k = groups.group("keypoints", "points of a pose detector", &ObservationConfig::keypoints);
+  k.choice("enabled", &K::enabled,
+           {{"auto", KeypointSwitch::kAuto},
+            {"on", KeypointSwitch::kOn},
+            {"off", KeypointSwitch::kOff},
+            {"true", KeypointSwitch::kOn},
+            {"false", KeypointSwitch::kOff}},
+           "auto: where the scene has their files, or with one or two cameras by the network");
+  k.integer("every", &K::every, 1, 1000, "frames, of which the network looks at one");
+  k.text("model", &K::model, "the shipped network, or the ONNX file of one of the same family");
   k.number("weight", &K::weight, 0, 10,
            "weight of a point; below 1 because points err together and for several frames");
   k.number("flip", &K::flip, 1e-6, 0.5, "probability that a frame's left and right are swapped");

@@ -16,6 +16,7 @@
 #include "io/tables/motion_file.h"
 #include "jobs/render/frame_writer.h"
 #include "jobs/render/gait_motion.h"
+#include "jobs/render/render_keypoints.h"
 #include "jobs/render/render_truth.h"
 #include "synth/sensor.h"
 #include "synth/stage.h"
@@ -117,6 +118,22 @@ void write_film(const RenderJob& job, const std::string& name, const Filming& fi
   if (!control.stopping()) writer.close();
 }
 
+// Files of an earlier run that are beyond this one's last frame would be read with them.
+void write_keypoints(const RenderJob& job, const Stage& stage, const Filming& filming) {
+  if (!job.options.keypoints) return;
+  const std::string& name = filming.camera.name;
+  const fs::path folder = job.output / (name + "_keypoints");
+  fs::create_directories(folder);
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename().string().ends_with("_keypoints.json")) fs::remove(entry.path());
+  for (size_t frame = 0; frame < filming.frames; ++frame) {
+    const DetectedPeople people =
+        rendered_keypoints(stage, filming.view.camera, *job.options.keypoints, job.options.seed,
+                           filming.stream, static_cast<uint32_t>(frame), filming.time(frame));
+    write_file_atomically(folder / openpose_file_name(name, frame), openpose_json(people));
+  }
+}
+
 void film(const RenderJob& job, const Stage& stage, const Filming& filming, int threads,
           const JobControl& control) {
   const std::string& name = filming.camera.name;
@@ -128,6 +145,7 @@ void film(const RenderJob& job, const Stage& stage, const Filming& filming, int 
         exposed(stage, filming.view, job.options.shutter, filming.time(frame), filming.rate);
     return picture(job, light, 2 * filming.stream, static_cast<uint32_t>(frame));
   });
+  write_keypoints(job, stage, filming);
   if (job.options.background_frames == 0 || control.stopping()) return;
   write_film(job, name + "_background", filming, static_cast<size_t>(job.options.background_frames),
              threads, control, [&](size_t frame) {
@@ -174,6 +192,7 @@ std::string scene_yaml(const RenderJob& job, const std::vector<Filming>& cameras
                        film_name(name, images));
     if (job.options.background_frames > 0)
       out += fmt::format(", background: {}", film_name(name + "_background", images));
+    if (job.options.keypoints) out += fmt::format(", keypoints: {}_keypoints", name);
     if (filming.camera.start_frame > 0)
       out += fmt::format(", start_frame: {}", filming.camera.start_frame);
     if (filming.camera.frame_rate)

@@ -224,8 +224,10 @@ bool follow_film(TrackRun& run, const SceneVideo& video, const JobControl& contr
 
 }  // namespace
 
-TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
+TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const auto start = Clock::now();
+  TrackJob job = given;
+  job.config.values.observation.keypoints = decided_keypoints(job.scene, job.config.values);
   require_a_term(job.config.values.observation);
   SceneVideo video(job.scene);
   const Origin origin = origin_of(job);

@@ -5,6 +5,8 @@
 #include "core/version.h"
 #include "io/archive/files.h"
 #include "io/archive/sha256.h"
+#include "jobs/track/detections.h"
+#include "jobs/track/pose_model.h"
 
 namespace walktrack {
 
@@ -41,6 +43,20 @@ std::string film(const fs::path& path) {
   return fmt::format("{} {}", size, fs::last_write_time(seen).time_since_epoch().count());
 }
 
+// What keypoints come from, if they are used: the files' content.
+std::string keypoint_digests(const TrackJob& job) {
+  const KeypointConfig& config = job.config.values.observation.keypoints;
+  if (!keypoints_wanted(job.scene, config)) return "none";
+  std::string text;
+  for (const SceneCamera& camera : job.scene.cameras) {
+    if (camera.keypoints.path.empty()) continue;
+    for (const fs::path& file : keypoint_files(camera.keypoints))
+      text += sha256(read_text_file(file, kMaxKeypointBytes));
+  }
+  const auto model = pose_model_file(config.model);
+  return text + (model ? sha256(read_text_file(*model, kMaxModelBytes)) : "");
+}
+
 }  // namespace
 
 Origin origin_of(const TrackJob& job) {
@@ -50,7 +66,8 @@ Origin origin_of(const TrackJob& job) {
   return {{"version of the program", program()},
           {"scene", sha256(scene_texts(job.scene))},
           {"configuration", sha256(settings(job.config.values))},
-          {"film", sha256(films)}};
+          {"film", sha256(films)},
+          {"keypoints", sha256(keypoint_digests(job))}};
 }
 
 }  // namespace walktrack

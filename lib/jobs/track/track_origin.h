@@ -8,7 +8,7 @@
 namespace walktrack {
 
 // Program, scene with calibrations, configuration (threads change no result), and the films by
-// their sizes and times of change.
+// their sizes and times of change, keypoint files and the pose network by their content.
 Origin origin_of(const TrackJob& job);
 
 }  // namespace walktrack
