@@ -9,7 +9,7 @@ packages=(
   libeigen3-dev libboost-program-options-dev libyaml-cpp-dev libfmt-dev
   libtbb-dev libhwy-dev nlohmann-json3-dev libtomlplusplus-dev libnlopt-cxx-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
-  libopencv-video-dev libopencv-videoio-dev libopencv-calib3d-dev libopencv-ml-dev
+  libopencv-video-dev libopencv-videoio-dev libopencv-calib3d-dev libopencv-ml-dev libopencv-dnn-dev
 )
 if [ "${1:-}" = tests ]; then
   packages+=(

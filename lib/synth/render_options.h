@@ -51,6 +51,20 @@ struct Shutter {
   int blur_samples = 1;  // instants averaged over it; 1 = no motion blur
 };
 
+struct TimeSpan {
+  double from = 0, to = 0;  // s of the scene
+};
+
+// What is wrong with the keypoints of a film.
+struct KeypointFaults {
+  double noise = 0.01;            // deviation of a coordinate at full confidence, share of height
+  double dropout = 0;             // share of the points that are missing
+  double flips = 0;               // share of the frames in which the legs' names are swapped
+  double bias = 0;                // all points lie higher by that share of the person's height
+  std::vector<TimeSpan> flipped;  // times at which they are swapped in every frame
+  std::vector<TimeSpan> missing;  // times at which only others are seen, not the subject
+};
+
 struct RenderOptions {
   uint64_t seed = 1;
   double frame_rate = 30;          // Hz
@@ -68,6 +82,7 @@ struct RenderOptions {
   std::vector<FilmedWalker> others;   // further walkers
   double slope = 0;                   // gravity tilts by this angle along the first steps, > 0 down
   bool state_initial = false;         // scene.yaml tells where the walker is at time 0
+  std::optional<KeypointFaults> keypoints;           // write keypoint files
   bool labels = false, flow = false, depth = false;  // write them for every frame
 };
 

@@ -133,11 +133,14 @@ Motion truth_at(const Stage& stage, std::span<const double> times) {
   return at_times(stage.actors.front(), times);
 }
 
+JointPositions joints_at(const Actor& actor, double time) {
+  return at_times(actor, std::span(&time, 1)).joints.front();
+}
+
 std::vector<DressedParts> actors_at(const Stage& stage, double time) {
   std::vector<DressedParts> out;
   for (const Actor& actor : stage.actors) {
-    const Motion now = at_times(actor, std::span(&time, 1));
-    const auto skeleton = skeleton_from_joints(actor.body, now.joints.front());
+    const auto skeleton = skeleton_from_joints(actor.body, joints_at(actor, time));
     out.push_back(dress(skeleton ? pose_parts(actor.body, *skeleton) : PosedParts{}, actor.worn));
   }
   return out;

@@ -35,6 +35,9 @@ double height_of(const FilmedWalker& walker);
 Stage make_stage(const FilmedWalker& walker, const RenderOptions& options,
                  const std::vector<std::optional<Camera>>& calibrated);
 
+// An actor's joints at a time, as they are rendered; unknown where they are not there.
+JointPositions joints_at(const Actor& actor, double time);
+
 // The parts of all actors that are there at a time, in their order: an actor whose joints are
 // unknown is left out of the picture (no solids).
 std::vector<DressedParts> actors_at(const Stage& stage, double time);

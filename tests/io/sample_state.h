@@ -10,9 +10,9 @@ namespace walktrack {
 inline ObserverState sample_observer() {
   ObserverState out;
   out.background = BackgroundModel{2, 1, {.1f, .2f}, {0, 0}, {0, 0}, {1, 1}, {1, 1}};
-  out.grey_width = 3;
-  out.grey_height = 1;
-  out.grey_before = {1, 2, 3};
+  out.grey_before = {3, 1, {1, 2, 3}};
+  out.errors.scale[2] = 0.25;
+  out.use.matched = 9;
   out.frames = 7;
   return out;
 }

@@ -28,11 +28,11 @@ class NextFrameOfTheDemo : public testing::Test {
 };
 
 TEST_F(NextFrameOfTheDemo, CanBePreparedAgainToLookElsewhere) {
-  NextFrame next(scene_, video_, setup_.observers);
+  NextFrame next(scene_, video_, setup_.observers, setup_.detections);
   EXPECT_FALSE(next.fetched());
-  next.fetch(part_, 2, 1);
+  next.fetch(part_, true, 2, 1);
   EXPECT_TRUE(next.fetched());
-  next.prepare(whole_, 2, 1);
+  next.prepare(whole_, false, 2, 1);
   next.complete(0, 2, evidence_);
   EXPECT_FALSE(next.fetched());
   for (size_t c = 0; c < evidence_.size(); ++c) {
@@ -42,9 +42,9 @@ TEST_F(NextFrameOfTheDemo, CanBePreparedAgainToLookElsewhere) {
 }
 
 TEST_F(NextFrameOfTheDemo, IsNotThereAfterTheLast) {
-  NextFrame next(scene_, video_, setup_.observers);
+  NextFrame next(scene_, video_, setup_.observers, setup_.detections);
   int frames = 0;
-  for (next.fetch(part_, 1, 1); next.there(); next.fetch(part_, 1, 1), ++frames)
+  for (next.fetch(part_, true, 1, 1); next.there(); next.fetch(part_, true, 1, 1), ++frames)
     next.complete(0, 1, evidence_);
   EXPECT_EQ(frames, video_.frame_count());
   EXPECT_TRUE(next.fetched());

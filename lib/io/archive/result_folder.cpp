@@ -200,8 +200,9 @@ void remove_earlier(const Outputs& outputs, const Names& ours,
 
 }  // namespace
 
-std::string numbered_files(const std::string& folder, const std::string& ending) {
-  return fmt::format("{}/{}{}", folder, kNumber, ending);
+std::string numbered_files(const std::string& folder, const std::string& ending,
+                           const std::string& beginning) {
+  return fmt::format("{}/{}{}{}", folder, beginning, kNumber, ending);
 }
 
 void refuse_what_is_not_ours(const Outputs& outputs) {

@@ -27,9 +27,10 @@ struct Outputs {
   std::string last = kRunFile;                  // makes the work complete; "" = it never is
 };
 
-// In the place of a name: <folder>/<number><ending>, e.g. "labels/side" and ".png". The folder then
-// holds nothing else.
-std::string numbered_files(const std::string& folder, const std::string& ending);
+// In the place of a name: <folder>/<beginning><number><ending>, e.g. "labels/side" and ".png". The
+// folder then holds nothing else.
+std::string numbered_files(const std::string& folder, const std::string& ending,
+                           const std::string& beginning = "");
 
 // UsageError, which says what to do, for a folder that is a file, holds an input, a scene that is
 // not the command's own, or a file of one of the names that no marker of the command lists; and for

@@ -189,9 +189,9 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
-  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes] = value;
+  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes, evidence] = value;
   archive(tracked, estimate, filter, any_number(support), samples, a_count(fallen),
-          a_count(diverged), modes);
+          a_count(diverged), modes, evidence);
 }
 
 }  // namespace walktrack

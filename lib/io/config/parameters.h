@@ -114,6 +114,18 @@ class ParameterGroup {
         [=](const Group& group) { return std::string(group.*member ? "true" : "false"); });
   }
 
+  // Any text of one line that is not empty.
+  void text(const std::string& name, std::string Group::*member, std::string comment) {
+    add(
+        name, "a text", std::move(comment),
+        [=](Group& group, const std::string& value) {
+          if (value.empty() || value.find('\n') != std::string::npos) return false;
+          group.*member = value;
+          return true;
+        },
+        [=](const Group& group) { return group.*member; });
+  }
+
   template <typename Enum>
   void choice(const std::string& name, Enum Group::*member,
               std::vector<std::pair<std::string, Enum>> values, std::string comment) {

@@ -118,6 +118,28 @@ Thing read_occluder(const YamlValue& value) {
   return {upright_cone({n[0], n[1], 0}, n[3], n[2], n[2]), material, true};
 }
 
+std::vector<TimeSpan> read_spans(const YamlValue& list) {
+  std::vector<TimeSpan> out;
+  for (const YamlValue& item : list.items()) {
+    const auto span = item.numbers(2);
+    if (span[1] < span[0]) item.fail(item.describe_found(), "[from, to], in that order");
+    out.push_back({span[0], span[1]});
+  }
+  return out;
+}
+
+KeypointFaults read_keypoint_faults(const YamlValue& value) {
+  value.only_keys({"noise", "dropout", "flips", "bias", "flipped", "missing"});
+  KeypointFaults faults;
+  take(value, "noise", 0, 1, faults.noise);
+  take(value, "dropout", 0, 1, faults.dropout);
+  take(value, "flips", 0, 1, faults.flips);
+  take(value, "bias", -1, 1, faults.bias);
+  if (value.has("flipped")) faults.flipped = read_spans(value.at("flipped"));
+  if (value.has("missing")) faults.missing = read_spans(value.at("missing"));
+  return faults;
+}
+
 // What subject and others share.
 void read_looks(const YamlValue& value, FilmedWalker& walker) {
   take(value, "height", 0.5, 2.5, walker.height);
@@ -193,7 +215,7 @@ RenderFile read_render_file(const fs::path& path) {
   const YamlValue file = YamlValue::from_file(path.string());
   file.only_keys({"seed", "frame_rate", "start", "duration", "setting", "light", "sensor",
                   "background_frames", "images", "subject", "walk", "gait", "cameras", "occluders",
-                  "others", "slope_deg", "initial", "truth"});
+                  "others", "slope_deg", "initial", "keypoints", "truth"});
   const fs::path folder = fs::absolute(path).parent_path();
   RenderFile out;
   RenderOptions& options = out.options;
@@ -236,6 +258,7 @@ RenderFile read_render_file(const fs::path& path) {
     for (const YamlValue& item : file.at("others").items())
       options.others.push_back(read_other(item, folder, duration, out.motions));
   }
+  if (file.has("keypoints")) options.keypoints = read_keypoint_faults(file.at("keypoints"));
   if (file.has("truth")) {
     const YamlValue truth = file.at("truth");
     truth.only_keys({"labels", "flow", "depth"});

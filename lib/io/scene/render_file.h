@@ -19,6 +19,8 @@
 //   others: [{motion: other.csv, shift: [0, 1.5], turn_deg: 180, delay: 0.5, clothes: 2},
 //            {walk: {speed: 1, start: [3, 1], heading_deg: 180}}]
 //   images: false                # folders of PNG images in place of videos
+//   keypoints: {noise: 0.01, dropout: 0.02, flips: 0.01, bias: 0, flipped: [[1, 1.3]],
+//               missing: [[2, 3]]}   # a detector's files as well, with these faults
 //   truth: {labels: false, flow: false, depth: false}
 #pragma once
 

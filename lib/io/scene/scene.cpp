@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -36,13 +37,43 @@ fs::path existing_path(const YamlValue& value, const fs::path& folder) {
   return path;
 }
 
+// Which of our points each name of a map stands for; its values are the file's own names.
+std::map<std::string, std::string> read_point_names(const YamlValue& map) {
+  const std::vector<std::string> ours(kKeypointNames.begin(), kKeypointNames.end());
+  map.only_keys(ours);
+  std::map<std::string, std::string> names;
+  for (const std::string& key : map.keys()) names[key] = map.at(key).text();
+  if (names.empty()) map.fail("an empty map", "at least one point, such as {left_knee: kneeL}");
+  return names;
+}
+
+// A path, or a map with one.
+KeypointSource read_keypoint_source(const YamlValue& value, const fs::path& folder) {
+  if (!value.is_map()) return {.path = existing_path(value, folder)};
+  value.only_keys({"file", "map"});
+  KeypointSource source{.path = existing_path(value.at("file"), folder)};
+  if (value.has("map")) source.names = read_point_names(value.at("map"));
+  return source;
+}
+
+void require_pictures_or_points(const YamlValue& value, const SceneCamera& camera) {
+  if (camera.video.empty() && camera.keypoints.path.empty())
+    value.fail("neither 'video' nor 'keypoints'", "one of them, or both");
+  if (camera.video.empty() && !camera.background.empty())
+    value.at("background").fail("pictures of the empty scene without a video", "them with one");
+}
+
 SceneCamera read_camera(const YamlValue& value, const fs::path& folder, const WorldFrame& world) {
-  value.only_keys({"name", "video", "calibration", "background", "start_frame", "frame_rate"});
+  value.only_keys(
+      {"name", "video", "calibration", "background", "keypoints", "start_frame", "frame_rate"});
   SceneCamera camera;
   camera.name = value.at("name").name();
-  camera.video = existing_path(value.at("video"), folder);
+  if (value.has("video")) camera.video = existing_path(value.at("video"), folder);
   camera.calibration = existing_path(value.at("calibration"), folder);
   if (value.has("background")) camera.background = existing_path(value.at("background"), folder);
+  if (value.has("keypoints"))
+    camera.keypoints = read_keypoint_source(value.at("keypoints"), folder);
+  require_pictures_or_points(value, camera);
   if (value.has("start_frame")) {
     camera.start_frame = value.at("start_frame").integer(0, kMostFrames);
   }

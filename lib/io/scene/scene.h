@@ -16,6 +16,7 @@
 #include "body/subject.h"
 #include "camera/camera.h"
 #include "camera/world_frame.h"
+#include "io/keypoints/keypoint_file.h"
 
 namespace walktrack {
 
@@ -32,9 +33,10 @@ struct Occluder {
 
 struct SceneCamera {
   std::string name;                   // unique; fit for a file name
-  std::filesystem::path video;        // file, folder of frames or printf pattern
+  std::filesystem::path video;        // file, folder of frames or printf pattern; empty = none
   std::filesystem::path calibration;  // the file that `camera` was read from
   std::filesystem::path background;   // frames of the empty scene; empty = none
+  KeypointSource keypoints;           // there where there is no video
   Camera camera;                      // in the world
   int start_frame = 0;                // frame numbers count from here
   std::optional<double> frame_rate;   // Hz, where it differs from the scene's

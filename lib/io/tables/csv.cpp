@@ -23,16 +23,6 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
 }
 
-std::vector<std::string> split_cells(std::string_view line) {
-  std::vector<std::string> cells;
-  for (size_t at = 0;;) {
-    const size_t comma = line.find(',', at);
-    cells.push_back(trimmed(line.substr(at, comma - at)));
-    if (comma == std::string_view::npos) return cells;
-    at = comma + 1;
-  }
-}
-
 void take_header(CsvTable& table, std::vector<std::string> columns, int line) {
   const std::set<std::string> distinct(columns.begin(), columns.end());
   if (distinct.size() != columns.size()) {
@@ -51,6 +41,16 @@ void take_row(CsvTable& table, std::vector<std::string> cells, int line) {
 }
 
 }  // namespace
+
+std::vector<std::string> split_cells(std::string_view line) {
+  std::vector<std::string> cells;
+  for (size_t at = 0;;) {
+    const size_t comma = line.find(',', at);
+    cells.push_back(trimmed(line.substr(at, comma - at)));
+    if (comma == std::string_view::npos) return cells;
+    at = comma + 1;
+  }
+}
 
 std::optional<size_t> CsvTable::find_column(const std::string& name) const {
   const auto found = std::find(columns.begin(), columns.end(), name);

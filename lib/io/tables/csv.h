@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace walktrack {
@@ -37,6 +38,9 @@ CsvTable read_csv(const std::filesystem::path& path);
 std::vector<std::vector<double>> read_csv_columns(const std::filesystem::path& path,
                                                   const std::vector<std::string>& names);
 CsvTable csv_from_text(const std::string& text, const std::string& file);
+
+// A line's cells without the blanks around them; at least one.
+std::vector<std::string> split_cells(std::string_view line);
 
 // A number with six decimals (µm, µs), which is what tables hold; "" for NaN, never "-0.000000".
 std::string csv_number(double value);

@@ -164,6 +164,20 @@ std::string read_image_file(const fs::path& path, cv::Mat& image) {
   return image.empty() ? "an image that cannot be decoded" : "";
 }
 
+std::optional<int> last_number_in(std::string_view name) {
+  size_t end = name.size();
+  while (end > 0 && !is_digit(name[end - 1])) --end;
+  size_t begin = end;
+  while (begin > 0 && is_digit(name[begin - 1])) --begin;
+  if (begin == end) return std::nullopt;
+  int number = 0;
+  for (const char digit : name.substr(begin, end - begin)) {
+    number = 10 * number + (digit - '0');
+    if (number > kLargestFrameNumber) return std::nullopt;
+  }
+  return number;
+}
+
 bool natural_less(const std::string& a, const std::string& b) {
   size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/errors.h"
+#include "io/keypoints/keypoint_file.h"
 
 namespace walktrack {
 
@@ -26,13 +27,22 @@ int frames_passed(double stamp, double before, double rate) {
   return static_cast<int>(std::lround((stamp - before) * rate));
 }
 
+cv::Size size_of(const SceneCamera& camera) {
+  return {camera.camera.width_px, camera.camera.height_px};
+}
+
 }  // namespace
+
+FrameSource plain_frames(const SceneCamera& camera) {
+  return FrameSource(size_of(camera), read_keypoints(camera.keypoints).people.rbegin()->first + 1);
+}
 
 SceneVideo::SceneVideo(const Scene& scene)
     : first_frame_(scene.first_frame), next_frame_(scene.first_frame) {
   last_frame_ = scene.last_frame;
   for (const SceneCamera& camera : scene.cameras) {
-    sources_.emplace_back(camera.video, cv::Size(camera.camera.width_px, camera.camera.height_px));
+    sources_.push_back(camera.video.empty() ? plain_frames(camera)
+                                            : FrameSource(camera.video, size_of(camera)));
     start_frames_.push_back(camera.start_frame);
   }
   rate_ = scene.frame_rate.value_or(sources_.front().facts().frame_rate);
@@ -84,6 +94,7 @@ bool SceneVideo::read_ahead(size_t camera) {
   const bool first = ahead.number < 0;
   ahead.number += first || !believed ? 1 : frames_passed(stamp, ahead.stamp, rate);
   ahead.number += source.missing_before();
+  ahead.source = source.number();
   if (first || stamp > ahead.stamp) ahead.stamp = stamp;
   ahead.waits = true;
   return true;
@@ -97,6 +108,7 @@ bool SceneVideo::advance(size_t camera, SceneFrames& frames) {
     if (ahead.waits && ahead.number <= wanted) {
       cv::swap(frames.images[camera], ahead.image);
       frames.fresh[camera] = true;
+      frames.source[camera] = ahead.source;
       ahead.waits = false;
     }
     if (ahead.number >= wanted) return true;
@@ -108,6 +120,7 @@ bool SceneVideo::read(SceneFrames& frames) {
   if (!trouble_.empty() || (last_frame_ && next_frame_ > *last_frame_)) return false;
   frames.images.resize(sources_.size());
   frames.fresh.resize(sources_.size());
+  frames.source.resize(sources_.size());
   for (size_t i = 0; i < sources_.size(); ++i) {
     if (!advance(i, frames)) return false;
   }

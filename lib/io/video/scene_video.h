@@ -5,6 +5,8 @@
 // are met at their nearest frame, and a slow one shows the same frame several times, of which only
 // the first is fresh. So does one that has dropped frames: a container's time stamps tell where,
 // and the frames after the gap keep their time.
+//
+// A camera without a video shows plain_frames().
 #pragma once
 
 #include <string>
@@ -22,7 +24,12 @@ struct SceneFrames {
   double time = 0;              // s since first_frame
   std::vector<cv::Mat> images;  // one a camera, 8-bit BGR; overwritten by the next read
   std::vector<char> fresh;      // whether the camera has a new frame since the last step
+  std::vector<int> source;      // what that frame is called in its video (FrameSource::number)
 };
+
+// Plain pictures in place of the video of a camera that has keypoints alone: up to the last frame
+// that they speak of.
+FrameSource plain_frames(const SceneCamera& camera);
 
 class SceneVideo {
  public:
@@ -49,6 +56,7 @@ class SceneVideo {
   struct Ahead {
     int number = -1;   // at the camera's rate, counting those that were dropped
     double stamp = 0;  // s
+    int source = 0;    // see SceneFrames
     bool waits = false;
     cv::Mat image;
   };

@@ -62,6 +62,12 @@ FrameSource::FrameSource(const fs::path& path, std::optional<cv::Size> expected_
   check_size(expected_px);
 }
 
+FrameSource::FrameSource(cv::Size size_px, int frames) : plain_(cv::Mat::zeros(size_px, CV_8UC3)) {
+  facts_.width_px = size_px.width;
+  facts_.height_px = size_px.height;
+  facts_.frame_count = frames;
+}
+
 FrameSource::~FrameSource() = default;
 FrameSource::FrameSource(FrameSource&&) noexcept = default;
 FrameSource& FrameSource::operator=(FrameSource&&) noexcept = default;
@@ -114,6 +120,12 @@ void FrameSource::check_size(std::optional<cv::Size> expected_px) const {
 bool FrameSource::read(cv::Mat& frame) {
   if (!trouble_.empty()) return false;
   if (!images_.empty()) return read_image(frame);
+  if (!plain_.empty()) {
+    if (next_frame_ >= facts_.frame_count) return false;
+    plain_.copyTo(frame);
+    ++next_frame_;
+    return true;
+  }
   cv::Mat& decoded = facts_.rotated ? unturned_ : frame;
   if (!capture_->read(decoded) || decoded.empty()) {
     note_end();
@@ -122,6 +134,12 @@ bool FrameSource::read(cv::Mat& frame) {
   if (facts_.rotated) turn(unturned_, facts_.rotation_deg, frame);
   ++next_frame_;
   return true;
+}
+
+int FrameSource::number() const {
+  const int place = next_frame_ - 1;
+  if (images_.empty()) return place;
+  return last_number_in(images_[static_cast<size_t>(place)].stem().string()).value_or(place);
 }
 
 double FrameSource::time() const {
@@ -156,6 +174,8 @@ bool FrameSource::skip(int frames) {
   for (int i = 0; i < frames; ++i) {
     if (!images_.empty()) {
       if (next_frame_ >= std::ssize(images_)) return false;
+    } else if (!plain_.empty()) {
+      if (next_frame_ >= facts_.frame_count) return false;
     } else if (!capture_->grab()) {
       note_end();
       return false;

@@ -32,12 +32,17 @@ class FrameSource {
   // unless only the raw size fits; if neither fits, that is an InputError.
   explicit FrameSource(const std::filesystem::path& path,
                        std::optional<cv::Size> expected_px = std::nullopt);
+  // Plain pictures where there is no video: what is drawn on them can be looked at.
+  FrameSource(cv::Size size_px, int frames);
   ~FrameSource();
   FrameSource(FrameSource&&) noexcept;
   FrameSource& operator=(FrameSource&&) noexcept;
 
   const VideoFacts& facts() const { return facts_; }
   int next_frame() const { return next_frame_; }
+  // What the last frame read is called: the number in its image's name where that has one,
+  // otherwise its place in the source, from 0.
+  int number() const;
   // The container's time stamp of the last frame read or passed, s; NaN for images.
   double time() const;
   // How many images are missing before the last one read or passed.
@@ -60,8 +65,9 @@ class FrameSource {
 
   std::filesystem::path path_;
   std::unique_ptr<cv::VideoCapture> capture_;  // a video file, or
-  std::vector<std::filesystem::path> images_;  // image files in order
+  std::vector<std::filesystem::path> images_;  // image files in order, or
   std::vector<int> missing_before_;            // each of them
+  cv::Mat plain_;                              // a plain picture
   cv::Mat unturned_;                           // the decoded frame where frames are turned
   VideoFacts facts_;
   int next_frame_ = 0;
@@ -81,6 +87,11 @@ std::vector<int> missing_before(const std::vector<std::filesystem::path>& images
 std::string read_image_file(const std::filesystem::path& path, cv::Mat& image);
 
 inline constexpr int kMostPixelsAlongASide = 8192;
+
+// The last number in a name without its extension; nothing where there is none, or one that is no
+// frame's.
+std::optional<int> last_number_in(std::string_view name);
+inline constexpr int kLargestFrameNumber = 100'000'000;
 
 // "frame2" before "frame10": runs of digits compare as numbers.
 bool natural_less(const std::string& a, const std::string& b);

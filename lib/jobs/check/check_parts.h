@@ -20,6 +20,9 @@ void check_poses(const Scene& scene, CheckReport& report);
 // compared with the calibrations.
 bool check_videos(const Scene& scene, const JobControl& control, CheckReport& report);
 
+// Keypoint files: InputErrors for those that cannot be used, notes about what is odd.
+void check_keypoints(const Scene& scene, CheckReport& report);
+
 // Where the moving figure of one frame is; nullopt when nothing or too much moves.
 using FigurePath = std::vector<std::optional<Eigen::Vector2d>>;  // px of the full image
 

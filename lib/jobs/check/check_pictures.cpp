@@ -4,7 +4,7 @@
 #include "body/kinematics.h"
 #include "core/errors.h"
 #include "io/drawing/overlay.h"
-#include "io/video/video.h"
+#include "io/video/scene_video.h"
 #include "jobs/check/check_parts.h"
 
 namespace walktrack {
@@ -42,7 +42,7 @@ void write_check_pictures(const Scene& scene, const CheckReport& report,
     const SceneCamera& camera = scene.cameras[i];
     const CameraInspection& view = report.cameras[i].view;
     cv::Mat frame;
-    FrameSource source(camera.video);
+    FrameSource source = camera.video.empty() ? plain_frames(camera) : FrameSource(camera.video);
     if (!source.skip(camera.start_frame) || !source.read(frame)) continue;
     const Eigen::Vector2d place = view.standing_place.value_or(Eigen::Vector2d::Zero());
     draw_ground_grid(frame, camera.camera, place, kGridHalfSide);

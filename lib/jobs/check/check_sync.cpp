@@ -144,6 +144,7 @@ std::optional<double> median_gap(const std::vector<PlanePath>& planes, size_t la
 }  // namespace
 
 FigurePath figure_path(const SceneCamera& camera) {
+  if (camera.video.empty()) return {};
   double scale = 1;
   const std::vector<cv::Mat> frames = shrunk_frames(camera, scale);
   FigurePath path;

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
-#include "io/video/video.h"
+#include "io/video/scene_video.h"
 #include "jobs/check/check_parts.h"
 
 namespace walktrack {
@@ -140,7 +140,7 @@ bool check_videos(const Scene& scene, const JobControl& control, CheckReport& re
   for (size_t i = 0; i < scene.cameras.size() && !control.stopping(); ++i) {
     control.progress("checking videos", i, scene.cameras.size());
     const SceneCamera& camera = scene.cameras[i];
-    FrameSource source(camera.video);
+    FrameSource source = camera.video.empty() ? plain_frames(camera) : FrameSource(camera.video);
     const VideoFacts video = source.facts();
     report.cameras[i].video = video;
     if (scene_rate == 0) scene_rate = video.frame_rate;

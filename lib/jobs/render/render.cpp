@@ -17,6 +17,7 @@
 #include "io/tables/motion_file.h"
 #include "jobs/render/frame_writer.h"
 #include "jobs/render/gait_motion.h"
+#include "jobs/render/render_keypoints.h"
 #include "jobs/render/render_truth.h"
 #include "synth/sensor.h"
 #include "synth/stage.h"
@@ -120,6 +121,20 @@ void write_film(const RenderJob& job, const std::string& name, const Filming& fi
   if (!control.stopping()) writer.close();
 }
 
+void write_keypoints(const RenderJob& job, const Stage& stage, const Filming& filming,
+                     const ResultFolder& folder) {
+  if (!job.options.keypoints) return;
+  const std::string& name = filming.camera.name;
+  fs::create_directories(job.output / keypoint_folder(name));
+  for (size_t frame = 0; frame < filming.frames; ++frame) {
+    const DetectedPeople people =
+        rendered_keypoints(stage, filming.view.camera, *job.options.keypoints, job.options.seed,
+                           filming.stream, static_cast<uint32_t>(frame), filming.time(frame));
+    folder.write(keypoint_folder(name) + "/" + openpose_file_name(name, frame),
+                 openpose_json(people));
+  }
+}
+
 void film(const RenderJob& job, const Stage& stage, const Filming& filming,
           const ResultFolder& folder, int threads, const JobControl& control) {
   const std::string& name = filming.camera.name;
@@ -131,6 +146,7 @@ void film(const RenderJob& job, const Stage& stage, const Filming& filming,
         exposed(stage, filming.view, job.options.shutter, filming.time(frame), filming.rate);
     return picture(job, light, 2 * filming.stream, static_cast<uint32_t>(frame));
   });
+  write_keypoints(job, stage, filming, folder);
   if (job.options.background_frames == 0 || control.stopping()) return;
   write_film(job, name + "_background", filming, folder,
              static_cast<size_t>(job.options.background_frames), threads, control,
@@ -178,6 +194,7 @@ std::string scene_yaml(const RenderJob& job, const std::vector<Filming>& cameras
                        film_name(name, images));
     if (job.options.background_frames > 0)
       out += fmt::format(", background: {}", film_name(name + "_background", images));
+    if (job.options.keypoints) out += ", keypoints: " + keypoint_folder(name);
     if (filming.camera.start_frame > 0)
       out += fmt::format(", start_frame: {}", filming.camera.start_frame);
     if (filming.camera.frame_rate)
@@ -233,6 +250,8 @@ Outputs outputs_of(const RenderJob& job, const std::vector<Filming>& cameras) {
     out.files.push_back(film_files(name, options.images));
     if (options.background_frames > 0)
       out.files.push_back(film_files(name + "_background", options.images));
+    if (options.keypoints)
+      out.files.push_back(numbered_files(keypoint_folder(name), kOpenPoseEnding, name + "_"));
     if (options.labels) out.files.push_back(numbered_files("labels/" + name, ".png"));
     if (options.flow) out.files.push_back(numbered_files("flow/" + name, ".flo"));
     if (options.depth) out.files.push_back(numbered_files("depth/" + name, ".pfm"));

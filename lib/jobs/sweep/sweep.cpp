@@ -111,8 +111,10 @@ class Sweep {
   // Whether the run's folder holds what this program would measure now.
   bool measured(const TrackJob& track) const {
     if (!is_complete_result(track.output)) return false;
-    const std::string changed =
-        changes_since(track.output, origin_of(track.config, input_digests(track.scene)));
+    const std::string changed = changes_since(
+        track.output,
+        origin_of(track.config,
+                  input_digests(track.scene, track.config.values.observation.keypoints)));
     if (changed.empty()) return true;
     throw UsageError(
         fmt::format("{} holds a run of other settings or inputs ({}); -y measures all runs again",

@@ -19,14 +19,17 @@ bool comes_or_goes(const SceneCamera& camera) {
 
 }  // namespace
 
-NextFrame::NextFrame(const Scene& scene, SceneVideo& video, std::vector<Observer>& observers)
+NextFrame::NextFrame(const Scene& scene, SceneVideo& video, std::vector<Observer>& observers,
+                     Detections& detections)
     : scene_(scene),
       video_(video),
       observers_(observers),
+      detections_(detections),
       prepared_(observers.size()),
       cpu_seconds_(observers.size()) {}
 
-NextFrame::Cost NextFrame::fetch(std::span<const Region> regions, int threads, int row_threads) {
+NextFrame::Cost NextFrame::fetch(std::span<const Region> regions, bool around, int threads,
+                                 int row_threads) {
   Cost cost;
   const Clock::time_point start = Clock::now();
   const double cpu = thread_cpu_seconds();
@@ -35,17 +38,24 @@ NextFrame::Cost NextFrame::fetch(std::span<const Region> regions, int threads, i
   cost.decode = {seconds_since(start), thread_cpu_seconds() - cpu};
   if (!there_) return cost;
   const Clock::time_point decoded = Clock::now();
-  prepare(regions, threads, row_threads);
+  prepare(regions, around, threads, row_threads);
   cost.prepare = {seconds_since(decoded),
                   std::accumulate(cpu_seconds_.begin(), cpu_seconds_.end(), 0.0)};
   return cost;
 }
 
-void NextFrame::prepare(std::span<const Region> regions, int threads, int row_threads) {
+void NextFrame::prepare(std::span<const Region> regions, bool around, int threads,
+                        int row_threads) {
   parallel_for(observers_.size(), threads, [&](size_t c) {
     const double start = thread_cpu_seconds();
-    if (images_.fresh[c])
-      observers_[c].prepare(images_.images[c], regions[c], row_threads, prepared_[c]);
+    if (images_.fresh[c]) {
+      const FrameToLookAt frame{images_.images[c], images_.source[c], images_.number, regions[c],
+                                around};
+      const cv::Mat none;
+      const bool pictures = !scene_.cameras[c].video.empty();
+      observers_[c].prepare(pictures ? images_.images[c] : none, regions[c], row_threads,
+                            prepared_[c], detections_.look(c, frame));
+    }
     cpu_seconds_[c] = thread_cpu_seconds() - start;
   });
 }

@@ -7,6 +7,7 @@
 
 #include "io/scene/scene.h"
 #include "io/video/scene_video.h"
+#include "jobs/track/detections.h"
 #include "jobs/track/stopwatch.h"
 #include "observation/observer.h"
 #include "tracker/scene.h"
@@ -21,13 +22,15 @@ class NextFrame {
   };
 
   // All have to outlive this.
-  NextFrame(const Scene& scene, SceneVideo& video, std::vector<Observer>& observers);
+  NextFrame(const Scene& scene, SceneVideo& video, std::vector<Observer>& observers,
+            Detections& detections);
 
-  // Decodes the next frame and prepares it: where to look, by camera. Cameras are shared by
-  // `threads`, and the rows of a single one by `row_threads`. Changes no observer.
-  Cost fetch(std::span<const Region> regions, int threads, int row_threads);
+  // Decodes the next frame and prepares it: where to look, by camera, and whether that is around
+  // the subject. Cameras are shared by `threads`, and the rows of a single one by `row_threads`.
+  // Changes no observer.
+  Cost fetch(std::span<const Region> regions, bool around, int threads, int row_threads);
   // Prepares it again, to look elsewhere.
-  void prepare(std::span<const Region> regions, int threads, int row_threads);
+  void prepare(std::span<const Region> regions, bool around, int threads, int row_threads);
 
   bool fetched() const { return fetched_; }
   // Whether fetching found a frame: there is none after the last.
@@ -41,6 +44,7 @@ class NextFrame {
   const Scene& scene_;
   SceneVideo& video_;
   std::vector<Observer>& observers_;
+  Detections& detections_;
   SceneFrames images_;
   std::vector<PreparedFrame> prepared_;
   std::vector<double> cpu_seconds_;  // of preparing, by camera

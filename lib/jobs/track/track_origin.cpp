@@ -8,6 +8,8 @@
 #include "io/archive/run_record.h"
 #include "io/archive/sha256.h"
 #include "io/video/film_digest.h"
+#include "jobs/track/detections.h"
+#include "jobs/track/pose_model.h"
 #include "jobs/track/track_run.h"
 
 namespace walktrack {
@@ -24,15 +26,26 @@ std::string name_from(const Scene& scene, const fs::path& file) {
   return (name.empty() ? file : name).generic_string();
 }
 
+// Of all files of a camera, by their content.
+std::string keypoint_digest(const KeypointSource& source) {
+  std::string text;
+  for (const fs::path& file : keypoint_files(source))
+    text += file.filename().string() + sha256(read_text_file(file, kMaxKeypointBytes));
+  return sha256(text);
+}
+
 }  // namespace
 
-Origin input_digests(const Scene& scene) {
+Origin input_digests(const Scene& scene, const KeypointConfig& keypoints) {
   Origin out;
-  const auto add = [&](const fs::path& file, bool film) {
-    const std::string name = name_from(scene, file);
+  const auto add_as = [&](const std::string& name, const fs::path& file, auto digest) {
     const bool there = std::ranges::any_of(out, [&](const auto& e) { return e.first == name; });
-    if (file.empty() || there) return;
-    out.emplace_back(name, film ? film_digest(file) : sha256(read_text_file(file, kMaxTextBytes)));
+    if (!file.empty() && !there) out.emplace_back(name, digest(file));
+  };
+  const auto add = [&](const fs::path& file, bool film) {
+    add_as(name_from(scene, file), file, [&](const fs::path& path) {
+      return film ? film_digest(path) : sha256(read_text_file(path, kMaxTextBytes));
+    });
   };
   add(scene.file, false);
   for (const SceneCamera& camera : scene.cameras) {
@@ -40,6 +53,13 @@ Origin input_digests(const Scene& scene) {
     add(camera.video, true);
     add(camera.background, true);
   }
+  if (!keypoints_wanted(scene, keypoints)) return out;
+  for (const SceneCamera& camera : scene.cameras)
+    add_as(name_from(scene, camera.keypoints.path), camera.keypoints.path,
+           [&](const fs::path&) { return keypoint_digest(camera.keypoints); });
+  if (const auto model = pose_model_file(keypoints.model))
+    add_as("model of the pose detector", *model,
+           [](const fs::path& path) { return sha256(read_text_file(path, kMaxModelBytes)); });
   return out;
 }
 

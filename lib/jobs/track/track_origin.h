@@ -9,8 +9,9 @@
 namespace walktrack {
 
 // The scene's file, calibrations and films, named from the scene's folder, with their digests
-// (io/video/film_digest.h). The truth is none of them.
-Origin input_digests(const Scene& scene);
+// (io/video/film_digest.h), and where keypoints are used their files and the pose network. The
+// truth is none of them.
+Origin input_digests(const Scene& scene, const KeypointConfig& keypoints);
 
 // Program, inputs and configuration (threads change no result).
 Origin origin_of(const ConfigWithOrigin& config, const Origin& inputs);

@@ -56,7 +56,7 @@ TrackRun::TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& f
       budget_(job.config.values.budget),
       tracker_(setup_.scene, prior_, job.config.values.tracker, job.config.values.seed, threads_),
       video_(video),
-      next_(job.scene, video, setup_.observers),
+      next_(job.scene, video, setup_.observers, setup_.detections),
       regions_(checkpoint ? checkpoint->regions : std::vector<Region>{}),
       evidence_(setup_.observers.size()),
       frames_{video.frame_rate(), FrameFile(folder.file(std::string(kFramesFile)),
@@ -66,6 +66,8 @@ TrackRun::TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& f
       timer_(job.config.values.checkpoint.seconds) {
   for (const Camera& camera : setup_.scene.cameras)
     everywhere_.push_back(search_region(camera, job.scene.subject.height));
+  // OpenCV splits the network's layers by its threads, and other sums have other last bits.
+  if (setup_.detections.uses_network()) cv::setNumThreads(1);
   if (checkpoint) tracker_.resume(std::move(checkpoint->tracker));
   if (!budget_.on()) return;
   particles_used_.assign(first_frame_, std::numeric_limits<double>::quiet_NaN());
@@ -128,8 +130,8 @@ std::vector<Region> TrackRun::regions() const {
 // The first frame, of the film or from a checkpoint on.
 void TrackRun::fetch() {
   const Moment start;
-  const NextFrame::Cost cost =
-      next_.fetch(regions_.empty() ? regions() : regions_, threads_, row_threads());
+  const NextFrame::Cost cost = next_.fetch(regions_.empty() ? regions() : regions_,
+                                           tracker_.tracking(), threads_, row_threads());
   const Spent all = spent_since(start);
   watch_.add("decode", cost.decode);
   watch_.add("evidence",
@@ -159,7 +161,7 @@ void TrackRun::follow() {
         push();
         filter_seconds_ = seconds_since(start.clock);
       },
-      [&] { cost = next_.fetch(regions_, threads_, tracked ? 1 : row_threads()); });
+      [&] { cost = next_.fetch(regions_, tracked, threads_, tracked ? 1 : row_threads()); });
   const Spent all = spent_since(start);
   const double waited = all.seconds - filter_seconds_;
   const double decode = std::min(waited, cost.decode.seconds);
@@ -169,7 +171,7 @@ void TrackRun::follow() {
              {filter_seconds_, std::max(0.0, all.cpu - cost.decode.cpu - cost.prepare.cpu)});
   if (!tracked || tracker_.tracking() || !next_.there()) return;
   const Moment lost;
-  next_.prepare(regions(), threads_, row_threads());
+  next_.prepare(regions(), false, threads_, row_threads());
   watch_.add("evidence", spent_since(lost));
 }
 
@@ -197,7 +199,7 @@ void TrackRun::learn() {
   const PosedBody found(body, tracker_.mean_pose());
   parallel_for(setup_.observers.size(), threads_, [&](size_t c) {
     setup_.observers[c].learn(evidence_[c], project_parts(setup_.scene.cameras[c], found.parts),
-                              &found.skeleton.joints);
+                              &found);
   });
   watch_.add("appearance", spent_since(start));
 }

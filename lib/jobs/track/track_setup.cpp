@@ -71,9 +71,10 @@ Observer make_observer(const Scene& scene, const SceneCamera& camera, const Conf
   // Several cameras share the threads among themselves.
   input.threads = scene.cameras.size() == 1 ? thread_count(config.threads) : 1;
   input.occluders = occluders_at(camera, 0);
+  input.pictures = !camera.video.empty();
   if (learned) {
     input.background = learned->background;
-  } else if (observation.background.enabled) {
+  } else if (observation.background.enabled && input.pictures) {
     input.background = learn_background(camera, config, input.shrink, control);
   }
   Observer observer(observation, std::move(input));
@@ -92,6 +93,14 @@ void set_beginning(const Scene& scene, double frame_rate, TrackerScene& out) {
       .given = true};
   out.initial_frame = static_cast<int>(std::lround(given.time * frame_rate));
   out.initial_phase = given.phase;
+}
+
+Detections detections_of(const Scene& scene, const Config& config) {
+  if (config.observation.keypoints.enabled == KeypointSwitch::kOff) return {};
+  std::vector<WorkingScale> scales;
+  for (const SceneCamera& camera : scene.cameras)
+    scales.push_back(working_scale(scene, camera.camera, config));
+  return Detections(scene, config.observation.keypoints, scales);
 }
 
 }  // namespace
@@ -120,6 +129,7 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
     setup.observers.push_back(make_observer(scene, camera, config, out.model.body, known, control));
     out.cameras.push_back(setup.observers.back().camera());
   }
+  setup.detections = detections_of(scene, config);
   return setup;
 }
 

@@ -8,6 +8,7 @@
 #include "core/job_control.h"
 #include "io/config/config.h"
 #include "io/scene/scene.h"
+#include "jobs/track/detections.h"
 #include "observation/observer.h"
 #include "tracker/scene.h"
 
@@ -16,6 +17,7 @@ namespace walktrack {
 struct TrackSetup {
   std::vector<Observer> observers;  // by camera
   TrackerScene scene;
+  Detections detections;  // of the observers' frames
 };
 
 // Learns each camera's background from its empty frames or, without them, from the film itself;
@@ -24,10 +26,6 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
                   std::span<const ObserverState> learned, const JobControl& control);
 
 // How large a camera's images are worked on.
-struct WorkingScale {
-  double person_px;  // height of the standing subject in the image as it is filmed
-  int shrink;        // factor by which images are shrunk
-};
 WorkingScale working_scale(const Scene& scene, const Camera& camera, const Config& config);
 
 // What the search for a walk holds at a time, of all cameras: the evidence of a window of frames,

@@ -1,0 +1,47 @@
+// A place in a JSON file: what is there is asked for by key and type, and whatever does not fit is
+// an InputError "file: key: found X, allowed Y". Copies are cheap; the file's content has to
+// outlive them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace walktrack {
+
+// "NaN" and "Infinity", which are no JSON but which Python writes, become null.
+nlohmann::json json_from_text(std::string text, const std::string& file);
+
+class JsonValue {
+ public:
+  JsonValue(const nlohmann::json& value, const std::string& file, std::string key = "")
+      : value_(&value), file_(&file), key_(std::move(key)) {}
+
+  bool is_map() const { return value_->is_object(); }
+  bool is_list() const { return value_->is_array(); }
+  bool is_text() const { return value_->is_string(); }
+  size_t size() const { return value_->size(); }
+
+  bool has(const char* key) const;
+  JsonValue at(const char* key) const;   // of a map
+  std::vector<JsonValue> items() const;  // of a list
+
+  std::string text() const;
+  int integer(int lowest, int highest) const;
+  // A list of numbers; NaN for null.
+  std::vector<double> numbers() const;
+
+  [[noreturn]] void fail(std::string_view found, std::string_view allowed) const;
+
+ private:
+  std::string describe_found() const;
+
+  const nlohmann::json* value_;
+  const std::string* file_;
+  std::string key_;
+};
+
+}  // namespace walktrack

@@ -1,0 +1,45 @@
+#include "io/keypoints/skeleton.h"
+
+#include <array>
+
+namespace walktrack {
+
+namespace {
+
+using enum KeypointName;
+using Point = std::optional<KeypointName>;
+
+constexpr std::array<Point, 26> kHalpe26{
+    kNose,          kLeftEye,   kRightEye,   kLeftEar,     kRightEar,     kLeftShoulder,
+    kRightShoulder, kLeftElbow, kRightElbow, kLeftWrist,   kRightWrist,   kLeftHip,
+    kRightHip,      kLeftKnee,  kRightKnee,  kLeftAnkle,   kRightAnkle,   kHeadTop,
+    kNeck,          kMidHip,    kLeftBigToe, kRightBigToe, kLeftSmallToe, kRightSmallToe,
+    kLeftHeel,      kRightHeel};
+
+constexpr std::array<Point, 25> kBody25{
+    kNose,         kNeck,       kRightShoulder, kRightElbow,    kRightWrist,
+    kLeftShoulder, kLeftElbow,  kLeftWrist,     kMidHip,        kRightHip,
+    kRightKnee,    kRightAnkle, kLeftHip,       kLeftKnee,      kLeftAnkle,
+    kRightEye,     kLeftEye,    kRightEar,      kLeftEar,       kLeftBigToe,
+    kLeftSmallToe, kLeftHeel,   kRightBigToe,   kRightSmallToe, kRightHeel};
+
+constexpr std::array<Point, 18> kCoco18{
+    kNose,      kNeck,      kRightShoulder, kRightElbow, kRightWrist, kLeftShoulder,
+    kLeftElbow, kLeftWrist, kRightHip,      kRightKnee,  kRightAnkle, kLeftHip,
+    kLeftKnee,  kLeftAnkle, kRightEye,      kLeftEye,    kRightEar,   kLeftEar};
+
+constexpr size_t kCoco = 17;  // the first of HALPE_26
+
+}  // namespace
+
+std::span<const Point> skeleton_of(size_t points) {
+  if (points == kCoco) return std::span(kHalpe26).first(kCoco);
+  if (points == kCoco18.size()) return kCoco18;
+  if (points == kBody25.size()) return kBody25;
+  if (points == kHalpe26.size()) return kHalpe26;
+  return {};
+}
+
+std::string skeletons_allowed() { return "17 (COCO), 18, 25 (BODY_25) or 26 (HALPE_26) points"; }
+
+}  // namespace walktrack

@@ -1,0 +1,102 @@
+#include "jobs/track/detections.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/errors.h"
+#include "io/archive/files.h"
+#include "jobs/track/pose_model.h"
+
+namespace walktrack {
+
+namespace {
+
+bool all_have_files(const Scene& scene) {
+  return std::all_of(scene.cameras.begin(), scene.cameras.end(),
+                     [](const SceneCamera& camera) { return !camera.keypoints.path.empty(); });
+}
+
+// A camera without a video has no pictures to look into.
+bool wants_network(const SceneCamera& camera) {
+  return camera.keypoints.path.empty() && !camera.video.empty();
+}
+
+KeypointFrames checked_keypoints(const SceneCamera& camera) {
+  KeypointFrames frames = read_keypoints(camera.keypoints);
+  check_image_size(frames, camera.keypoints, camera.camera);
+  return frames;
+}
+
+[[noreturn]] void fail_without_network(const KeypointConfig& config) {
+  throw UsageError(describe({"", 0, "observation.keypoints.enabled"},
+                            has_pose_net() ? "no file of the model " + config.model
+                                           : "a program that was built without a pose detector",
+                            "off, or keypoint files for every camera"));
+}
+
+}  // namespace
+
+bool keypoints_wanted(const Scene& scene, const KeypointConfig& config) {
+  if (config.enabled != KeypointSwitch::kAuto) return config.enabled == KeypointSwitch::kOn;
+  if (all_have_files(scene)) return true;
+  return scene.cameras.size() <= kCamerasInDoubt && has_pose_net() &&
+         pose_model_file(config.model).has_value();
+}
+
+KeypointConfig decided_keypoints(const Scene& scene, const Config& config) {
+  KeypointConfig out = config.observation.keypoints;
+  out.enabled = keypoints_wanted(scene, out) ? KeypointSwitch::kOn : KeypointSwitch::kOff;
+  return out;
+}
+
+Detections::Detections(const Scene& scene, const KeypointConfig& config,
+                       std::span<const WorkingScale> scales)
+    : every_(config.every), height_(scene.subject.height) {
+  std::string model;
+  const auto file = pose_model_file(config.model);
+  for (const SceneCamera& camera : scene.cameras) {
+    const size_t c = cameras_.size();
+    Viewer viewer;
+    viewer.name = camera.name;
+    viewer.shrink = scales[c].shrink;
+    if (!camera.keypoints.path.empty()) viewer.file = checked_keypoints(camera);
+    if (wants_network(camera)) {
+      if (!has_pose_net() || !file) fail_without_network(config);
+      if (model.empty()) model = read_text_file(*file, kMaxModelBytes);
+      viewer.net.emplace(model, file->string());
+      viewer.finder.emplace(camera.camera.width_px, camera.camera.height_px, scales[c].person_px);
+      network_ = true;
+    }
+    cameras_.push_back(std::move(viewer));
+  }
+}
+
+std::vector<std::string> Detections::notes(const std::vector<int>& video_frames) const {
+  std::vector<std::string> out;
+  for (size_t c = 0; c < cameras_.size(); ++c) {
+    if (!cameras_[c].file) continue;
+    for (const std::string& note : keypoint_notes(*cameras_[c].file, video_frames[c]))
+      out.push_back(fmt::format("keypoints of camera {}: {}", cameras_[c].name, note));
+  }
+  return out;
+}
+
+DetectedPeople Detections::look(size_t camera, const FrameToLookAt& frame) {
+  if (!on()) return {};
+  Viewer& viewer = cameras_[camera];
+  if (!viewer.file) return viewer.net ? seen_by_network(viewer, frame) : DetectedPeople{};
+  const auto found = viewer.file->people.find(frame.source);
+  return found == viewer.file->people.end() ? DetectedPeople{} : found->second;
+}
+
+DetectedPeople Detections::seen_by_network(Viewer& viewer, const FrameToLookAt& frame) const {
+  if (frame.around) viewer.finder->forget();
+  if (frame.scene_frame % every_ != 0) return {};
+  if (!frame.around)
+    return viewer.finder->look(*viewer.net, frame.picture, frame.scene_frame / every_);
+  if (frame.region.area.empty()) return {};
+  return {viewer.net->detect(frame.picture, cut_out_around(frame.region, viewer.shrink, height_))};
+}
+
+}  // namespace walktrack

@@ -1,0 +1,75 @@
+// The keypoints that come with a film's frames: from files that the scene names, or from the
+// built-in network, which looks at every n-th frame.
+//
+// Cameras are independent of each other: those of one frame may be asked by threads of their own.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/config/config.h"
+#include "io/keypoints/keypoint_file.h"
+#include "io/scene/scene.h"
+#include "jobs/track/person_finder.h"
+
+namespace walktrack {
+
+// Cameras up to which left and right may be in doubt without keypoints.
+inline constexpr size_t kCamerasInDoubt = 2;
+
+// How large a camera's images are worked on.
+struct WorkingScale {
+  double person_px;  // height of the standing subject in the image as it is filmed
+  int shrink;        // factor by which images are shrunk
+};
+// Whether keypoints are used: as configured, or `auto`: where every camera has a file, or where
+// there are few cameras and a network.
+bool keypoints_wanted(const Scene& scene, const KeypointConfig& config);
+// The configuration's keypoints with that decided: on or off.
+KeypointConfig decided_keypoints(const Scene& scene, const Config& config);
+
+// What is asked for a frame of one camera.
+struct FrameToLookAt {
+  const cv::Mat& picture;  // as recorded
+  int source = 0;          // what its video calls it
+  int scene_frame = 0;     // from 0
+  Region region;           // of the shrunk image
+  bool around = false;     // whether the region is around the subject, and not everything
+};
+
+class Detections {
+ public:
+  // Nobody, ever.
+  Detections() = default;
+  // As the configuration says: reads the files, loads the network for cameras without. Errors of
+  // keypoint_file.h and pose_net.h; UsageError where the network is wanted and not there.
+  Detections(const Scene& scene, const KeypointConfig& config,
+             std::span<const WorkingScale> scales);
+
+  bool on() const { return !cameras_.empty(); }
+  bool uses_network() const { return network_; }
+  // What is odd about the files, one sentence each, beginning with the camera's name.
+  std::vector<std::string> notes(const std::vector<int>& video_frames) const;
+
+  // By camera; changes what is remembered of that camera.
+  DetectedPeople look(size_t camera, const FrameToLookAt& frame);
+
+ private:
+  struct Viewer {
+    std::string name;
+    std::optional<KeypointFrames> file;
+    std::optional<PoseNet> net;
+    std::optional<PersonFinder> finder;
+    int shrink = 1;
+  };
+  DetectedPeople seen_by_network(Viewer& viewer, const FrameToLookAt& frame) const;
+
+  std::vector<Viewer> cameras_;
+  int every_ = 1;
+  double height_ = 0;  // of the subject, m
+  bool network_ = false;
+};
+
+}  // namespace walktrack

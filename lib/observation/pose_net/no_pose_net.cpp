@@ -1,0 +1,21 @@
+// In place of pose_net.cpp where OpenCV's dnn module was not there when this was built.
+#include "core/errors.h"
+#include "observation/pose_net/pose_net.h"
+
+namespace walktrack {
+
+struct PoseNet::Net {};
+
+bool has_pose_net() { return false; }
+
+PoseNet::PoseNet(std::string_view, const std::string& name) {
+  throw InputError(name + ": this program was built without OpenCV's dnn module, which runs it");
+}
+
+PoseNet::PoseNet(PoseNet&&) noexcept = default;
+PoseNet& PoseNet::operator=(PoseNet&&) noexcept = default;
+PoseNet::~PoseNet() = default;
+
+DetectedPerson PoseNet::detect(const cv::Mat&, const CutOut&) { return {}; }
+
+}  // namespace walktrack
