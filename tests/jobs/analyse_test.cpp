@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -43,8 +44,9 @@ class Analyse : public testing::Test {
 TEST_F(Analyse, WritesACompleteResult) {
   const AnalyseOutcome outcome = analyse(job(kDemo / "truth.csv"));
   EXPECT_GE(outcome.steps, 5u);
-  for (const char* name : {"gait.json", "gait.csv", "angles.csv", "angles.mot", "joints.trc",
-                           "kinetics.csv", "ground_reaction.mot", "joint_moments.sto"})
+  for (const char* name :
+       {"gait.json", "gait.csv", "angles.csv", "angles.mot", "joints.trc", "kinetics.csv",
+        "ground_reaction.mot", "joint_moments.sto", "tables.json"})
     EXPECT_TRUE(fs::exists(folder_ / name)) << name;
   EXPECT_TRUE(is_complete_result(folder_));
   const auto run = nlohmann::json::parse(read_text_file(folder_ / "run.json", size_t{1} << 20));
@@ -80,9 +82,8 @@ TEST_F(Analyse, ForcesOfATrackedFolderAreSmoothedAsTrackingDoes) {
     AnalyseJob one = job(motion);
     one.overwrite = true;
     analyse(one);
-    const std::string text = read_text_file(folder_ / "kinetics.csv", size_t{1} << 24);
-    const std::string words = "smoothed without lag below ";
-    return std::stod(text.substr(text.find(words) + words.size()));
+    const std::string text = read_text_file(folder_ / "tables.json", size_t{1} << 24);
+    return nlohmann::json::parse(text).at("kinetics.csv").at("smoothed_below_hz").get<double>();
   };
   const KineticsConfig config;
   EXPECT_EQ(smoothed_below(tracked), config.cutoff_hz);
@@ -155,6 +156,23 @@ TEST_F(Analyse, AnglesGoAsOpenSimsInverseKinematicsDo) {
     // A few degrees of movement from joint centres that are good to a centimetre: the sign is told.
     for (const char* name : {"pelvis_list", "hip_adduction_r", "hip_adduction_l"})
       EXPECT_GT(agreement(ours.at(name), theirs.at(name)).correlation, 0.7) << trial << " " << name;
+  }
+}
+
+// The pelvis's origin is as high above the hips as in the model that OpenSim had scaled.
+TEST_F(Analyse, ThePelvisIsWhereOpenSimsInverseKinematicsHasIt) {
+  const auto mean = [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+  };
+  for (const std::string trial : {"opencapS4_walking1", "opencapS4_walkingTS1"}) {
+    const fs::path mocap = kData / "mocap" / (trial + ".csv"),
+                   ik = kData / "grf" / (trial + "_ik.mot");
+    if (!fs::exists(mocap) || !fs::exists(ik)) GTEST_SKIP() << ik << " is absent";
+    AnalyseJob each = job(mocap);
+    each.overwrite = true;
+    analyse(each);
+    const double ours = mean(read_storage(folder_ / "angles.mot").at("pelvis_ty"));
+    EXPECT_NEAR(ours, mean(read_storage(ik).at("pelvis_ty")), 0.01) << trial;
   }
 }
 
