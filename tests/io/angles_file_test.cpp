@@ -16,7 +16,7 @@ TEST(AnglesFile, HasDegreesBandsAndEmptyCellsForTheUnknown) {
   (*known.p95)[kKneeAngleL] = rad_from_deg(33);
   const std::string text = joint_angles_csv({{0.25, {}, {}, {}}, known});
   EXPECT_TRUE(text.starts_with("t,pelvis_tilt_deg,"));
-  EXPECT_EQ(joint_angles_notes(4).second.at("rate_hz"), 4);
+  EXPECT_EQ(nlohmann::json::parse(joint_angles_notes(4).json).at("rate_hz"), 4);
   const CsvTable table = csv_from_text(text, "angles.csv");
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_FALSE(table.optional_number(table.rows[0], table.column("knee_angle_l_deg")));

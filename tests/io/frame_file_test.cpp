@@ -120,5 +120,16 @@ TEST_F(DamagedFrames, TakeNoMemoryForWhatTheyAnnounce) {
   EXPECT_THROW(FrameFile(path_, 1), InputError);
 }
 
+// Many of them must not use up the files that a process may open.
+TEST_F(DamagedFrames, AreClosedAgain) {
+  const auto open_files = [] {
+    return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+  };
+  folder_.write("frames.bin", "");
+  const auto before = open_files();
+  for (int i = 0; i < 5; ++i) EXPECT_THROW(FrameFile(path_, 1), InputError);
+  EXPECT_EQ(open_files(), before);
+}
+
 }  // namespace
 }  // namespace walktrack

@@ -107,6 +107,34 @@ TEST(MissingBefore, IsWhatTheNamesSay) {
   EXPECT_EQ(of({"one.png"}), Missing{0});
 }
 
+// A picture with a colour profile that is none; libpng says so for every frame.
+TEST(ImageFiles, DecodersDoNotWriteToTheTerminal) {
+  const TemporaryFolder folder;
+  write_sample_images(folder / "frames", {3});
+  std::string png = read_file(folder / "frames/frame3.png");
+  constexpr size_t kAfterHeader = 8 + 25;
+  const std::string profile("\0\0\0\5iCCPbad\0\0\xe7\0\x56\xfb", 17);  // with its checksum
+  png.insert(kAfterHeader, profile);
+  const std::string file = folder.write("odd.png", png);
+  cv::Mat image;
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(read_image_file(file, image), "");
+  std::fputs("ours\n", stderr);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "ours\n");
+  EXPECT_EQ(shown_number(image), 3);
+}
+
+// Its lower half would be grey.
+TEST(ImageFiles, AJpegThatBreaksOffIsNoImage) {
+  const TemporaryFolder folder;
+  cv::Mat image = sample_frame(9);
+  cv::imwrite(folder / "whole.jpg", image);
+  EXPECT_EQ(read_image_file(folder / "whole.jpg", image), "");
+  const std::string whole = read_file(folder / "whole.jpg");
+  const std::string half = folder.write("half.jpg", whole.substr(0, whole.size() - 20));
+  EXPECT_EQ(read_image_file(half, image), "a JPEG that breaks off before its end");
+}
+
 TEST(FrameSource, ReadsASingleImage) {
   const TemporaryFolder folder;
   write_sample_images(folder / "f", {5});

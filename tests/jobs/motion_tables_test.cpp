@@ -1,6 +1,7 @@
 #include "jobs/track/motion_tables.h"
 
 #include <filesystem>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "io/archive/files.h"
 #include "io/tables/csv.h"
 #include "io/tables/motion_file.h"
+#include "tests/io/opensim_reader.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -76,6 +78,65 @@ TEST_F(MotionTables, OfTheDemoSayWhatTheDemoIs) {
   EXPECT_LT(totals_.peak_load, 2);
   EXPECT_GT(totals_.cost_of_transport, 0.02);
   EXPECT_LT(totals_.cost_of_transport, 0.5);
+}
+
+// In OpenSim the model stands where the joints are and the forces act on its feet.
+TEST_F(MotionTables, OpenSimShowsFeetOnTheGroundAndForcesAtThem) {
+  AnalysedMotion demo;
+  demo.motion = read_motion(kDemo / "truth.csv");
+  const BodyLengths lengths = body_lengths(demo.subject);
+  demo.angles = angle_rows(demo.motion, lengths);
+  write(demo);
+  const auto text = [&](const char* name) { return read_text_file(folder_ / name, 1u << 24); };
+  const Markers markers = read_trc(text("joints.trc"));
+  const Storage angles = read_storage(text("angles.mot")),
+                forces = read_storage(text("ground_reaction.mot"));
+  read_storage(text("joint_moments.sto"));
+  ASSERT_EQ(angles.rows.size(), markers.rows.size());
+  std::map<double, std::map<std::string, Eigen::Vector3d>> model;
+  for (size_t i = 0; i < angles.rows.size(); ++i) {
+    const auto joints = opensim_joints(angles.row(i), lengths);
+    for (size_t k = 0; k < markers.names.size(); ++k)
+      if (const auto joint = joints.find(markers.names[k]); joint != joints.end())
+        EXPECT_LT((joint->second - markers.rows[i][k]).norm(), 0.01) << joint->first << " in " << i;
+    model[angles.rows[i][0]] = joints;
+  }
+  int loaded = 0;
+  for (size_t i = 0; i < forces.rows.size(); ++i) {
+    const auto row = forces.row(i);
+    for (const std::string side : {"l", "r"}) {
+      if (row.at("ground_force_" + side + "_vy") < 50) continue;
+      const auto centre = [&](const char* axis) {
+        return row.at("ground_force_" + side + "_p" + axis);
+      };
+      EXPECT_EQ(centre("y"), 0);
+      const auto& joints = model.at(row.at("time"));
+      const Eigen::Vector3d middle = 0.5 * (joints.at(side + "ankle") + joints.at(side + "toe"));
+      const Eigen::Vector2d away(centre("x") - middle.x(), centre("z") - middle.z());
+      EXPECT_LT(away.norm(), 0.6 * lengths.foot + 0.05)
+          << "the sole, and five centimetres beside it";
+      ++loaded;
+    }
+  }
+  EXPECT_GT(loaded, 20);
+}
+
+// Spreadsheets and pandas take the first line for the header.
+TEST_F(MotionTables, BeginWithTheirHeaderAndAreExplainedBesideThem) {
+  AnalysedMotion demo;
+  demo.motion = read_motion(kDemo / "truth.csv");
+  demo.angles = angle_rows(demo.motion, body_lengths(demo.subject));
+  demo.rate = 30;
+  write(demo);
+  const auto notes = nlohmann::json::parse(read_text_file(folder_ / "tables.json", 1u << 20));
+  for (const char* name : {"angles.csv", "gait.csv", "kinetics.csv"}) {
+    const CsvTable table = read_csv(folder_ / name);
+    EXPECT_EQ(table.header_line, 1) << name;
+    EXPECT_TRUE(notes.at(name).contains("units")) << name;
+  }
+  EXPECT_EQ(notes["angles.csv"]["rate_hz"], 30);
+  EXPECT_EQ(notes["kinetics.csv"]["subject"]["mass_kg"], demo.subject.mass);
+  EXPECT_GT(notes["kinetics.csv"]["totals"]["positive_work_j"].get<double>(), 10);
 }
 
 // A loaded foot's vertical force gets a band beyond its members', other forces do not.

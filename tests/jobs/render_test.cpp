@@ -109,9 +109,9 @@ TEST_F(Render, SameSeedSameBytesForAnyThreadCount) {
   for (const int threads : {1, 2, 8}) {
     job_.threads = threads;
     render_scene(job_, {});
-    for (const char* name :
-         {"side.yaml", "truth.csv", "angles.csv", "events.csv", "labels/side/000003.png",
-          "flow/side/000003.flo", "depth/side/000003.pfm", "scene.yaml"}) {
+    for (const char* name : {"side.yaml", "truth.csv", "angles.csv", "tables.json", "events.csv",
+                             "labels/side/000003.png", "flow/side/000003.flo",
+                             "depth/side/000003.pfm", "scene.yaml"}) {
       const std::string bytes = content(job_.output / name);
       if (threads == 1) first[name] = bytes;
       EXPECT_TRUE(bytes == first[name]) << name << " with " << threads << " threads";

@@ -37,9 +37,14 @@ uint32_t length_from(const std::string& bytes) {
 
 }  // namespace
 
-FrameFile::FrameFile(const std::filesystem::path& path, size_t kept)
-    : path_(path), fd_(::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666)) {
+FrameFile::FrameFile(Opened file) : path_(std::move(file.path)), fd_(file.fd) {
   if (fd_ < 0) fail(path_, "cannot be opened");
+}
+
+// Built by the other one, it is closed again where one of its records is damaged.
+FrameFile::FrameFile(const std::filesystem::path& path, size_t kept)
+    : FrameFile(
+          Opened{path, ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666)}) {
   for (size_t i = 0; i < kept; ++i) {
     const uint64_t from = end_of(i);
     ends_.push_back(from + kLengthBytes + length_from(read(from, kLengthBytes)));

@@ -51,6 +51,11 @@ class FrameFile {
   Iterator end() const { return {*this, size()}; }
 
  private:
+  struct Opened {
+    std::filesystem::path path;
+    int fd;
+  };
+  explicit FrameFile(Opened file);
   uint64_t end_of(size_t records) const { return records > 0 ? ends_[records - 1] : 0; }
   std::string read(uint64_t from, size_t size) const;
 

@@ -79,9 +79,9 @@ std::string_view trouble_of(const ObserverState& state) {
     return "colours of another number of bins";
   if (!state.scene.empty() && state.scene.size() != size_t{kColourBins})
     return "colours of another number of bins";
-  const size_t pixels =
-      static_cast<size_t>(state.grey_width) * static_cast<size_t>(state.grey_height);
-  if (!state.grey_before.empty() && state.grey_before.size() != pixels)
+  const GreyImage& grey = state.grey_before;
+  const size_t pixels = static_cast<size_t>(grey.width) * static_cast<size_t>(grey.height);
+  if (!grey.pixels.empty() && grey.pixels.size() != pixels)
     return "an image of another size";
   return "";
 }

@@ -19,16 +19,17 @@ std::vector<AngleRow> angle_rows(const Motion& motion, const BodyLengths& length
 }
 
 TableNotes joint_angles_notes(double rate) {
-  return {"angles.csv",
-          {{"rate_hz", json_number(rate)},
-           {"units", "t in s from the scene's first frame, angles in degrees"},
-           {"bands", "_p05, _p95: 5-95 % band of the tracker; empty where nothing is known"},
-           {"zero", "upright, feet flat and ahead"},
-           {"positive",
-            "hips flexed, adducted, toes inwards; knees flexed; ankles dorsiflexed; pelvis and "
-            "trunk tilted backwards, right side down, turned left (pelvis_rotation: from the "
-            "world's x axis); lumbar: trunk against pelvis, backwards, to the right, to the left"},
-           {"names", "as in OpenSim's Rajagopal model and angles.mot"}}};
+  const nlohmann::ordered_json notes = {
+      {"rate_hz", json_number(rate)},
+      {"units", "t in s from the scene's first frame, angles in degrees"},
+      {"bands", "_p05, _p95: 5-95 % band of the tracker; empty where nothing is known"},
+      {"zero", "upright, feet flat and ahead"},
+      {"positive",
+       "hips flexed, adducted, toes inwards; knees flexed; ankles dorsiflexed; pelvis and "
+       "trunk tilted backwards, right side down, turned left (pelvis_rotation: from the "
+       "world's x axis); lumbar: trunk against pelvis, backwards, to the right, to the left"},
+      {"names", "as in OpenSim's Rajagopal model and angles.mot"}};
+  return {"angles.csv", notes.dump()};
 }
 
 std::string joint_angles_csv(const std::vector<AngleRow>& rows) {

@@ -100,12 +100,12 @@ std::string gait_json(const GaitTable& table) {
 }
 
 TableNotes gait_notes() {
-  return {"gait.csv",
-          {{"rows", "one for each contact of a foot with the ground"},
-           {"units",
-            "times in s from the scene's first frame, lengths in m, shares in % of the stride"},
-           {"bands", "_p05, _p95: 5-95 % band of the tracker; empty where nothing is known"},
-           {"definitions", "gait.json"}}};
+  const nlohmann::ordered_json notes = {
+      {"rows", "one for each contact of a foot with the ground"},
+      {"units", "times in s from the scene's first frame, lengths in m, shares in % of the stride"},
+      {"bands", "_p05, _p95: 5-95 % band of the tracker; empty where nothing is known"},
+      {"definitions", "gait.json"}};
+  return {"gait.csv", notes.dump()};
 }
 
 std::string gait_csv(const GaitTable& table) {

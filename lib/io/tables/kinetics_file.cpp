@@ -145,36 +145,37 @@ std::string simulated_kinetics_csv(const Kinetics& kinetics) {
 TableNotes kinetics_notes(const Kinetics& kinetics, const Subject& subject,
                           const KineticsConfig& config) {
   const double edge = config.cutoff_hz > 0 ? 0.5 / config.cutoff_hz : 0;
-  return {
-      "kinetics.csv",
-      {{"rate_hz", json_number(rate_of(kinetics))},
-       {"what", "inverse dynamics of the motion"},
-       {"units", "SI units as named; vectors in the world axes of the calibration"},
-       {"bands", "_p05, _p95: 5-95 % band of the tracker; empty where nothing is known"},
-       {"subject", subject_notes(subject)},
-       {"mass", "forces and moments are as right as the subject's mass"},
-       {"smoothed_below_hz", json_number(config.cutoff_hz)},
-       {"smoothing",
-        fmt::format("joint centres, without lag; within {:.2f} s of the ends of a tracked span "
-                    "values lean on its extrapolation",
-                    edge)},
-       {"feet", "in double support the feet's shares are modelled"},
-       {"moments",
-        "of the muscles, positive as the angle's name says (pushing off: ankle_dorsiflexion_nm < "
-        "0)"},
-       {"totals", totals_notes(kinetics.totals)},
-       {"totals_of", "positive and negative work: of hips, knees and ankles"}}};
+  const nlohmann::ordered_json notes = {
+      {"rate_hz", json_number(rate_of(kinetics))},
+      {"what", "inverse dynamics of the motion"},
+      {"units", "SI units as named; vectors in the world axes of the calibration"},
+      {"bands", "_p05, _p95: 5-95 % band of the tracker; empty where nothing is known"},
+      {"subject", subject_notes(subject)},
+      {"mass", "forces and moments are as right as the subject's mass"},
+      {"smoothed_below_hz", json_number(config.cutoff_hz)},
+      {"smoothing",
+       fmt::format("joint centres, without lag; within {:.2f} s of the ends of a tracked span "
+                   "values lean on its extrapolation",
+                   edge)},
+      {"feet", "in double support the feet's shares are modelled"},
+      {"moments",
+       "of the muscles, positive as the angle's name says (pushing off: ankle_dorsiflexion_nm < "
+       "0)"},
+      {"totals", totals_notes(kinetics.totals)},
+      {"totals_of", "positive and negative work: of hips, knees and ankles"}};
+  return {"kinetics.csv", notes.dump()};
 }
 
 TableNotes simulated_kinetics_notes(const Kinetics& kinetics, const Subject& subject) {
-  return {"kinetics.csv",
-          {{"rate_hz", json_number(rate_of(kinetics))},
-           {"what", "truth of a simulated walk"},
-           {"units", "SI units as named; vectors in the world axes"},
-           {"forces",
-            "means over the time of a row, impulses of strike and toe-off included; moments of "
-            "joints are not stated"},
-           {"subject", subject_notes(subject)}}};
+  const nlohmann::ordered_json notes = {
+      {"rate_hz", json_number(rate_of(kinetics))},
+      {"what", "truth of a simulated walk"},
+      {"units", "SI units as named; vectors in the world axes"},
+      {"forces",
+       "means over the time of a row, impulses of strike and toe-off included; moments of "
+       "joints are not stated"},
+      {"subject", subject_notes(subject)}};
+  return {"kinetics.csv", notes.dump()};
 }
 
 GroundForces read_ground_forces(const std::filesystem::path& path) {

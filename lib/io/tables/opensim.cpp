@@ -83,12 +83,12 @@ void append_vector(std::string& text, const Eigen::Vector3d& world) {
   for (const double value : opensim_from_world(world)) append_number(text, '\t', value);
 }
 
-std::string angle_row(double time, const Pose& pose, double hip_width) {
+std::string angle_row(double time, const Pose& pose, const BodyLengths& lengths) {
   std::string text = csv_number(time);
   const JointAngles angles = joint_angles(pose);
   for (size_t k = 0; k <= kLumbarRotation; ++k) {
     append_number(text, '\t', deg_from_rad(angles[k]));
-    if (k == kPelvisRotation) append_vector(text, opensim_pelvis(pose, hip_width));
+    if (k == kPelvisRotation) append_vector(text, opensim_pelvis(pose, lengths));
   }
   return text + "\n";
 }
@@ -119,14 +119,14 @@ std::string trc_from_motion(const Motion& motion, double rate, const std::string
   return text;
 }
 
-Eigen::Vector3d opensim_pelvis(const Pose& pose, double hip_width) {
-  constexpr double kForward = 0.056276, kUp = 0.078490, kHipWidth = 0.154520;  // m, see the header
-  const double scale = hip_width / kHipWidth;
-  return pose.root + world_from_pelvis(pose) * Eigen::Vector3d(scale * kForward, 0, scale * kUp);
+Eigen::Vector3d opensim_pelvis(const Pose& pose, const BodyLengths& lengths) {
+  constexpr double kForward = 0.056276, kUp = 0.078490, kLeg = 0.81;  // m, see the header
+  const double scale = (lengths.thigh + lengths.shank) / kLeg;
+  return pose.root + scale * (world_from_pelvis(pose) * Eigen::Vector3d(kForward, 0, kUp));
 }
 
 std::string mot_from_poses(std::span<const double> times, std::span<const Pose> poses,
-                           double hip_width, const std::string& name) {
+                           const BodyLengths& lengths, const std::string& name) {
   std::string text = storage_header(
       name, times, kAngleColumnCount, true,
       "Units are S.I. units (second, meters), angles are in degrees.\n"
@@ -135,7 +135,7 @@ std::string mot_from_poses(std::span<const double> times, std::span<const Pose> 
       "Positive: pelvis_tilt backwards, pelvis_list right side down, pelvis_rotation to the left,\n"
       "hip flexion, adduction, toes inwards; knee flexion; ankle dorsiflexion.",
       kAngleColumns);
-  for (size_t i = 0; i < times.size(); ++i) text += angle_row(times[i], poses[i], hip_width);
+  for (size_t i = 0; i < times.size(); ++i) text += angle_row(times[i], poses[i], lengths);
   return text;
 }
 

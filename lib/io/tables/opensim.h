@@ -6,10 +6,11 @@
 // which have the names and signs of the Rajagopal and Lai full-body models.
 //
 // The origin of those models' pelvis is not the midpoint of the hip centres but that of the
-// anterior iliac spines: 56.3 mm ahead of it and 78.5 mm above it in the pelvis's axes, where the
-// hip centres are 154.5 mm apart (hip_r at -.056276, -.078490, .077260 in the pelvis; Rajagopal et
-// al., IEEE Trans. Biomed. Eng. 63, 2016). It is taken to grow with that distance, as in a model
-// whose pelvis is scaled to the subject's.
+// anterior iliac spines: 56.3 mm ahead of it and 78.5 mm above it in the pelvis's axes (hip_r at
+// -.056276,
+// -.078490, .077260 in the pelvis; Rajagopal et al., IEEE Trans. Biomed. Eng. 63, 2016) where legs
+// are .81 m long from hip to ankle, and taken to grow with these. OpenSim's own inverse kinematics
+// of two walks has it 77 and 81 mm above, this file 80 (tests/jobs/analyse_test.cpp).
 #pragma once
 
 #include <span>
@@ -20,6 +21,7 @@
 
 #include "body/motion.h"
 #include "body/pose.h"
+#include "body/subject.h"
 #include "kinetics/kinetics.h"
 
 namespace walktrack {
@@ -30,14 +32,13 @@ namespace walktrack {
 // tab, and refuses a file with a row that is too short.
 std::string trc_from_motion(const Motion& motion, double rate, const std::string& name);
 
-// Where the pelvis's origin is in OpenSim's models, world axes. `hip_width`: between the hip
-// centres, m.
-Eigen::Vector3d opensim_pelvis(const Pose& pose, double hip_width);
+// Where the pelvis's origin is in OpenSim's models, world axes.
+Eigen::Vector3d opensim_pelvis(const Pose& pose, const BodyLengths& lengths);
 
 // Angles in degrees; pelvis_tx, ty, tz in metres, of opensim_pelvis(). Rows without a pose are left
 // out.
 std::string mot_from_poses(std::span<const double> times, std::span<const Pose> poses,
-                           double hip_width, const std::string& name);
+                           const BodyLengths& lengths, const std::string& name);
 
 // Ground reactions as OpenSim's external loads take them, for the right (r) and the left (l) foot:
 //   ground_force_r_vx, vy, vz   N, of the ground on the foot

@@ -9,7 +9,8 @@ namespace walktrack {
 std::string tables_json(std::span<const TableNotes> tables) {
   nlohmann::ordered_json root;
   root["format"] = "walktrack tables 1";
-  for (const auto& [table, notes] : tables) root[table] = notes;
+  for (const TableNotes& notes : tables)
+    root[notes.table] = nlohmann::ordered_json::parse(notes.json);
   return root.dump(2) + "\n";
 }
 

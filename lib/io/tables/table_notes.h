@@ -6,14 +6,15 @@
 
 #include <span>
 #include <string>
-#include <utility>
 
 #include <nlohmann/json_fwd.hpp>
 
 namespace walktrack {
 
-// Of one table, e.g. "angles.csv".
-using TableNotes = std::pair<std::string, nlohmann::ordered_json>;
+struct TableNotes {
+  std::string table;  // "angles.csv"
+  std::string json;   // an object
+};
 
 std::string tables_json(std::span<const TableNotes> tables);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
@@ -9,6 +10,7 @@
 #include "io/archive/files.h"
 #include "io/scene/scene.h"
 #include "io/video/image_size.h"
+#include "io/video/quiet.h"
 #include "io/video/video.h"
 
 namespace walktrack {
@@ -113,6 +115,14 @@ std::vector<fs::path> images_of_pattern(const fs::path& path) {
   return files;
 }
 
+// A JPEG whose last scan has no end: the rest of the image would be grey.
+bool breaks_off(std::string_view content) {
+  constexpr std::string_view kStart = "\xff\xd8", kScan = "\xff\xda", kEnd = "\xff\xd9";
+  if (!content.starts_with(kStart)) return false;
+  const size_t end = content.rfind(kEnd), scan = content.rfind(kScan);
+  return end == std::string_view::npos || (scan != std::string_view::npos && end < scan);
+}
+
 }  // namespace
 
 std::vector<int> missing_before(const std::vector<fs::path>& images) {
@@ -154,9 +164,11 @@ std::string read_image_file(const fs::path& path, cv::Mat& image) {
     return fmt::format("{}x{} px, up to {} px are allowed", size->width, size->height,
                        kMostPixelsAlongASide);
   }
+  if (breaks_off(content)) return "a JPEG that breaks off before its end";
   const cv::Mat encoded(1, static_cast<int>(content.size()), CV_8U,
                         const_cast<unsigned char*>(bytes));  // only read
   try {
+    const QuietDecoders quiet;
     image = cv::imdecode(encoded, cv::IMREAD_COLOR);
   } catch (const cv::Exception&) {
     image.release();  // how some decoders say that the content is broken

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include <nlohmann/json.hpp>
-
 #include "io/tables/gait_file.h"
 #include "io/tables/kinetics_file.h"
 #include "io/tables/opensim.h"
@@ -43,7 +41,7 @@ void write_angles(const AnalysedMotion& analysed, const ResultFolder& folder) {
   }
   if (!times.empty())
     folder.write("angles.mot",
-                 mot_from_poses(times, poses, body_lengths(analysed.subject).hip_width, "angles"));
+                 mot_from_poses(times, poses, body_lengths(analysed.subject), "angles"));
 }
 
 }  // namespace
