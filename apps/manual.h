@@ -17,7 +17,7 @@ inline constexpr const char* kWordsRequest = "--help-words";
 // What the overview and the manual say about every command's end.
 inline constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 failed, 2 usage or configuration, 3 input unreadable,\n"
-    "            4 done but lost or below a quality gate, 130 interrupted\n";
+    "            4 done but a quality check failed, 130 interrupted\n";
 
 // The whole page in man(7), all commands' parts included.
 void print_manual(std::span<const Command> commands);

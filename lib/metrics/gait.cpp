@@ -226,8 +226,8 @@ void add_steps(const Motion& motion, Gait& gait) {
     const Vector2d way = direction_between(motion, 0.5 * (a.on + a.off), 0.5 * (b.on + b.off));
     if (!way.allFinite() || way.isZero()) continue;
     const Vector2d step = b.place - a.place;
-    gait.steps.push_back({i - 1, i, way.dot(step),
-                          std::abs(way.x() * step.y() - way.y() * step.x()), b.on - a.on});
+    gait.steps.push_back(
+        {i - 1, i, way.dot(step), std::abs(way.x() * step.y() - way.y() * step.x()), b.on - a.on});
     length += gait.steps.back().length;
     width += gait.steps.back().width;
     time += gait.steps.back().time;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "filter/particle_filter.h"
+#include "tracker/figure_fit.h"
 #include "tracker/modes.h"
 #include "tracker/motion/motion.h"
 #include "tracker/scene.h"
@@ -22,6 +23,8 @@ struct FrameRecord {
   std::vector<JointPositions> samples;  // a few particles, to show their spread
   int fallen = 0, diverged = 0;
   StrideModes modes;
+  FigureFit fit;      // of the pose before frames around it are heard and feet planted
+  double moving = 0;  // m^2 of a picture that are newly covered while nobody is tracked
 };
 
 struct WalkerFilterContext {

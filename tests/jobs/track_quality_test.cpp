@@ -10,6 +10,8 @@
 namespace walktrack {
 namespace {
 
+constexpr double kLeg = 0.9;  // m
+
 FrameRecord still() {
   FrameRecord record;
   record.tracked = true;
@@ -37,7 +39,7 @@ class QualityOf : public testing::Test {
 
 // Of a track whose feet were left where they were.
 Quality quality_of(const TrackedFrames& frames, const GateConfig& gates = {}) {
-  return walktrack::quality_of(frames, frames, gates);
+  return walktrack::quality_of(frames, frames, gates, kLeg);
 }
 
 const QualityMeasure& named(const Quality& quality, const std::string& name) {
@@ -66,7 +68,7 @@ TEST_F(QualityOf, FeetBelowTheGroundFailTheirGate) {
   gates.penetration = 0.015;
   const Quality quality = quality_of(frames, gates);
   EXPECT_DOUBLE_EQ(named(quality, "penetration_mm").value, 20);
-  EXPECT_THAT(first_failure(quality), testing::HasSubstr("planted: 20 mm (gate at most 15)"));
+  EXPECT_THAT(first_failure(quality), testing::HasSubstr("planted: 20 mm (allowed: at most 15)"));
   gates.penetration = 0.025;
   EXPECT_EQ(first_failure(quality_of(frames, gates)), "");
 }
@@ -79,7 +81,7 @@ TEST_F(QualityOf, GatesOnFeetAreForWhatWasTracked) {
   GateConfig gates;
   gates.least_steps = 0;
   gates.penetration = 0.015;
-  const Quality quality = walktrack::quality_of(planted, moving, gates);
+  const Quality quality = walktrack::quality_of(planted, moving, gates, kLeg);
   EXPECT_EQ(named(quality, "penetration_mm").value, 0);
   EXPECT_TRUE(named(quality, "penetration_mm").passed());
   EXPECT_FALSE(named(quality, "tracked_penetration_mm").passed());
@@ -88,7 +90,7 @@ TEST_F(QualityOf, GatesOnFeetAreForWhatWasTracked) {
 
 TEST_F(QualityOf, WhoStandsDoesNotWalk) {
   const Quality quality = quality_of(standing(12, {}));
-  EXPECT_THAT(first_failure(quality), testing::HasSubstr("(gate at least 1)"));
+  EXPECT_THAT(first_failure(quality), testing::HasSubstr("(allowed: at least 1)"));
 }
 
 }  // namespace

@@ -150,10 +150,16 @@ void fields(Archive& archive, T& value) {
   archive(phase, exchanged);
 }
 
+template <typename Archive, ArchivedAs<FigureFit> T>
+void fields(Archive& archive, T& value) {
+  auto& [overlap, better_beside] = value;
+  archive(overlap, better_beside);
+}
+
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
-  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes] = value;
-  archive(tracked, estimate, filter, support, samples, fallen, diverged, modes);
+  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes, fit, moving] = value;
+  archive(tracked, estimate, filter, support, samples, fallen, diverged, modes, fit, moving);
 }
 
 }  // namespace walktrack

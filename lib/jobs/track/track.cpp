@@ -53,6 +53,19 @@ std::vector<double> by_frame(const TrackedFrames& frames, double (*value)(const 
   return out;
 }
 
+std::string overlap_key(const SceneCamera& camera) { return "overlap_percent." + camera.name; }
+
+// How well the figure lies on the person in that camera, by frame; NaN where nothing tells.
+std::vector<double> overlap_percents(const TrackedFrames& frames, size_t camera) {
+  std::vector<double> out;
+  for (const FrameRecord& record : frames.records) {
+    const std::vector<double>& all = record.fit.overlap;
+    out.push_back(record.tracked && camera < all.size() ? 100 * all[camera]
+                                                        : std::numeric_limits<double>::quiet_NaN());
+  }
+  return out;
+}
+
 std::string_view status_word(TrackStatus status) {
   switch (status) {
     case TrackStatus::kTracked:
@@ -113,6 +126,9 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
     out.numbers.emplace_back("estimated_height_m", run.stature()->height);
     out.numbers.emplace_back("estimated_height_sd_m", run.stature()->sd);
   }
+  const std::vector<double> overlaps = mean_overlaps(frames);
+  for (size_t c = 0; c < overlaps.size(); ++c)
+    out.numbers.emplace_back(overlap_key(job.scene.cameras[c]), 100 * overlaps[c]);
   out.quality = quality;
   out.by_frame = {
       {"ess", by_frame(frames, [](const FrameRecord& r) { return r.filter.ess; })},
@@ -124,6 +140,8 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
       {"stride_phase", by_frame(frames, [](const FrameRecord& r) { return r.modes.phase; })},
       {"legs_exchanged", by_frame(frames, [](const FrameRecord& r) { return r.modes.exchanged; })},
       {"speed", by_frame(frames, [](const FrameRecord& r) { return r.estimate.speed; })}};
+  for (size_t c = 0; c < job.scene.cameras.size(); ++c)
+    out.by_frame.emplace_back(overlap_key(job.scene.cameras[c]), overlap_percents(frames, c));
   if (paced) out.by_frame.emplace_back("particles", run.particles_used());
   out.digest = tables.digest;
   out.command_line = job.command_line;
@@ -208,10 +226,11 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   const TrackedFrames& moving = light ? *light : run.frames();
   if (smoothing.plant) still.emplace(planted(moving, folder.file(std::string(kPlantedFile))));
   const TrackedFrames& frames = still ? *still : moving;
-  const Quality quality = quality_of(frames, moving, job.config.values.gates);
+  const Scene scene = with_stature(job.scene, run.stature());
+  const Quality quality =
+      quality_of(frames, moving, job.config.values.gates, leg_length(body_lengths(scene.subject)));
   outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
   outcome.tracked = count(frames).tracked;
-  const Scene scene = with_stature(job.scene, run.stature());
   if (run.stature()) control.say(size_note(*run.stature()));
   const AnalysedMotion analysed =
       analysed_motion(frames, scene, job.config.values.tracker.model_error);
