@@ -12,8 +12,8 @@ namespace walktrack {
 
 namespace {
 
-constexpr std::array kAside{-0.4, -0.2, -0.1, 0.1, 0.2, 0.4};  // m
-constexpr std::array kTurned{-30.0, -15.0, 15.0, 30.0};        // degrees
+constexpr std::array kAside{-0.4, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.4};  // m
+constexpr std::array kTurned{-30.0, -15.0, 15.0, 30.0};                     // degrees
 
 PosedParts parts_of(const Body& body, const Pose& pose) {
   return pose_parts(body, forward_kinematics(body, pose));

@@ -10,9 +10,9 @@ namespace walktrack {
 
 struct FigureFit {
   std::vector<double> overlap;  // by camera (Overlap::share); NaN where nothing is known
-  // By how much the images speak more for the best of the figures that stand a hand's breadth to
-  // half a metre beside this one, or turn away from it by some 15 or 30 degrees, than for this one:
-  // a share of what they say for this one. 0 if they speak for none of them, or for none at all.
+  // By how much the images speak more for the best of the figures that stand 5 to 40 cm beside this
+  // one, or turn away from it by 15 or 30 degrees, than for this one: a share of what they say for
+  // that. 0 if they speak for none of them more, or for none at all.
   double better_beside = 0;
 };
 

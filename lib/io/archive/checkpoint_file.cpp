@@ -12,7 +12,7 @@ namespace walktrack {
 
 namespace {
 
-constexpr std::string_view kFormat = "walktrack checkpoint 2\n";
+constexpr std::string_view kFormat = "walktrack checkpoint 3\n";
 constexpr size_t kDigestBytes = 64;
 
 template <typename Archive, ArchivedAs<Checkpoint> T>

@@ -2,7 +2,7 @@
 // there to the same bytes. It holds what the next frame depends on and how many frames came before
 // it; their records are in a FrameFile.
 //
-// "walktrack checkpoint 2", the SHA-256 of what follows, and the bytes of io/archive/archive.h:
+// "walktrack checkpoint 3", the SHA-256 of what follows, and the bytes of io/archive/archive.h:
 // what it was made of, then the state. The file is only fit for the program that wrote it, on a
 // machine of the same kind; results of machines whose vector instructions differ may differ in the
 // last digits.

@@ -172,6 +172,10 @@ void add_track(ParameterTable& table) {
   g.number("least_steps", &G::least_steps, 0, 1000, "foot changes that make a walk");
   g.number("overlap", &G::overlap, 0, 1,
            "of figure and foreground, mean over the frames of the worst camera");
+  g.number("better_beside", &G::better_beside, 0, 1,
+           "by which images speak more for a figure beside the reported one, mean over frames");
+  g.number("legs_exchanged", &G::legs_exchanged, 0, 1,
+           "mean probability, by the tracker's own account, of left and right being swapped");
   g.number("leg_swaps", &G::leg_swaps, 0, 1e5, "legs swapped between frames, a minute");
   g.number("steps_off_way", &G::steps_off_way, 0, 1000,
            "by which the steps together miss the way of the pelvis, as a share of it");

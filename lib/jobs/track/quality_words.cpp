@@ -31,9 +31,15 @@ constexpr QualityWords kWords[] = {
      "Look at the overlay video of that camera. A figure beside the person means a wrong "
      "calibration, cameras that do not start at the same time, a wrong height, or a wrong start; "
      "say where the walk begins (initial), or run walktrack check."},
+    {"better_beside_percent", "Images speak for a figure beside this one", "%", 1,
+     "By how much the images speak more for the same figure 5 to 40 cm beside its place, or "
+     "turned by 15 or 30 degrees, than for the one that is reported; mean over the frames.",
+     "The figure is likely to be beside the person: look at the overlay video, say where the walk "
+     "begins (initial), or run walktrack check."},
     {"legs_exchanged_percent", "Left and right may be swapped, mean probability", "%", 0,
      "How probable it is, by the tracker's own account, that the left leg is taken for the right.",
-     ""},
+     "The images hardly tell left from right here: a second camera from another side does. Until "
+     "then do not compare left with right."},
     {"leg_swaps_per_min", "Left and right swapped between frames", "/min", 1,
      "How often the legs change places from one frame to the next.",
      "Left and right cannot be trusted in this result. A second camera from another side tells "
@@ -54,12 +60,16 @@ constexpr QualityWords kWords[] = {
     {"fastest_m_s", "Fastest half second", "m/s", 2,
      "Speed of the pelvis over the ground; nobody walks faster than 2.5 m/s.",
      "The figure leapt to another place: look at the speed over time. Is the frame rate right?"},
+    {"scale_sd_percent", "Distance and size, standard deviation", "%", 1,
+     "By how much the whole figure may be too near and too small, or too far and too large, with "
+     "its steps and speed: what the cameras leave open. No check sees an error of this kind.",
+     ""},
     {"foot_slide_mm", "Sliding of a standing foot, mean of stances", "mm", 0,
      "How far a foot travels while it stands. In the result standing feet have been planted.", ""},
     {"worst_foot_slide_mm", "Sliding of a standing foot, worst stance", "mm", 0,
      "The same of the stance in which the foot travels furthest.", ""},
     {"penetration_mm", "Deepest foot in the ground", "mm", 0,
-     "How deep an ankle or toe sinks below the floor of the calibration.", kLookAtFeet},
+     "How deep an ankle or toe sinks below the floor of the calibration.", ""},
     {"tracked_foot_slide_mm", "Sliding of a standing foot before feet are planted", "mm", 0,
      "How far a standing foot travels in what was tracked.", kLookAtFeet},
     {"tracked_penetration_mm", "Deepest foot in the ground before feet are planted", "mm", 0,

@@ -11,6 +11,7 @@
 #include "io/archive/sha256.h"
 #include "io/video/scene_video.h"
 #include "jobs/track/planted_track.h"
+#include "jobs/track/quality_words.h"
 #include "jobs/track/report.h"
 #include "jobs/track/track_origin.h"
 #include "jobs/track/track_quality.h"
@@ -227,13 +228,14 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   if (smoothing.plant) still.emplace(planted(moving, folder.file(std::string(kPlantedFile))));
   const TrackedFrames& frames = still ? *still : moving;
   const Scene scene = with_stature(job.scene, run.stature());
-  const Quality quality =
+  const AnalysedMotion analysed =
+      analysed_motion(frames, scene, job.config.values.tracker.model_error);
+  Quality quality =
       quality_of(frames, moving, job.config.values.gates, leg_length(body_lengths(scene.subject)));
+  quality.push_back(quality_measure("scale_sd_percent", 100 * analysed.figure_error.scale));
   outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
   outcome.tracked = count(frames).tracked;
   if (run.stature()) control.say(size_note(*run.stature()));
-  const AnalysedMotion analysed =
-      analysed_motion(frames, scene, job.config.values.tracker.model_error);
   const JointUncertainty uncertainty = uncertainty_of(frames);
   KineticsConfig forces = job.config.values.kinetics;
   forces.cutoff_hz = forces.tracked_cutoff_hz;

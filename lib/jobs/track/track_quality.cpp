@@ -33,6 +33,7 @@ double percent(double part, double whole) { return whole > 0 ? 100 * part / whol
 struct Counts {
   int tracked = 0, lost = 0, moving = 0;  // frames; lost: after the first tracked one
   double exchanged = 0;                   // sum of probabilities
+  double better_beside = 0;               // sum of shares
 };
 
 Counts count(const TrackedFrames& frames) {
@@ -41,6 +42,7 @@ Counts count(const TrackedFrames& frames) {
     if (record.tracked) {
       ++out.tracked;
       out.exchanged += record.modes.exchanged;
+      out.better_beside += record.fit.better_beside;
       continue;
     }
     if (out.tracked > 0) ++out.lost;
@@ -93,8 +95,10 @@ Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
               100 * gates.untracked_movement),
       at_least("foot_changes", foot_changes(frames), gates.least_steps)};
   add_overlap(frames, gates, out);
-  out.push_back(
-      quality_measure("legs_exchanged_percent", percent(counts.exchanged, counts.tracked)));
+  out.push_back(at_most("better_beside_percent", percent(counts.better_beside, counts.tracked),
+                        100 * gates.better_beside));
+  out.push_back(at_most("legs_exchanged_percent", percent(counts.exchanged, counts.tracked),
+                        100 * gates.legs_exchanged));
   const std::map<std::string, double> most{{"leg_swaps_per_min", gates.leg_swaps},
                                            {"steps_off_way_percent", 100 * gates.steps_off_way},
                                            {"longest_step_leg_lengths", gates.longest_step},
