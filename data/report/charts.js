@@ -50,7 +50,7 @@ const loads = {
 // What video tells too badly to be read as numbers is drawn grey. Measured motions are as good as their measurement.
 const rough = (name) => !analysed && (name.startsWith('ankle') || name in loads);
 const roughAngles = 'Grey: ankle angles, and hip rotation in angles.csv, are rough estimates. Against motion capture the ankle is 8 to 23° off (rms), ' +
-  'about as much as an ankle moves in walking; outlines hardly show how a hip is rotated. Do not use them as measurements.';
+  'a large part of the 30° that an ankle moves in walking; outlines hardly show how a hip is rotated. Do not use them as measurements.';
 const roughForces = 'Grey: forces, moments and work computed from video are rough estimates. Against force plates the vertical load is off by 14 % of body weight, ' +
   'and somebody assumed to stand still would be off by 15 %. Do not use them as measurements.';
 
