@@ -89,7 +89,7 @@ TEST_F(QualityOf, GatesOnFeetAreForWhatWasTracked) {
   EXPECT_EQ(named(quality, "penetration_mm").value, 0);
   EXPECT_TRUE(named(quality, "penetration_mm").passed());
   EXPECT_FALSE(named(quality, "tracked_penetration_mm").passed());
-  EXPECT_EQ(*named(quality, "tracked_foot_slide_mm").gate, 150);
+  EXPECT_EQ(*named(quality, "tracked_foot_slide_mm").gate, 80);
 }
 
 // Half a video before the start, in which somebody walks, is half a video lost.

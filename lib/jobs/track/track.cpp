@@ -67,6 +67,23 @@ std::vector<double> overlap_percents(const TrackedFrames& frames, size_t camera)
   return out;
 }
 
+// Of the reported pelvis over the ground, from the frame before to the one after, m/s; of an end of
+// what was tracked, from or to the frame itself. NaN where there is no figure, or one alone.
+std::vector<double> pelvis_speeds(const TrackedFrames& frames) {
+  const Motion motion = motion_of(frames);
+  const auto seen = [&](size_t i) { return known(motion.joints[i][Joint::kPelvis]); };
+  std::vector<double> out;
+  for (size_t i = 0; i < motion.time.size(); ++i) {
+    const size_t from = i > 0 && seen(i - 1) ? i - 1 : i;
+    const size_t to = i + 1 < motion.time.size() && seen(i + 1) ? i + 1 : i;
+    const Eigen::Vector3d way =
+        motion.joints[to][Joint::kPelvis] - motion.joints[from][Joint::kPelvis];
+    out.push_back(way.head<2>().norm() / (motion.time[to] - motion.time[from]));
+    if (!seen(i) || from == to) out.back() = std::numeric_limits<double>::quiet_NaN();
+  }
+  return out;
+}
+
 std::string_view status_word(TrackStatus status) {
   switch (status) {
     case TrackStatus::kTracked:
@@ -140,7 +157,7 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
        by_frame(frames, [](const FrameRecord& r) { return r.estimate.left_stance; })},
       {"stride_phase", by_frame(frames, [](const FrameRecord& r) { return r.modes.phase; })},
       {"legs_exchanged", by_frame(frames, [](const FrameRecord& r) { return r.modes.exchanged; })},
-      {"speed", by_frame(frames, [](const FrameRecord& r) { return r.estimate.speed; })}};
+      {"speed", pelvis_speeds(frames)}};
   for (size_t c = 0; c < job.scene.cameras.size(); ++c)
     out.by_frame.emplace_back(overlap_key(job.scene.cameras[c]), overlap_percents(frames, c));
   if (paced) out.by_frame.emplace_back("particles", run.particles_used());
