@@ -57,9 +57,11 @@ int run_track(const Arguments& arguments) {
   std::string fps, budget_ms;
   CommandLine line({.name = "track",
                     .operands = "SCENE.yaml",
-                    .about = "Tracks the walker of one scene: 3-D joints and angles with their "
-                             "uncertainty,\nan overlay video for each camera, and run.json, in the "
-                             "folder --output.",
+                    .about =
+                        "Tracks the walker of one scene: 3-D joints and angles with their "
+                        "uncertainty,\nan overlay video for each camera, and run.json, in the "
+                        "folder --output.\nEnds with 4 when a quality check failed: the report and "
+                        "run.json say which, what it means\nand what to do then.",
                     .example = "walktrack track data/demo/scene.yaml -o out/demo"});
   auto add = line.options().add_options();
   add("no-overlay", po::bool_switch(&no_overlay), "write no overlay videos");

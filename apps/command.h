@@ -22,7 +22,7 @@ enum ExitCode {
   kFailed = 1,
   kUsage = 2,          // usage or configuration
   kUnreadable = 3,     // an input cannot be read or does not fit
-  kDegraded = 4,       // done, but lost, fallen, diverged or below a quality gate
+  kDegraded = 4,       // done, but a quality check failed, or the walker fell or diverged
   kInterrupted = 130,  // stopped by a signal; what was done is kept
 };
 

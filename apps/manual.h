@@ -17,7 +17,8 @@ inline constexpr const char* kWordsRequest = "--help-words";
 // What the overview and the manual say about every command's end.
 inline constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 failed, 2 usage or configuration, 3 input unreadable,\n"
-    "            4 done but lost, fallen, diverged or below a quality gate, 130 interrupted\n";
+    "            4 done but a quality check failed, or the walker fell or diverged,\n"
+    "            130 interrupted\n";
 
 // The example of a command with the demo where it is for whoever reads it: in `demo`, which stands
 // for data/demo of the source tree.

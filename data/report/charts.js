@@ -4,10 +4,11 @@ const axis = (label, size) => ({label, labelSize: 16, labelGap: 2, gap: 4, label
 
 const faded = (hex, alpha) => hex + Math.round(alpha * 255).toString(16).padStart(2, '0');
 
-function chart(parent, caption, description, height, options, values, remark = '') {
+function chart(parent, caption, description, height, options, values, remark = '', rough = false) {
   const holder = element('div', {className: 'chart', role: 'img'});
   holder.setAttribute('aria-label', description);
-  parent.append(element('figure', {}, element('figcaption', {}, element('b', {}, caption), element('small', {}, remark)), holder));
+  parent.append(element('figure', {className: rough ? 'rough' : ''},
+    element('figcaption', {}, element('b', {}, caption), element('small', {}, remark)), holder));
   const plot = new uPlot({width: Math.max(200, holder.clientWidth), height, legend: {show: false},
     cursor: {show: false}, padding: [8, 18, 0, 0], ...options}, values, holder);
   const fit = () => plot.setSize({width: Math.max(200, holder.clientWidth), height});
@@ -46,6 +47,13 @@ const loads = {
   ankle_dorsiflexion_moment: ['Ankle moment', 'N m/kg  plantar − / dorsiflexion +'],
 };
 
+// What video tells too badly to be read as numbers is drawn grey. Measured motions are as good as their measurement.
+const rough = (name) => !analysed && (name.startsWith('ankle') || name in loads);
+const roughAngles = 'Grey: ankle angles, and hip rotation in angles.csv, are rough estimates. Against motion capture the ankle is 8 to 23° off (rms), ' +
+  'a large part of the 30° that an ankle moves in walking; outlines hardly show how a hip is rotated. Do not use them as measurements.';
+const roughForces = 'Grey: forces, moments and work computed from video are rough estimates. Against force plates the vertical load is off by 14 % of body weight, ' +
+  'and somebody assumed to stand still would be off by 15 %. Do not use them as measurements.';
+
 function cycleChart(parent, cycles, name, [caption, label, comparable]) {
   const series = [{}], values = [Array.from({length: 101}, (_, i) => i)], bands = [];
   const line = (points, stroke, width) => {
@@ -79,7 +87,8 @@ function cycleChart(parent, cycles, name, [caption, label, comparable]) {
   };
   chart(parent, caption, `${caption} over the gait cycle, left and right`, 230,
     {series, bands, scales: {x: {time: false, range: [0, 100]}}, hooks: {draw: [marks]},
-      axes: [axis('% of the gait cycle', 24), axis(label, 40)]}, values, comparable ? `grey: ${normalAges}` : '');
+      axes: [axis('% of the gait cycle', 24), axis(label, 40)]}, values,
+    [rough(name) ? 'rough estimate' : '', comparable ? `grey band: ${normalAges}` : ''].filter(Boolean).join('; '), rough(name));
 }
 
 function cycleKey(strides, extra) {
@@ -95,6 +104,7 @@ function startCycles() {
   }
   byId('cycle-charts').before(cycleKey(strides, [element('i', {className: 'normal'}), `${normalAges} (mean ± 1 SD)`]));
   for (const [name, what] of Object.entries(angles)) cycleChart(byId('cycle-charts'), data.angles, name, what);
+  if (!analysed) byId('cycle-charts').after(element('p', {className: 'caution'}, roughAngles));
   byId('motion-range').append(table(['mean curve, °', 'least', 'greatest', 'range', 'greatest at %', 'at strike', `mean of ${normalAges}`], rangeRows()));
   byId('normal-note').textContent = `Bold: mean of the strides; thin: each stride; ${analysed ? '' : 'coloured band: 5–95 % of the filter’s particles; '}dashes: toe-off. ` +
     `${normal.source} The definitions differ (see the limits below): compare shape and range before level.`;
@@ -108,7 +118,7 @@ function rangeRows() {
     for (const {side, count, mean} of data.angles.filter((c) => c.name === name)) {
       if (!count) continue;
       const low = Math.min(...mean), high = Math.max(...mean);
-      rows.push([`${caption}, ${side}`, fixed(low, 1), fixed(high, 1), fixed(high - low, 1), fixed(mean.indexOf(high), 0), fixed(mean[0], 1), typical]);
+      rows.push([element('span', {className: rough(name) ? 'rough' : ''}, `${caption}, ${side}`), fixed(low, 1), fixed(high, 1), fixed(high - low, 1), fixed(mean.indexOf(high), 0), fixed(mean[0], 1), typical]);
     }
   }
   return rows;
@@ -120,6 +130,8 @@ function startForces() {
   byId('forces').hidden = false;
   byId('force-charts').before(cycleKey(strides, []));
   for (const [name, what] of Object.entries(loads)) cycleChart(byId('force-charts'), data.loads, name, what);
+  if (!analysed) byId('force-charts').after(element('p', {className: 'caution'}, roughForces));
+  byId('force-totals').className = analysed ? '' : 'rough';
   const n = run.numbers;
   byId('force-totals').append(table(['whole walk', ''], [
     ['Way of the centre of mass, m', fixed(n.distance_m, 2)],
@@ -156,6 +168,18 @@ function timeChart(caption, description, values, label, more = {}) {
   plot.over.addEventListener('click', (event) => clock.show(frameAt(plot.posToVal(event.offsetX, 'x'))));
 }
 
+// By camera: the share of figure and foreground that lie on each other.
+function fitChart(series) {
+  const shades = ['#0b5a8a', '#b06000', '#3f7f3f', '#8a3f8a', '#7a6a2f', '#5b6673'];
+  const lines = Object.entries(series).filter(([name]) => name.startsWith('overlap_percent.'))
+    .map(([name, values], i) => ({camera: name.slice('overlap_percent.'.length), values, shade: shades[i % shades.length]}));
+  if (!lines.length) return;
+  timeChart('How well the figure lies on the person', 'Overlap of figure and foreground over time, by camera',
+    lines.map(({values, shade}) => [values, shade]), '%', {scales: {y: {range: [0, 100]}}});
+  const caption = byId('time-charts').lastChild.querySelector('small');
+  for (const {camera, shade} of lines) caption.append(element('i', {className: 'swatch', style: `background: ${shade}`}), `${camera} `);
+}
+
 // Bars of the feet on the ground.
 function startTimes() {
   const series = run.by_frame;
@@ -171,6 +195,7 @@ function startTimes() {
   timeChart('Feet on the ground', 'When each foot stood, left above right', [[none, colours.trunk]], 'right  left',
     {scales: {y: {range: [0.1, 1.7]}}, draw: [contacts]});
   if (analysed) return;
+  fitChart(series);
   timeChart('Speed over the ground', 'Speed over time', [[series.speed, colours.trunk]], 'm/s');
   timeChart('Left foot carries the body: probability', 'Probability of left stance', [[series.left_stance, colours.left]], '', {scales: {y: {range: [-0.05, 1.05]}}});
   timeChart(`Effective number of particles (of ${run.config.filter.particles})`, 'Effective sample size over time',

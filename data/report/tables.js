@@ -10,8 +10,8 @@ function banded(band, digits, factor = 1) {
 
 function verdict() {
   const good = run.status === 'tracked' || analysed;
-  const words = {'tracked': 'Tracked; every quality gate passed', 'not found': 'Nobody was found walking',
-    'below gates': 'Tracked, but below a quality gate', 'interrupted': 'Interrupted; what was done is shown',
+  const words = {'tracked': 'Tracked; every quality check passed', 'not found': 'Nobody was found walking',
+    'below gates': 'Tracked, but a quality check failed: do not use these numbers before you have looked at the video', 'interrupted': 'Interrupted; what was done is shown',
     'cut short': 'Cut short by a broken video; what came before is shown',
     'analysed': 'Analysed: gait, angles and forces of a motion that was there already'}[run.status] ?? run.status;
   byId('title').textContent = data.title;
@@ -68,10 +68,12 @@ function gaitTables() {
 
 function quality() {
   const rows = run.quality.map((q) => {
-    const gate = q.gate === null ? '–' : `${q.at_most ? 'at most' : 'at least'} ${q.gate}${q.unit ? ' ' + q.unit : ''}`;
-    return [q.what, `${fixed(q.value, q.digits)}${q.unit ? ' ' + q.unit : ''}`, gate, q.gate === null ? '–' : q.passed ? 'passed' : 'failed'];
+    const gate = q.gate === null ? '–' : `${q.at_most ? 'at most' : 'at least'} ${+q.gate.toPrecision(6)}${q.unit ? ' ' + q.unit : ''}`;
+    const words = element('span', {}, q.what, element('small', {}, q.meaning));
+    if (!q.passed) words.append(element('small', {className: 'bad'}, q.advice));
+    return [words, `${fixed(q.value, q.digits)}${q.unit ? ' ' + q.unit : ''}`, gate, q.gate === null ? '–' : q.passed ? 'passed' : 'failed'];
   });
-  const made = table(['measure', 'value', 'gate', ''], rows);
+  const made = table(['check', 'value', 'allowed', ''], rows);
   for (const cell of made.querySelectorAll('td:last-child'))
     cell.className = {passed: 'good', failed: 'bad'}[cell.textContent] ?? '';
   byId('quality-table').append(made);

@@ -218,28 +218,25 @@ Vector2d direction_between(const Motion& motion, double from, double to) {
 
 void add_steps(const Motion& motion, Gait& gait) {
   double length = 0, width = 0, time = 0;
-  size_t timed = 0;
   for (size_t i = 1; i < gait.stances.size(); ++i) {
     const Stance& a = gait.stances[i - 1];
     const Stance& b = gait.stances[i];
+    if (!a.starts_in_motion || !b.starts_in_motion) continue;
     if (a.side == b.side || b.on > a.off + kPathWindow) continue;
     const Vector2d way = direction_between(motion, 0.5 * (a.on + a.off), 0.5 * (b.on + b.off));
     if (!way.allFinite() || way.isZero()) continue;
     const Vector2d step = b.place - a.place;
     gait.steps.push_back(
-        {i - 1, i, way.dot(step), std::abs(way.x() * step.y() - way.y() * step.x()), std::nullopt});
+        {i - 1, i, way.dot(step), std::abs(way.x() * step.y() - way.y() * step.x()), b.on - a.on});
     length += gait.steps.back().length;
     width += gait.steps.back().width;
-    if (!a.starts_in_motion || !b.starts_in_motion) continue;
-    gait.steps.back().time = b.on - a.on;
-    time += b.on - a.on;
-    ++timed;
+    time += gait.steps.back().time;
   }
-  if (!gait.steps.empty()) {
-    gait.mean_step_length = length / static_cast<double>(gait.steps.size());
-    gait.mean_step_width = width / static_cast<double>(gait.steps.size());
-  }
-  if (timed > 0) gait.mean_step_time = time / static_cast<double>(timed);
+  if (gait.steps.empty()) return;
+  const auto steps = static_cast<double>(gait.steps.size());
+  gait.mean_step_length = length / steps;
+  gait.mean_step_width = width / steps;
+  gait.mean_step_time = time / steps;
 }
 
 double mean_stance_share(const std::vector<Stance>& stances) {

@@ -38,11 +38,13 @@ struct Stance {
   Eigen::Vector2d place;  // where (ankle + toe) / 2 stands: mean over the middle of the stance
 };
 
-// From a stance to the next one of the other foot; indices of Gait::stances.
+// From a stance to the next one of the other foot; indices of Gait::stances. Only between strikes
+// that were both seen: where a foot stood whose stance the motion's beginning cuts is not known
+// well enough.
 struct Step {
   size_t from, to;
-  double length, width;        // m, along and across the direction of walking
-  std::optional<double> time;  // s, between the strikes where both are events
+  double length, width;  // m, along and across the direction of walking
+  double time;           // s, between the strikes
 };
 
 struct Gait {

@@ -81,7 +81,7 @@ Reading read(const Motion& motion) {
     Values& at = out.contacts[step.to].at;
     at[kStepLength] = step.length;
     at[kStepWidth] = step.width;
-    if (step.time) at[kStepTime] = *step.time;
+    at[kStepTime] = step.time;
   }
   return out;
 }

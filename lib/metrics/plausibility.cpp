@@ -82,6 +82,47 @@ double mean_jerk(const Motion& motion) {
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
+// Where the pelvis is over the ground, linearly between rows; NaN beside a row that is not known.
+Eigen::Vector2d pelvis_at(const Motion& motion, double time) {
+  const auto row = [&](size_t i) { return motion.joints[i][Joint::kPelvis].head<2>(); };
+  const auto after = std::lower_bound(motion.time.begin(), motion.time.end(), time);
+  if (after == motion.time.begin()) return row(0);
+  if (after == motion.time.end()) return row(motion.time.size() - 1);
+  const auto i = static_cast<size_t>(after - motion.time.begin());
+  const double share = (time - motion.time[i - 1]) / (motion.time[i] - motion.time[i - 1]);
+  return (1 - share) * row(i - 1) + share * row(i);
+}
+
+void add_steps(const Motion& motion, const Gait& gait, Plausibility& out) {
+  if (gait.steps.empty()) return;
+  double steps = 0, way = 0;
+  out.longest_step = out.shortest_step = gait.steps[0].length;
+  for (const Step& step : gait.steps) {
+    out.longest_step = std::max(out.longest_step, step.length);
+    out.shortest_step = std::min(out.shortest_step, step.length);
+    steps += step.length;
+    way += (pelvis_at(motion, gait.stances[step.to].on) -
+            pelvis_at(motion, gait.stances[step.from].on))
+               .norm();
+  }
+  out.steps_off_way = way > 0 ? std::abs(steps / way - 1) : 1;
+}
+
+double fastest_half_second(const Motion& motion) {
+  constexpr double kSpan = 0.5;  // s
+  double fastest = 0;
+  size_t from = 0;
+  for (size_t i = 0; i < motion.time.size(); ++i) {
+    if (!known(motion.joints[i][Joint::kPelvis])) from = i + 1;
+    while (from < i && motion.time[i] - motion.time[from + 1] >= kSpan - 1e-6) ++from;
+    if (from >= i || motion.time[i] - motion.time[from] < kSpan - 1e-6) continue;
+    const Eigen::Vector3d way =
+        motion.joints[i][Joint::kPelvis] - motion.joints[from][Joint::kPelvis];
+    fastest = std::max(fastest, way.head<2>().norm() / (motion.time[i] - motion.time[from]));
+  }
+  return fastest;
+}
+
 }  // namespace
 
 Plausibility plausibility(const Motion& motion, const Gait& gait) {
@@ -89,6 +130,8 @@ Plausibility plausibility(const Motion& motion, const Gait& gait) {
   add_slides(motion, gait, out);
   add_penetration(motion, out);
   out.jitter = mean_jerk(motion);
+  add_steps(motion, gait, out);
+  out.fastest = fastest_half_second(motion);
   return out;
 }
 

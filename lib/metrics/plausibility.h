@@ -1,4 +1,5 @@
-// What can be said of a motion without a truth: feet that slide, feet in the ground, trembling.
+// What can be said of a motion without a truth: feet that slide, feet in the ground, trembling,
+// steps that do not belong to the way that the body goes, speeds that nobody walks at.
 #pragma once
 
 #include "body/motion.h"
@@ -17,6 +18,13 @@ struct Plausibility {
   double penetrating_share = 0;
   // Mean magnitude of the third derivative of the seven scored joints, m/s^3.
   double jitter = 0;
+  // Along the way, m; 0 without steps.
+  double longest_step = 0, shortest_step = 0;
+  // |sum of the steps' lengths / way of the pelvis between the same strikes - 1|: 0 where the feet
+  // go as far as the body, and without steps.
+  double steps_off_way = 0;
+  // Of the pelvis over the ground in the fastest half second of known rows, m/s.
+  double fastest = 0;
 };
 
 Plausibility plausibility(const Motion& motion, const Gait& gait);

@@ -130,7 +130,7 @@ void Tracker::begin(const Sighting& sighting, std::optional<double> stride_phase
 
 void Tracker::compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
   const bool explained = contest_->step(context(contest_->frames() == 0), evidence, frame_);
-  if (config_.estimate == EstimateKind::kMap && window_.empty()) contested_.push_back(evidence);
+  if (window_.empty()) contested_.push_back(evidence);
   ++frame_;
   if (!explained) {
     contested_.clear();
@@ -184,10 +184,12 @@ FrameRecord Tracker::follow(const SceneEvidence& evidence) {
 }
 
 // While a window of frames is tried, what is tried is what the particles say: the window is refined
-// when it has been decided who walks there, and which leg is which.
+// when it has been decided who walks there, and which leg is which. What comes of it is then judged
+// by its frame's evidence, which is gone when frames are smoothed.
 void Tracker::refine(const SceneEvidence& evidence, FrameRecord& record) const {
-  if (config_.estimate == EstimateKind::kMap && window_.empty())
-    walktrack::refine(scene_, evidence, threads_, record);
+  if (!window_.empty() || !record.tracked) return;
+  if (config_.estimate == EstimateKind::kMap) walktrack::refine(scene_, evidence, threads_, record);
+  record.fit = figure_fit(scene_, evidence, record.estimate.pose);
 }
 
 void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {

@@ -233,7 +233,7 @@ bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
     candidates_.clear();
     for (size_t i = 0; i < trial.records.size(); ++i) refine(frames[i], trial.records[i]);
     // A contest that goes on has all of the window's frames before it.
-    if (contest_ && config_.estimate == EstimateKind::kMap) contested_ = std::move(frames);
+    if (contest_) contested_ = std::move(frames);
     std::move(trial.records.begin(), trial.records.end(), std::back_inserter(out));
     return true;
   }

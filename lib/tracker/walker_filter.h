@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "filter/particle_filter.h"
+#include "tracker/figure_fit.h"
 #include "tracker/modes.h"
 #include "tracker/motion/motion.h"
 #include "tracker/scene.h"
@@ -25,6 +26,8 @@ struct FrameRecord {
   // By camera: what each term says of the best particle, nats; NaN = nothing. Only of tracked
   // frames after the start.
   std::vector<TermValues> evidence;
+  FigureFit fit;      // of the pose before frames around it are heard and feet planted
+  double moving = 0;  // m^2 of a picture that are newly covered while nobody is tracked
 };
 
 struct WalkerFilterContext {

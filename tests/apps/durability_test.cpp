@@ -20,6 +20,8 @@ namespace walktrack {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kAnyQuality = WALKTRACK_SOURCE_DIR "/tests/any_quality.yaml";
 using Clock = std::chrono::steady_clock;
 using testing::HasSubstr;
 
@@ -66,7 +68,7 @@ class Durability : public testing::Test {
     return {"batch", in().string(), "-o", folder_ / out, "--jobs", "2", "--threads", "1", "--set",
             "filter.particles=20", "--set", "start.particles=10",
             // Half a second of walking need not hold a step.
-            "--set", "gates.least_steps=0",
+            "-c", kAnyQuality,
             // Whoever is killed while tracking, which begins soon, leaves a checkpoint.
             "--set", "checkpoint.seconds=0", "--set", "start.seconds=0.1"};
   }
@@ -175,10 +177,9 @@ TEST_F(Durability, WithoutSpaceNothingHalfWrittenIsTakenForComplete) {
   add_sequences(1);
   const std::string shell =
       "ulimit -f $1; trap '' XFSZ; shift; exec \"$@\"";  // blocks of 512 bytes
-  std::vector<std::string> track{"track", (in() / "s0/scene.yaml").string(),
-                                 "--set", "filter.particles=20",
-                                 "--set", "gates.least_steps=0",
-                                 "-o"};
+  std::vector<std::string> track{
+      "track", (in() / "s0/scene.yaml").string(), "--set", "filter.particles=20", "-c", kAnyQuality,
+      "-o"};
   track.push_back(folder_ / "enough/s0");
   ASSERT_EQ(run_walktrack(track).exit_code, 0);
   const auto sound = results("enough");

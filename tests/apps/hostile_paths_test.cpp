@@ -35,8 +35,8 @@ class HostilePaths : public testing::Test {
   }
   ProgramResult batch(const std::string& in, const std::string& out) const {
     return run_walktrack({"batch", in, "-o", out, "--threads", "1", "--set", "filter.particles=5",
-                          "--set", "start.particles=5", "--set", "gates.least_steps=0", "--set",
-                          "gates.leg_swaps=1000"});
+                          "--set", "start.particles=5", "-c",
+                          WALKTRACK_SOURCE_DIR "/tests/any_quality.yaml"});
   }
   // Every file below the folder, the output folder left out, with what it holds.
   std::map<std::string, std::string> outside() const {

@@ -98,7 +98,7 @@ END
 [ "$scheduler" = parallel ] && { command -v parallel >/dev/null || skip "parallel is not installed"; }
 [ "$scheduler" = slurm ] && start_slurm
 make_sequences
-options=(--threads 1 --set filter.particles=20 --set gates.least_steps=0)
+options=(--threads 1 --set filter.particles=20 -c "$source_dir/tests/any_quality.yaml")
 "$walktrack" batch "$work/in" -o "$work/local" --quiet "${options[@]}" || [ $? -eq 1 ]
 export WALKTRACK=$walktrack
 if [ "$scheduler" = slurm ]; then

@@ -102,6 +102,39 @@ TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {
   EXPECT_GE(gait.at("contacts").size(), 2u);  // 1.3 s are two steps
   // Two views fix the place; 60 particles still leave the limbs a hand's breadth or two off.
   EXPECT_LT(joint_errors(truth, found).by_joint[size_t(Joint::kPelvis)].absolute.median, 0.15);
+  const nlohmann::json run = run_json("demo");
+  for (const nlohmann::json& speed : run.at("by_frame").at("speed")) {
+    if (!speed.is_null())
+      EXPECT_LT(speed, 2.5) << "nobody walks so fast, in the first frames either";
+  }
+}
+
+TEST_F(Track, SaysHowWellTheFigureLiesOnThePerson) {
+  const TrackOutcome outcome = track_scene(job(45, "fit"), {});
+  const nlohmann::json run = run_json("fit");
+  for (const std::string camera : {"side", "front"}) {
+    const nlohmann::json& overlaps = run.at("by_frame").at("overlap_percent." + camera);
+    ASSERT_EQ(overlaps.size(), 46u);
+    int frames = 0;
+    for (const nlohmann::json& overlap : overlaps) {
+      if (overlap.is_null()) continue;
+      ++frames;
+      EXPECT_GT(overlap, 30) << camera;
+      EXPECT_LE(overlap, 100) << camera;
+    }
+    EXPECT_EQ(frames, outcome.tracked);
+    EXPECT_GT(run.at("numbers").at("overlap_percent." + camera), 60);
+  }
+}
+
+// A camera that stands half a metre beside where its calibration says sees the person beside the
+// figure. Before there was a check on that, this was green.
+TEST_F(Track, AFigureBesideThePersonIsNotGreen) {
+  TrackJob wrong = job(60, "beside");
+  wrong.config.values.tracker.filter.particles = 150;
+  Camera& front = wrong.scene.cameras[1].camera;
+  front.translation += front.rotation * Eigen::Vector3d(0.5, 0, 0);
+  EXPECT_NE(track_scene(wrong, {}).status, TrackStatus::kTracked);
 }
 
 TEST_F(Track, FramesInTheLightOfOthersTrembleLessAndLeaveNoFileOfTheirOwn) {

@@ -134,7 +134,7 @@ TEST(GaitTable, BandsStayAmongWhatMembersShow) {
 }
 
 TEST(GaitTable, FewStepsHaveNoSymmetryAndNoSpread) {
-  const GaitTable table = gait_table(walk_motion({.duration = 1.1}), {}, {});
+  const GaitTable table = gait_table(walk_motion({.duration = 1.6}), {}, {});
   ASSERT_GE(table.steps, 1u);
   ASSERT_LE(table.steps, 2u);
   for (const Banded& each : table.symmetry) EXPECT_TRUE(std::isnan(each.value));

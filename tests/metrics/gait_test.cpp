@@ -46,6 +46,23 @@ TEST(Gait, PutsTheStrikesOfEachFootInTime) {
     EXPECT_NE(gait.stances[i].side, gait.stances[i - 1].side);
 }
 
+// A foot that the film's beginning finds on its way, or half off the ground, has no place yet.
+TEST(Gait, AStepNeedsBothStrikes) {
+  for (const double phase : {0.05, 0.2, 0.35, 0.45, 0.55, 0.8}) {
+    const TestWalk walk{.phase = phase};
+    const Motion motion = changed(walk_motion(walk), [](JointPositions& joints, size_t i) {
+      for (const Side side : {Side::kLeft, Side::kRight})  // still settling
+        for (const Joint joint : {ankle(side), toe(side)}) joints[joint].x() -= i < 12 ? 0.4 : 0;
+    });
+    const Gait gait = gait_from_motion(motion);
+    ASSERT_FALSE(gait.steps.empty());
+    for (const Step& step : gait.steps) {
+      EXPECT_TRUE(gait.stances[step.from].starts_in_motion);
+      EXPECT_TRUE(gait.stances[step.to].starts_in_motion);
+    }
+  }
+}
+
 TEST(Gait, ExchangedSidesExchangeTheEvents) {
   const Motion motion = walk_motion({});
   const Gait gait = gait_from_motion(motion);

@@ -44,5 +44,34 @@ TEST(Plausibility, JitterIsTheThirdDerivative) {
   EXPECT_NEAR(of(cubic).jitter, 12, 1e-6);  // 1e-15 of 1 m over (1/30 s)^3, sixteen times
 }
 
+TEST(Plausibility, StepsGoAsFarAsTheBody) {
+  const TestWalk walk;
+  const Plausibility p = of(walk_motion(walk));
+  EXPECT_NEAR(p.longest_step, walk.speed * walk.step_time, 1e-3);
+  EXPECT_NEAR(p.shortest_step, walk.speed * walk.step_time, 1e-3);
+  EXPECT_LT(p.steps_off_way, 0.01);
+  EXPECT_NEAR(p.fastest, walk.speed, 1e-6);
+}
+
+TEST(Plausibility, FindsABodyThatLeavesItsFeetBehind) {
+  const TestWalk walk;
+  const Motion hasty = changed(walk_motion(walk), [&](JointPositions& joints, size_t i) {
+    joints[Joint::kPelvis].x() += 0.2 * double(i) / walk.rate;
+  });
+  EXPECT_NEAR(of(hasty).steps_off_way, 1 - walk.speed / (walk.speed + 0.2), 0.02);
+}
+
+TEST(Plausibility, FindsTheFastestHalfSecondBetweenGaps) {
+  const Motion leaping = changed(walk_motion({}), [](JointPositions& joints, size_t i) {
+    for (Eigen::Vector3d& p : joints.at) p.x() += i < 60 ? 0 : 2;  // 2 m from one row to the next
+  });
+  EXPECT_NEAR(of(leaping).fastest, 1.2 + 2 / 0.5, 0.1);
+  const Motion apart = changed(leaping, [](JointPositions& joints, size_t i) {
+    if (i == 60) joints = unknown_joints();
+  });
+  EXPECT_NEAR(of(apart).fastest, 1.2, 1e-6) << "nobody knows what happened in a gap";
+  EXPECT_EQ(of({}).fastest, 0);
+}
+
 }  // namespace
 }  // namespace walktrack

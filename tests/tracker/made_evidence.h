@@ -4,7 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "body/kinematics.h"
 #include "observation/observer.h"
+#include "observation/silhouette.h"
 
 namespace walktrack {
 
@@ -28,6 +30,22 @@ inline CameraEvidence made_evidence(double nats, bool flow) {
     for (int x = 0; x < kEvidenceWidth; ++x)
       out.flow.pixels.push_back({stripe(x - 2), stripe(x), 0.05F});
   return out;
+}
+
+// Pixels inside the pose's silhouette speak for the body, the others against it.
+inline CameraEvidence evidence_of(const Camera& camera, const Body& body, const Pose& pose) {
+  CameraEvidence seen;
+  resize(seen.planes, {0, 0, kEvidenceWidth, kEvidenceHeight}, 1);
+  std::vector<std::vector<float>> rows(kEvidenceHeight, std::vector<float>(kEvidenceWidth, -1.0F));
+  const CapsuleList capsules =
+      project_parts(camera, pose_parts(body, forward_kinematics(body, pose)));
+  for (const VisibleRun& run : visible_runs(seen.planes.area, capsules))
+    for (int x = run.x0; x < run.x1; ++x)
+      rows[static_cast<size_t>(run.y)][static_cast<size_t>(x)] = 1;
+  for (int y = 0; y < kEvidenceHeight; ++y)
+    set_row(seen.planes, 0, y, rows[static_cast<size_t>(y)], 4);
+  seen.pixel_weight = 0.2;
+  return seen;
 }
 
 }  // namespace walktrack

@@ -35,23 +35,9 @@ Pose nearby(Pose pose) {
 
 class Refined : public testing::Test {
  protected:
-  // Pixels inside the pose's silhouette speak for the body, the others against it.
   void show(const Pose& pose, const Eigen::Vector3d& from) {
     scene.cameras.push_back(camera_at(from, {0, 0, 0.9}, 300, kEvidenceWidth, kEvidenceHeight));
-    CameraEvidence seen;
-    resize(seen.planes, {0, 0, kEvidenceWidth, kEvidenceHeight}, 1);
-    std::vector<std::vector<float>> rows(kEvidenceHeight,
-                                         std::vector<float>(kEvidenceWidth, -1.0F));
-    const Body& body = scene.model.body;
-    const CapsuleList capsules =
-        project_parts(scene.cameras.back(), pose_parts(body, forward_kinematics(body, pose)));
-    for (const VisibleRun& run : visible_runs(seen.planes.area, capsules))
-      for (int x = run.x0; x < run.x1; ++x)
-        rows[static_cast<size_t>(run.y)][static_cast<size_t>(x)] = 1;
-    for (int y = 0; y < kEvidenceHeight; ++y)
-      set_row(seen.planes, 0, y, rows[static_cast<size_t>(y)], 4);
-    seen.pixel_weight = 0.2;
-    evidence.push_back(std::move(seen));
+    evidence.push_back(evidence_of(scene.cameras.back(), scene.model.body, pose));
   }
 
   FrameRecord record_of(const Pose& pose) const {

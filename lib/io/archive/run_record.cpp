@@ -49,6 +49,8 @@ Json quality_list(const std::vector<QualityMeasure>& quality) {
   for (const QualityMeasure& m : quality) {
     list.push_back({{"name", m.name},
                     {"what", m.what},
+                    {"meaning", m.meaning},
+                    {"advice", m.advice},
                     {"value", m.value},
                     {"unit", m.unit},
                     {"digits", m.digits},

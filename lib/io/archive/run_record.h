@@ -18,8 +18,10 @@ namespace walktrack {
 
 // One measure of a result's quality, with the gate it has to pass, if any.
 struct QualityMeasure {
-  std::string name;  // e.g. "foot_slide_mm"
-  std::string what;  // the same in words
+  std::string name;     // e.g. "foot_slide_mm"
+  std::string what;     // the same in words
+  std::string meaning;  // what it says, a sentence
+  std::string advice;   // what to do when it fails its gate
   double value = 0;
   std::string unit;  // "" = a number
   int digits = 0;    // after the point, where people read it

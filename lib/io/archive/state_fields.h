@@ -187,11 +187,18 @@ void fields(Archive& archive, T& value) {
   archive(phase, exchanged);
 }
 
+template <typename Archive, ArchivedAs<FigureFit> T>
+void fields(Archive& archive, T& value) {
+  auto& [overlap, better_beside] = value;
+  archive(any_number(overlap), better_beside);
+}
+
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
-  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes, evidence] = value;
+  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes, evidence, fit,
+         moving] = value;
   archive(tracked, estimate, filter, any_number(support), samples, a_count(fallen),
-          a_count(diverged), modes, evidence);
+          a_count(diverged), modes, any_number(evidence), fit, moving);
 }
 
 }  // namespace walktrack

@@ -148,8 +148,22 @@ void add_track(ParameterTable& table) {
   using G = GateConfig;
   ParameterGroup<G> g(table, "gates", "when a result is not good enough", &Config::gates);
   g.number("lost_share", &G::lost_share, 0, 1, "of the frames after the walker was found");
+  g.number("untracked_movement", &G::untracked_movement, 0, 1,
+           "of the frames in which somebody moves, those without a figure");
   g.number("least_steps", &G::least_steps, 0, 1000, "foot changes that make a walk");
+  g.number("overlap", &G::overlap, 0, 1,
+           "of figure and foreground, mean over the frames of the worst camera");
+  g.number("better_beside", &G::better_beside, 0, 1,
+           "by which images speak more for a figure beside the reported one, mean over frames");
+  g.number("legs_exchanged", &G::legs_exchanged, 0, 1,
+           "mean probability, by the tracker's own account, of left and right being swapped");
   g.number("leg_swaps", &G::leg_swaps, 0, 1e5, "legs swapped between frames, a minute");
+  g.number("steps_off_way", &G::steps_off_way, 0, 1000,
+           "by which the steps together miss the way of the pelvis, as a share of it");
+  g.number("longest_step", &G::longest_step, 0, 1000, "leg lengths");
+  g.number("shortest_step", &G::shortest_step, -1000, 1000,
+           "along the way, m; below 0 a foot ends behind the other one");
+  g.number("fastest", &G::fastest, 0, 1000, "speed over half a second, m/s");
   g.number("foot_slide", &G::foot_slide, 0, 10,
            "of a standing foot, before it is planted, mean over stances, m");
   g.number("penetration", &G::penetration, 0, 10, "deepest foot in the ground, m");

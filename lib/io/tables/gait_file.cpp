@@ -69,16 +69,19 @@ Json contacts_of(const GaitTable& table) {
 }
 
 constexpr std::array kNotes{
-    "foot_strike: the ankle, once furthest ahead of the pelvis, has slowed to half of its speed; "
-    "toe_off: the toe is furthest behind the pelvis (after Zeni et al. 2008).",
+    "foot_strike: 4.5 % of a stride after the ankle was furthest ahead of the pelvis; toe_off: the "
+    "toe is furthest behind the pelvis (after Zeni et al. 2008).",
     "support_transfer: when the walker model's weight changed onto this foot. The model has no "
     "double support, so it comes between the strike and the other foot's toe-off.",
     "p05, p95: between these lie 90 % of the tracker's particles at the same contacts, and the "
     "value. They say how certain the tracker is, given its model. Empty: too few particles or "
     "steps "
     "know.",
-    "step: to the other foot's contact, along and across the direction of walking; stride: to the "
-    "next contact of the same foot. symmetry: 100 (left - right) / mean of both."};
+    "step: from the other foot's contact to this one, along and across the direction of walking, "
+    "where both heel strikes were seen; stride: to the next contact of the same foot. symmetry: "
+    "100 (left - right) / mean of both.",
+    "Whether these numbers can be trusted is said by the quality checks in run.json and in the "
+    "report."};
 
 }  // namespace
 

@@ -57,7 +57,8 @@ RunRecord record_of(const AnalyseJob& job, const fs::path& file, const AnalysedM
                     {"negative_work_j", totals.negative_work},
                     {"cost_of_transport", totals.cost_of_transport},
                     {"peak_foot_load_body_weights", totals.peak_load}};
-  record.quality = quality_of_motion(analysed.motion, analysed.rate);
+  record.quality =
+      quality_of_motion(analysed.motion, analysed.rate, leg_length(body_lengths(analysed.subject)));
   record.digest = record.scene_digest;
   record.command_line = job.command_line;
   return record;

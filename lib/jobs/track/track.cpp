@@ -12,6 +12,7 @@
 #include "io/archive/sha256.h"
 #include "io/video/scene_video.h"
 #include "jobs/track/planted_track.h"
+#include "jobs/track/quality_words.h"
 #include "jobs/track/report.h"
 #include "jobs/track/track_origin.h"
 #include "jobs/track/track_quality.h"
@@ -82,6 +83,36 @@ void add_evidence(const Scene& scene, const TrackedFrames& frames,
   }
 }
 
+std::string overlap_key(const SceneCamera& camera) { return "overlap_percent." + camera.name; }
+
+// How well the figure lies on the person in that camera, by frame; NaN where nothing tells.
+std::vector<double> overlap_percents(const TrackedFrames& frames, size_t camera) {
+  std::vector<double> out;
+  for (const FrameRecord& record : frames.records) {
+    const std::vector<double>& all = record.fit.overlap;
+    out.push_back(record.tracked && camera < all.size() ? 100 * all[camera]
+                                                        : std::numeric_limits<double>::quiet_NaN());
+  }
+  return out;
+}
+
+// Of the reported pelvis over the ground, from the frame before to the one after, m/s; of an end of
+// what was tracked, from or to the frame itself. NaN where there is no figure, or one alone.
+std::vector<double> pelvis_speeds(const TrackedFrames& frames) {
+  const Motion motion = motion_of(frames);
+  const auto seen = [&](size_t i) { return known(motion.joints[i][Joint::kPelvis]); };
+  std::vector<double> out;
+  for (size_t i = 0; i < motion.time.size(); ++i) {
+    const size_t from = i > 0 && seen(i - 1) ? i - 1 : i;
+    const size_t to = i + 1 < motion.time.size() && seen(i + 1) ? i + 1 : i;
+    const Eigen::Vector3d way =
+        motion.joints[to][Joint::kPelvis] - motion.joints[from][Joint::kPelvis];
+    out.push_back(way.head<2>().norm() / (motion.time[to] - motion.time[from]));
+    if (!seen(i) || from == to) out.back() = std::numeric_limits<double>::quiet_NaN();
+  }
+  return out;
+}
+
 std::string_view status_word(TrackStatus status) {
   switch (status) {
     case TrackStatus::kTracked:
@@ -143,6 +174,9 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
     out.numbers.emplace_back("estimated_height_m", run.stature()->height);
     out.numbers.emplace_back("estimated_height_sd_m", run.stature()->sd);
   }
+  const std::vector<double> overlaps = mean_overlaps(frames);
+  for (size_t c = 0; c < overlaps.size(); ++c)
+    out.numbers.emplace_back(overlap_key(job.scene.cameras[c]), 100 * overlaps[c]);
   out.quality = quality;
   out.by_frame = {
       {"ess", by_frame(frames, [](const FrameRecord& r) { return r.filter.ess; })},
@@ -153,8 +187,10 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
        by_frame(frames, [](const FrameRecord& r) { return r.estimate.left_stance; })},
       {"stride_phase", by_frame(frames, [](const FrameRecord& r) { return r.modes.phase; })},
       {"legs_exchanged", by_frame(frames, [](const FrameRecord& r) { return r.modes.exchanged; })},
-      {"speed", by_frame(frames, [](const FrameRecord& r) { return r.estimate.speed; })}};
+      {"speed", pelvis_speeds(frames)}};
   add_evidence(job.scene, frames, out.by_frame);
+  for (size_t c = 0; c < job.scene.cameras.size(); ++c)
+    out.by_frame.emplace_back(overlap_key(job.scene.cameras[c]), overlap_percents(frames, c));
   if (paced) out.by_frame.emplace_back("particles", run.particles_used());
   out.digest = tables.digest;
   out.command_line = job.command_line;
@@ -282,13 +318,15 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const TrackedFrames& moving = light ? *light : run.frames();
   if (smoothing.plant) still.emplace(planted(moving, folder.file(std::string(kPlantedFile))));
   const TrackedFrames& frames = still ? *still : moving;
-  const Quality quality = quality_of(frames, moving, job.config.values.gates);
-  outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
-  outcome.tracked = count(frames).tracked;
   const Scene scene = with_stature(job.scene, run.stature());
-  if (run.stature()) control.say(size_note(*run.stature()));
   const AnalysedMotion analysed =
       analysed_motion(frames, scene, job.config.values.tracker.model_error);
+  Quality quality =
+      quality_of(frames, moving, job.config.values.gates, leg_length(body_lengths(scene.subject)));
+  quality.push_back(quality_measure("scale_sd_percent", 100 * analysed.figure_error.scale));
+  outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
+  outcome.tracked = count(frames).tracked;
+  if (run.stature()) control.say(size_note(*run.stature()));
   const JointUncertainty uncertainty = uncertainty_of(frames);
   KineticsConfig forces = job.config.values.kinetics;
   forces.cutoff_hz = forces.tracked_cutoff_hz;

@@ -1,10 +1,12 @@
 #include "jobs/track/track_quality.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
 
+#include "jobs/track/quality_words.h"
 #include "metrics/gait.h"
 #include "metrics/leg_swaps.h"
 #include "metrics/plausibility.h"
@@ -13,100 +15,125 @@ namespace walktrack {
 
 namespace {
 
-QualityMeasure measure(std::string name, std::string what, double value, std::string unit,
-                       int digits) {
-  return {std::move(name), std::move(what), value, std::move(unit), digits, std::nullopt, true};
-}
-
-QualityMeasure at_most(QualityMeasure m, double gate) {
+QualityMeasure at_most(std::string_view name, double value, double gate) {
+  QualityMeasure m = quality_measure(name, value);
   m.gate = gate;
   return m;
 }
 
-QualityMeasure at_least(QualityMeasure m, double gate) {
-  m.gate = gate;
+QualityMeasure at_least(std::string_view name, double value, double gate) {
+  QualityMeasure m = at_most(name, value, gate);
   m.at_most = false;
   return m;
 }
 
-// Per cent of the frames from the first tracked one on.
-double lost_percent(const TrackedFrames& frames) {
-  int tracked = 0, lost = 0;
+double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
+
+// What is counted over the frames of a track.
+struct Counts {
+  int tracked = 0, lost = 0, moving = 0;  // frames; lost: after the first tracked one
+  double exchanged = 0;                   // sum of probabilities
+  double better_beside = 0;               // sum of shares
+};
+
+Counts count(const TrackedFrames& frames) {
+  Counts out;
   for (const FrameRecord& record : frames.records) {
-    if (record.tracked) ++tracked;
-    if (!record.tracked && tracked > 0) ++lost;
+    if (record.tracked) {
+      ++out.tracked;
+      out.exchanged += record.modes.exchanged;
+      out.better_beside += record.fit.better_beside;
+      continue;
+    }
+    if (out.tracked > 0) ++out.lost;
+    if (record.moving > kSomebodyMoves) ++out.moving;
   }
-  return tracked > 0 ? 100.0 * lost / (tracked + lost) : 0;
+  return out;
 }
 
-// Mean over the tracked frames, per cent.
-double exchanged_percent(const TrackedFrames& frames) {
-  int tracked = 0;
-  double sum = 0;
-  for (const FrameRecord& record : frames.records) {
-    if (!record.tracked) continue;
-    ++tracked;
-    sum += record.modes.exchanged;
-  }
-  return tracked > 0 ? 100 * sum / tracked : 0;
+// Of a configuration without silhouettes nothing is known, and nothing measured.
+void add_overlap(const TrackedFrames& frames, const GateConfig& gates, Quality& out) {
+  std::vector<double> overlaps = mean_overlaps(frames);
+  std::erase_if(overlaps, [](double overlap) { return std::isnan(overlap); });
+  if (overlaps.empty()) return;
+  out.push_back(
+      at_least("overlap_percent", 100 * *std::ranges::min_element(overlaps), 100 * gates.overlap));
 }
 
 // What planting feet takes away, of the frames before it.
 Quality quality_before(const TrackedFrames& moving, const GateConfig& gates) {
   const Motion motion = motion_of(moving);
   const Plausibility p = plausibility(motion, gait_from_motion(motion));
-  return {
-      at_most(measure("tracked_foot_slide_mm", "Sliding of a standing foot before feet are planted",
-                      1000 * p.mean_foot_slide, "mm", 0),
-              1000 * gates.foot_slide),
-      at_most(
-          measure("tracked_penetration_mm", "Deepest foot in the ground before feet are planted",
-                  1000 * p.penetration, "mm", 0),
-          1000 * gates.penetration)};
+  return {at_most("tracked_foot_slide_mm", 1000 * p.mean_foot_slide, 1000 * gates.foot_slide),
+          at_most("tracked_penetration_mm", 1000 * p.penetration, 1000 * gates.penetration)};
 }
 
 }  // namespace
 
-Quality quality_of_motion(const Motion& motion, double rate) {
+Quality quality_of_motion(const Motion& motion, double rate, double leg) {
   const Plausibility p = plausibility(motion, gait_from_motion(motion));
   const double minutes = static_cast<double>(motion.time.size()) / rate / 60;
   const auto swaps = static_cast<double>(leg_swaps(motion));
-  return {
-      measure("leg_swaps_per_min", "Legs swapped between frames", minutes > 0 ? swaps / minutes : 0,
-              "/min", 1),
-      measure("foot_slide_mm", "Sliding of a standing foot, mean of stances",
-              1000 * p.mean_foot_slide, "mm", 0),
-      measure("worst_foot_slide_mm", "Sliding of a standing foot, worst stance",
-              1000 * p.worst_foot_slide, "mm", 0),
-      measure("penetration_mm", "Deepest foot in the ground", 1000 * p.penetration, "mm", 0),
-      measure("jitter_m_s3", "Jitter: mean third derivative of the joints", p.jitter, "m/s³", 0),
-  };
+  return {quality_measure("leg_swaps_per_min", minutes > 0 ? swaps / minutes : 0),
+          quality_measure("steps_off_way_percent", 100 * p.steps_off_way),
+          quality_measure("longest_step_leg_lengths", p.longest_step / leg),
+          quality_measure("shortest_step_m", p.shortest_step),
+          quality_measure("fastest_m_s", p.fastest),
+          quality_measure("foot_slide_mm", 1000 * p.mean_foot_slide),
+          quality_measure("worst_foot_slide_mm", 1000 * p.worst_foot_slide),
+          quality_measure("penetration_mm", 1000 * p.penetration),
+          quality_measure("jitter_m_s3", p.jitter)};
 }
 
 Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
-                   const GateConfig& gates) {
+                   const GateConfig& gates, double leg) {
+  const Counts counts = count(frames);
   Quality out{
-      at_most(
-          measure("lost_percent", "Lost after the walker was found", lost_percent(frames), "%", 1),
-          100 * gates.lost_share),
-      at_least(measure("foot_changes", "Changes of the standing foot", foot_changes(frames), "", 0),
-               gates.least_steps),
-      measure("legs_exchanged_percent", "Left and right may be exchanged, mean probability",
-              exchanged_percent(frames), "%", 0)};
-  const std::map<std::string, double> limits{{"leg_swaps_per_min", gates.leg_swaps},
-                                             {"jitter_m_s3", gates.jitter}};
-  for (QualityMeasure& m : quality_of_motion(motion_of(frames), frames.frame_rate)) {
-    const auto limit = limits.find(m.name);
-    out.push_back(limit == limits.end() ? std::move(m) : at_most(std::move(m), limit->second));
+      at_most("lost_percent", percent(counts.lost, counts.tracked + counts.lost),
+              100 * gates.lost_share),
+      at_most("untracked_movement_percent", percent(counts.moving, counts.tracked + counts.moving),
+              100 * gates.untracked_movement),
+      at_least("foot_changes", foot_changes(frames), gates.least_steps)};
+  add_overlap(frames, gates, out);
+  out.push_back(at_most("better_beside_percent", percent(counts.better_beside, counts.tracked),
+                        100 * gates.better_beside));
+  out.push_back(at_most("legs_exchanged_percent", percent(counts.exchanged, counts.tracked),
+                        100 * gates.legs_exchanged));
+  const std::map<std::string, double> most{{"leg_swaps_per_min", gates.leg_swaps},
+                                           {"steps_off_way_percent", 100 * gates.steps_off_way},
+                                           {"longest_step_leg_lengths", gates.longest_step},
+                                           {"fastest_m_s", gates.fastest},
+                                           {"jitter_m_s3", gates.jitter}};
+  for (QualityMeasure& m : quality_of_motion(motion_of(frames), frames.frame_rate, leg)) {
+    if (const auto limit = most.find(m.name); limit != most.end()) m.gate = limit->second;
+    if (m.name == "shortest_step_m") m = at_least(m.name, m.value, gates.shortest_step);
+    out.push_back(std::move(m));
   }
   for (QualityMeasure& m : quality_before(moving, gates)) out.push_back(std::move(m));
   return out;
 }
 
+std::vector<double> mean_overlaps(const TrackedFrames& frames) {
+  std::vector<double> sums;
+  std::vector<int> counts;
+  for (const FrameRecord& record : frames.records) {
+    const std::vector<double>& overlaps = record.fit.overlap;
+    sums.resize(std::max(sums.size(), overlaps.size()));
+    counts.resize(sums.size());
+    for (size_t c = 0; record.tracked && c < overlaps.size(); ++c) {
+      if (std::isnan(overlaps[c])) continue;
+      sums[c] += overlaps[c];
+      ++counts[c];
+    }
+  }
+  for (size_t c = 0; c < sums.size(); ++c) sums[c] /= counts[c];
+  return sums;
+}
+
 std::string first_failure(const Quality& quality) {
   for (const QualityMeasure& m : quality) {
     if (m.passed()) continue;
-    return fmt::format("{}: {:.{}f}{}{} (gate {} {:g})", m.what, m.value, m.digits,
+    return fmt::format("{}: {:.{}f}{}{} (allowed: {} {:g})", m.what, m.value, m.digits,
                        m.unit.empty() ? "" : " ", m.unit, m.at_most ? "at most" : "at least",
                        *m.gate);
   }

@@ -15,15 +15,24 @@ namespace walktrack {
 
 using Quality = std::vector<QualityMeasure>;
 
+// Somebody moves in a frame in which this much of a picture is newly covered (FrameRecord::moving):
+// a quarter of what a walker covers in that time.
+inline constexpr double kSomebodyMoves = 0.15;  // m^2
+
 // What any motion shows, without gates: feet, ground and trembling are judged by
 // metrics/plausibility.h, swapped legs by metrics/leg_swaps.h. `rate` in Hz.
-Quality quality_of_motion(const Motion& motion, double rate);
+// `leg`: the subject's leg length, m.
+Quality quality_of_motion(const Motion& motion, double rate, double leg);
 
 // The same of a track with its gates, after what was lost, in the order that they are shown in.
 // `moving`: the frames before their feet were planted; the gates on feet are for those, for planted
 // ones tell little of a track that fails.
 Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
-                   const GateConfig& gates);
+                   const GateConfig& gates, double leg);
+
+// By camera, the mean over the frames that tell of how well the figure lies on the person
+// (FigureFit::overlap); NaN for a camera that tells nothing.
+std::vector<double> mean_overlaps(const TrackedFrames& frames);
 
 // What the first failed gate says against the result; empty if all passed.
 std::string first_failure(const Quality& quality);

@@ -66,6 +66,9 @@ TrackRun::TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& f
       timer_(job.config.values.checkpoint.seconds) {
   for (const Camera& camera : setup_.scene.cameras)
     everywhere_.push_back(search_region(camera, job.scene.subject.height));
+  std::vector<double> scales;
+  for (const Region& region : everywhere_) scales.push_back(region.metres_per_px);
+  movement_.emplace(std::move(scales), setup_.scene.dt);
   // OpenCV splits the network's layers by its threads, and other sums have other last bits.
   if (setup_.detections.uses_network()) cv::setNumThreads(1);
   if (checkpoint) tracker_.resume(std::move(checkpoint->tracker));
@@ -92,6 +95,7 @@ bool TrackRun::step() {
   if (!next_.fetched()) fetch();
   if (!next_.there()) return false;
   complete();
+  watch_movement();
   follow();
   learn();
   pace(start);
@@ -103,7 +107,7 @@ bool TrackRun::step() {
 bool TrackRun::finish(bool resumable) {
   const bool noted = resumable && tracker_.tracking() && frames_read_ > first_frame_;
   if (noted) write_checkpoint();
-  for (const FrameRecord& record : tracker_.finish()) frames_.records.append(record);
+  keep(tracker_.finish());
   return noted || (resumable && std::filesystem::exists(checkpoint_file_));
 }
 
@@ -144,8 +148,24 @@ void TrackRun::complete() {
   watch_.add("evidence", spent_since(start));
 }
 
-void TrackRun::push() {
-  for (const FrameRecord& record : tracker_.push(evidence_)) frames_.records.append(record);
+void TrackRun::push() { keep(tracker_.push(evidence_)); }
+
+// Before a frame is tracked: how much somebody moves in it, if nobody is tracked yet.
+void TrackRun::watch_movement() {
+  if (!tracker_.tracking()) {
+    moving_.push_back(movement_->newly_covered(evidence_));
+  } else {
+    moving_.push_back(0);
+    movement_->forget();
+  }
+}
+
+void TrackRun::keep(std::vector<FrameRecord> records) {
+  for (FrameRecord& record : records) {
+    record.moving = moving_.front();
+    moving_.pop_front();
+    frames_.records.append(record);
+  }
 }
 
 // Works on this frame while the next one is fetched. The clock of decoding and evidence is what

@@ -12,6 +12,7 @@
 
 #include "io/archive/checkpoint_file.h"
 #include "io/archive/result_folder.h"
+#include "jobs/track/movement.h"
 #include "jobs/track/next_frame.h"
 #include "jobs/track/particle_budget.h"
 #include "jobs/track/stopwatch.h"
@@ -75,6 +76,8 @@ class TrackRun {
   void fetch();
   void complete();
   void push();
+  void keep(std::vector<FrameRecord> records);
+  void watch_movement();
   void follow();
   void learn();
   void pace(const Moment& since);
@@ -90,6 +93,8 @@ class TrackRun {
   ParticleBudget budget_;
   Tracker tracker_;
   std::vector<Region> everywhere_;
+  std::optional<MovementWatch> movement_;
+  std::deque<double> moving_;  // of the frames whose records have not come out
   SceneVideo& video_;
   NextFrame next_;
   // Of the next frame; a checkpoint holds them.

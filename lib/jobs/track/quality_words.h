@@ -1,0 +1,24 @@
+// What each quality measure is called and means, in words for the people who read a report.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "io/archive/run_record.h"
+
+namespace walktrack {
+
+struct QualityWords {
+  std::string_view name, what, unit;
+  int digits;                // after the point
+  std::string_view meaning;  // one sentence
+  std::string_view advice;   // what to do when the check fails; empty where none can fail
+};
+
+// Every measure there is, in the order in which they are shown.
+std::span<const QualityWords> quality_words();
+
+// A measure of that name with its words, without a limit. std::out_of_range for an unknown name.
+QualityMeasure quality_measure(std::string_view name, double value);
+
+}  // namespace walktrack

@@ -1,0 +1,73 @@
+#include "tracker/figure_fit.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "fixture.h"
+#include "made_evidence.h"
+#include "tests/observation/scenes.h"
+
+namespace walktrack {
+namespace {
+
+Pose striding() {
+  Pose pose;
+  pose.root = {0, 0, 0.9};
+  pose.legs[0] = {0.45, 0.03, 0, 0.2, 0.05};
+  pose.legs[1] = {-0.25, 0.03, 0, 0.5, -0.1};
+  return pose;
+}
+
+class Fit : public testing::Test {
+ protected:
+  // Somebody strides where the pose says, in front of two cameras.
+  Fit() {
+    for (const Eigen::Vector3d& from : {Eigen::Vector3d(0, -4, 1), Eigen::Vector3d(3, -3, 1.5)}) {
+      scene.cameras.push_back(camera_at(from, {0, 0, 0.9}, 300, kEvidenceWidth, kEvidenceHeight));
+      evidence.push_back(evidence_of(scene.cameras.back(), scene.model.body, striding()));
+    }
+  }
+  TrackerScene scene = unseen(test_model(), 1.0 / 30);
+  SceneEvidence evidence;
+};
+
+TEST_F(Fit, NothingIsBetterThanThePersonsOwnPose) {
+  const FigureFit fit = figure_fit(scene, evidence, striding());
+  EXPECT_EQ(fit.overlap, (std::vector<double>{1, 1}));
+  EXPECT_EQ(fit.better_beside, 0);
+}
+
+TEST_F(Fit, AFigureBesideThePersonIsSeenInBothMeasures) {
+  double overlap_before = 1, beside_before = 0;
+  for (const double aside : {0.1, 0.2, 0.4}) {
+    Pose pose = striding();
+    pose.root.x() += aside;
+    const FigureFit fit = figure_fit(scene, evidence, pose);
+    EXPECT_LT(fit.overlap[0], overlap_before) << aside;
+    EXPECT_GE(fit.better_beside, beside_before) << aside;
+    overlap_before = fit.overlap[0];
+    beside_before = fit.better_beside;
+  }
+  EXPECT_LT(overlap_before, 0.4);
+  EXPECT_EQ(beside_before, 1) << "the images speak for nobody there";
+}
+
+TEST_F(Fit, AFigureThatFacesElsewhereIsSeen) {
+  Pose pose = striding();
+  pose.heading = rad_from_deg(30);
+  EXPECT_GT(figure_fit(scene, evidence, pose).better_beside, 0.05);
+}
+
+TEST_F(Fit, ACameraThatSeesNothingSaysNothing) {
+  evidence[1] = CameraEvidence{};
+  const FigureFit fit = figure_fit(scene, evidence, striding());
+  EXPECT_EQ(fit.overlap[0], 1);
+  EXPECT_TRUE(std::isnan(fit.overlap[1]));
+  evidence[0] = CameraEvidence{};
+  EXPECT_EQ(figure_fit(scene, evidence, striding()).better_beside, 0);
+  EXPECT_TRUE(figure_fit(unseen(test_model(), 0.1), {}, striding()).overlap.empty());
+}
+
+}  // namespace
+}  // namespace walktrack
