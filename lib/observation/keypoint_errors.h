@@ -20,7 +20,7 @@ struct KeypointErrors {
   std::array<std::array<double, 2>, kPointKinds> pull{};
 };
 
-// Before anything has been seen: what people differ by who mark COCO's pictures (kappa_i of its
+// Before anything has been seen: what people differ by who mark COCO's pictures (sigma_i of its
 // object keypoint similarity, Lin et al. 2014, times the object's size, .42 of a person's height).
 // Detectors do better on clear views and worse on others.
 KeypointErrors initial_errors();

@@ -176,7 +176,9 @@ PointPixels point_pixels(const Camera& camera, const PosedBody& body, const Poin
     out[i] = Vector2d::Constant(kNowhere);
     if (!has(body, i)) continue;
     const Vector2d& offset = offsets[static_cast<size_t>(kind_of(i))];
-    if (const auto px = project(camera, seen_point(body, i, offset))) out[i] = *px;
+    const auto px = project(camera, seen_point(body, i, offset));
+    // A lens bends points far outside the image to anywhere.
+    if (px && px->cwiseAbs().maxCoeff() < kNowhere) out[i] = *px;
   }
   return out;
 }

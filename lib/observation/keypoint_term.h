@@ -3,8 +3,8 @@
 // With r_j the distance of a detected point j from where the pose puts it (keypoint_points.h), a
 // person's points say, relative to the same points being anywhere near the person,
 //   l_j = log p(r_j) - log u,   p = Student-t of two coordinates of scale s_j,   u = 1 / (pi R^2),
-//   s_j = scale of its kind x height of the person in the image / sqrt(confidence),   R = outlier x
-//   height.
+//   s_j = scale of its kind x height of the person in the image / sqrt(confidence),
+//   R = outlier x that height.
 // Left and right are labels, which a detector confuses for both legs together, or for both arms: of
 // the points G of either group, and with m(j) the same point of the other side,
 //   l_G = log[ (1 - flip) exp(w sum of l_j) + flip exp(w sum of l_m(j)) ],

@@ -1,18 +1,18 @@
 // What a likelihood term is. README.md says how to add one; terms.h holds the list of all of them.
 //
-// A term is a struct that is never made, with
-//   kName       as results and documents call it
-//   kStage      when a particle is asked about it
-//   kAsksBefore whether it needs the pose of the frame before as well
-//   kSwitches   the parts of the configuration that turn it on, none for a term that is always
-//   there Evidence    what one frame of one camera holds for it; a base of CameraEvidence State
-//   what it remembers from frame to frame; a base of ObserverState Memory      the State with its
-//   rules: prepare() while particles are still busy with the frame
-//               before, complete() when they are done, learn() from the pose that was found
-//   describe    the keys of its configuration (io/config/config_table.cpp)
-//   says        whether a frame's evidence holds anything
-//   log_likelihood  of a body, up to a constant of the frame, nats; thread-safe, no allocations
-//   cost        CPU time of a frame
+// A term is a struct that is never made. kName is what results call it, kStage says when particles
+// are asked, kAsksBefore whether they need the pose of the frame before as well, kSwitches which
+// flags of the configuration turn it on (none: it is always there), describe() their keys.
+//
+// Evidence is what one frame of one camera holds for it, a base of CameraEvidence; State what it
+// remembers from frame to frame, a base of ObserverState. Memory is that with its rules: prepare()
+// while particles are still busy with the frame before, complete() when they are done, learn() from
+// the pose that was found.
+//
+// says() tells whether a frame's evidence holds anything, log_likelihood() what it says of a body,
+// up to a constant of the frame, in nats, from any number of threads and without allocations,
+// cost() the CPU time of a frame.
+//
 // A term that is off says nothing, prepares nothing and holds no memory.
 #pragma once
 

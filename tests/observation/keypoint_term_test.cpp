@@ -174,6 +174,18 @@ TEST_F(KeypointTermTest, SomebodyElseChangesNothing) {
   EXPECT_NEAR(score(other, pose(0.1)), 0, 1e-3);
 }
 
+// Beside the camera and behind it points have no place in the image, or any.
+TEST_F(KeypointTermTest, AnyPoseHasAFiniteScore) {
+  const CameraEvidence seen_now = evidence({seen(pose(0)), seen(pose(0.5))});
+  for (const double y : {-4.9, -5.0, -5.1, -9.0}) {
+    for (const double x : {0.0, 0.3, 1e3}) {
+      Pose there = pose(x);
+      there.root.y() = y;
+      EXPECT_TRUE(std::isfinite(score(seen_now, there))) << x << " " << y;
+    }
+  }
+}
+
 // By an independent route: every choice of person and of names, one density after the other.
 double brute_force(const KeypointConfig& config, const KeypointEvidence& evidence,
                    const PointPixels& predicted) {
