@@ -47,9 +47,17 @@ enum class KeypointSwitch { kAuto, kOn, kOff };
 // Points of a pose detector: from the scene's files, or from the built-in network where a camera
 // has none.
 struct KeypointConfig {
-  KeypointSwitch enabled = KeypointSwitch::kAuto;
-  int every = 1;                            // frames, of which the network looks at one
+  KeypointSwitch enabled = KeypointSwitch::kAuto;  // decided before anything is tracked
+  int every = 1;                                   // frames, of which the network looks at one
   std::string model = "movenet_lightning";  // the shipped network, or a file of the same family
+  // Of one point: a network's points err together from joint to joint and for several frames.
+  double weight = .2;
+  // Probability that the names of a frame's left and right are swapped. Of clear views it is below
+  // one in a hundred, but those that there are come in runs of several frames, each of which would
+  // be counted.
+  double flip = .1;
+  double dof = 3;        // of the Student-t: the smaller, the more outliers are expected
+  double outlier = .25;  // radius in which stray points lie, share of the person's height
 };
 
 struct ObservationConfig {

@@ -207,9 +207,9 @@ bool Observer::learns() const {
 }
 
 void Observer::learn(const CameraEvidence& evidence, const CapsuleList& capsules,
-                     const JointPositions* joints) {
+                     const PosedBody* body) {
   Terms::each([&]<typename Term>() {
-    state_->memory<Term>().learn(state_->setting, evidence, {capsules, joints});
+    state_->memory<Term>().learn(state_->setting, evidence, {capsules, body});
   });
 }
 

@@ -103,10 +103,10 @@ class Observer {
 
   // Whether any term of this configuration learns from poses.
   bool learns() const;
-  // Learns in the frame observed last from a pose that fits it well. `joints`: the same pose's, in
-  // the world; without them, terms that ask for them learn nothing.
+  // Learns in the frame observed last from a pose that fits it well. Without `body`, terms that ask
+  // for more than capsules learn nothing.
   void learn(const CameraEvidence& evidence, const CapsuleList& capsules,
-             const JointPositions* joints = nullptr);
+             const PosedBody* body = nullptr);
 
   // An observer made of the same configuration and input that takes the state of another one, left
   // there between two frames, goes on as that one. InputError for a state of images of another

@@ -43,9 +43,13 @@ enum class TermStage {
 
 // A body and where its parts are. Lives on the stack.
 struct PosedBody {
-  PosedBody(const Body& body, const Pose& pose)
-      : skeleton(forward_kinematics(body, pose)), parts(pose_parts(body, skeleton)) {}
+  // `shape` has to outlive this.
+  PosedBody(const Body& shape, const Pose& pose)
+      : body(&shape),
+        skeleton(forward_kinematics(shape, pose)),
+        parts(pose_parts(shape, skeleton)) {}
 
+  const Body* body;
   Skeleton skeleton;
   PosedParts parts;
 };
@@ -77,7 +81,7 @@ using TermCosts = std::vector<TermCost>;
 // A pose that was found in the frame observed last.
 struct FoundPose {
   const CapsuleList& capsules;
-  const JointPositions* joints;  // world; nullptr = not known
+  const PosedBody* body;  // nullptr = not known
 };
 
 }  // namespace walktrack

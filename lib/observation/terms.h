@@ -4,9 +4,11 @@
 //   log p(images | pose) = sum over terms and cameras of T::log_likelihood + constant
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "observation/flow_term.h"
+#include "observation/keypoint_term.h"
 #include "observation/leg_order_term.h"
 #include "observation/silhouette_term.h"
 
@@ -34,7 +36,7 @@ struct TermList {
   }
 };
 
-using Terms = TermList<SilhouetteTerm, FlowTerm, LegOrderTerm>;
+using Terms = TermList<SilhouetteTerm, FlowTerm, LegOrderTerm, KeypointTerm>;
 
 // What a frame of one camera says.
 struct CameraEvidence : Terms::Evidence {
@@ -65,6 +67,9 @@ inline double still_log_likelihood(const ObservationConfig& config, const Camera
   });
   return sum;
 }
+
+// By term, in the order of the list; NaN = it says nothing.
+using TermValues = std::array<double, Terms::kCount>;
 
 // The flags that turn terms on.
 std::vector<TermSwitch> term_switches();

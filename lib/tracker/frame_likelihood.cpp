@@ -1,5 +1,6 @@
 #include "tracker/frame_likelihood.h"
 
+#include <limits>
 #include <optional>
 
 namespace walktrack {
@@ -51,6 +52,24 @@ double FrameLikelihood::Account::all_else() const {
     }
   });
   return sum;
+}
+
+std::vector<TermValues> FrameLikelihood::by_term(const WalkerParticle& particle) const {
+  const Body& body = scene_.model.body;
+  const PosedBody now(body, particle.pose), before(body, particle.pose_before);
+  std::vector<TermValues> out(evidence_.size());
+  for (size_t c = 0; c < out.size(); ++c) {
+    size_t term = 0;
+    Terms::each([&]<typename Term>() {
+      double& value = out[c][term++];
+      value = std::numeric_limits<double>::quiet_NaN();
+      if constexpr (kWeighsParticles<Term>)
+        if (asks<Term>(evidence_[c]))
+          value = Term::log_likelihood(scene_.observation, evidence_[c], scene_.cameras[c], now,
+                                       &before);
+    });
+  }
+  return out;
 }
 
 }  // namespace walktrack

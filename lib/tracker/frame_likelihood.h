@@ -43,6 +43,9 @@ class FrameLikelihood {
 
   Account operator()(const WalkerParticle& particle) const { return {*this, particle}; }
 
+  // What each term says of a particle, by camera.
+  std::vector<TermValues> by_term(const WalkerParticle& particle) const;
+
  private:
   template <typename Term>
   bool asks(const CameraEvidence& camera) const {

@@ -6,6 +6,7 @@
 
 #include "core/conventions.h"
 #include "core/log_weights.h"
+#include "tracker/frame_likelihood.h"
 #include "tracker/moves/exchange.h"
 
 namespace walktrack {
@@ -15,6 +16,11 @@ namespace {
 // Walkers that explain an image no better than this share of what a stiff figure does are lost:
 // where a person is a few dozen pixels high, a figure does nearly as well as the walker itself.
 constexpr double kFigureShare = 0.9;
+
+const WalkerParticle& best_particle(const ParticleSet<WalkerParticle>& set) {
+  const auto best = std::max_element(set.log_weights.begin(), set.log_weights.end());
+  return set.states[static_cast<size_t>(best - set.log_weights.begin())];
+}
 
 }  // namespace
 
@@ -196,6 +202,9 @@ void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out
   }
   if (mode_ == Mode::kTracking && frames_below_ == 0) see(record.estimate);
   mean_pose_ = record.estimate.pose;
+  if (record.tracked)
+    record.evidence =
+        FrameLikelihood(scene_, evidence, true).by_term(best_particle(filter_.particles()));
   refine(evidence, record);
   out.push_back(std::move(record));
 }

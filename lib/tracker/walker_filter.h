@@ -22,6 +22,9 @@ struct FrameRecord {
   std::vector<JointPositions> samples;  // a few particles, to show their spread
   int fallen = 0, diverged = 0;
   StrideModes modes;
+  // By camera: what each term says of the best particle, nats; NaN = nothing. Only of tracked
+  // frames after the start.
+  std::vector<TermValues> evidence;
 };
 
 struct WalkerFilterContext {

@@ -174,8 +174,8 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
-  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes] = value;
-  archive(tracked, estimate, filter, support, samples, fallen, diverged, modes);
+  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes, evidence] = value;
+  archive(tracked, estimate, filter, support, samples, fallen, diverged, modes, evidence);
 }
 
 }  // namespace walktrack

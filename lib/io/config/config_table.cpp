@@ -41,19 +41,6 @@ void add_observation(ParameterTable& table) {
 
   TermGroups groups{table};
   Terms::each([&]<typename Term>() { Term::describe(groups); });
-
-  using K = KeypointConfig;
-  ParameterGroup<K> k(table, "observation.keypoints", "points of a pose detector",
-                      &Config::observation, &O::keypoints);
-  k.choice("enabled", &K::enabled,
-           {{"auto", KeypointSwitch::kAuto},
-            {"on", KeypointSwitch::kOn},
-            {"off", KeypointSwitch::kOff},
-            {"true", KeypointSwitch::kOn},
-            {"false", KeypointSwitch::kOff}},
-           "auto: where the scene has their files, or with one or two cameras by the network");
-  k.integer("every", &K::every, 1, 1000, "frames, of which the network looks at one");
-  k.text("model", &K::model, "the shipped network, or the ONNX file of one of the same family");
 }
 
 void add_body(ParameterTable& table) {

@@ -1,6 +1,7 @@
 #include "jobs/track/track.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -51,6 +52,34 @@ std::vector<double> by_frame(const TrackedFrames& frames, double (*value)(const 
   for (const FrameRecord& record : frames.records)
     out.push_back(record.tracked ? value(record) : std::numeric_limits<double>::quiet_NaN());
   return out;
+}
+
+std::vector<std::string_view> term_names() {
+  std::vector<std::string_view> names;
+  Terms::each([&]<typename Term>() { names.push_back(Term::kName); });
+  return names;
+}
+
+// "evidence.silhouettes.side": a list for every term and camera that says anything.
+void add_evidence(const Scene& scene, const TrackedFrames& frames,
+                  std::vector<std::pair<std::string, std::vector<double>>>& out) {
+  constexpr double kSilent = std::numeric_limits<double>::quiet_NaN();
+  const size_t lists = scene.cameras.size() * Terms::kCount;
+  std::vector<std::vector<double>> values(lists);
+  for (const FrameRecord& record : frames.records)
+    for (size_t i = 0; i < lists; ++i)
+      values[i].push_back(record.evidence.empty()
+                              ? kSilent
+                              : record.evidence[i / Terms::kCount][i % Terms::kCount]);
+  const std::vector<std::string_view> names = term_names();
+  for (size_t i = 0; i < lists; ++i) {
+    const bool says = !std::all_of(values[i].begin(), values[i].end(),
+                                   [](double value) { return std::isnan(value); });
+    if (says)
+      out.emplace_back(fmt::format("evidence.{}.{}", names[i % Terms::kCount],
+                                   scene.cameras[i / Terms::kCount].name),
+                       std::move(values[i]));
+  }
 }
 
 std::string_view status_word(TrackStatus status) {
@@ -124,6 +153,7 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
       {"stride_phase", by_frame(frames, [](const FrameRecord& r) { return r.modes.phase; })},
       {"legs_exchanged", by_frame(frames, [](const FrameRecord& r) { return r.modes.exchanged; })},
       {"speed", by_frame(frames, [](const FrameRecord& r) { return r.estimate.speed; })}};
+  add_evidence(job.scene, frames, out.by_frame);
   if (paced) out.by_frame.emplace_back("particles", run.particles_used());
   out.digest = tables.digest;
   out.command_line = job.command_line;

@@ -198,7 +198,7 @@ void TrackRun::learn() {
   const PosedBody found(body, tracker_.mean_pose());
   parallel_for(setup_.observers.size(), threads_, [&](size_t c) {
     setup_.observers[c].learn(evidence_[c], project_parts(setup_.scene.cameras[c], found.parts),
-                              &found.skeleton.joints);
+                              &found);
   });
   watch_.add("appearance", spent_since(start));
 }
