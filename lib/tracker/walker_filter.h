@@ -25,6 +25,8 @@ struct FrameRecord {
   // By camera: what each term says of the best particle, nats; NaN = nothing. Only of tracked
   // frames after the start.
   std::vector<TermValues> evidence;
+  // By camera, what a pose detector saw of the frame; empty where none was asked.
+  std::vector<KeypointEvidence> keypoints;
 };
 
 struct WalkerFilterContext {

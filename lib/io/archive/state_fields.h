@@ -172,10 +172,24 @@ void fields(Archive& archive, T& value) {
   archive(phase, exchanged);
 }
 
+template <typename Archive, ArchivedAs<KeypointEvidence::Point> T>
+void fields(Archive& archive, T& value) {
+  auto& [px, precision, at_best] = value;
+  archive(px, precision, at_best);
+}
+
+template <typename Archive, ArchivedAs<KeypointEvidence> T>
+void fields(Archive& archive, T& value) {
+  auto& [people, offsets] = value;
+  archive(people, offsets);
+}
+
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
-  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes, evidence] = value;
-  archive(tracked, estimate, filter, support, samples, fallen, diverged, modes, evidence);
+  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes, evidence,
+         keypoints] = value;
+  archive(tracked, estimate, filter, support, samples, fallen, diverged, modes, evidence,
+          keypoints);
 }
 
 }  // namespace walktrack

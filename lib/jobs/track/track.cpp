@@ -11,6 +11,7 @@
 #include "io/archive/run_record.h"
 #include "io/archive/sha256.h"
 #include "io/video/scene_video.h"
+#include "jobs/track/keypoint_results.h"
 #include "jobs/track/planted_track.h"
 #include "jobs/track/report.h"
 #include "jobs/track/track_origin.h"
@@ -125,6 +126,7 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
   const bool paced = job.config.values.budget.frame_ms > 0;
   if (paced) out.notes.push_back(pace_note(job.config.values.budget));
   if (run.stature()) out.notes.push_back(size_note(*run.stature()));
+  for (const std::string& note : run.notes()) out.notes.push_back(note);
   out.numbers = {{"frames", double(frames.records.size())},
                  {"tracked_frames", double(counts.tracked)},
                  {"first_tracked_frame", double(counts.first)},
@@ -142,6 +144,7 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
     out.numbers.emplace_back("estimated_height_m", run.stature()->height);
     out.numbers.emplace_back("estimated_height_sd_m", run.stature()->sd);
   }
+  for (const auto& number : keypoint_numbers(run.keypoints())) out.numbers.push_back(number);
   out.quality = quality;
   out.by_frame = {
       {"ess", by_frame(frames, [](const FrameRecord& r) { return r.filter.ess; })},
@@ -154,6 +157,9 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
       {"legs_exchanged", by_frame(frames, [](const FrameRecord& r) { return r.modes.exchanged; })},
       {"speed", by_frame(frames, [](const FrameRecord& r) { return r.estimate.speed; })}};
   add_evidence(job.scene, frames, out.by_frame);
+  for (auto& list :
+       keypoint_residuals(frames, with_stature(job.scene, run.stature()), job.config.values))
+    out.by_frame.push_back(std::move(list));
   if (paced) out.by_frame.emplace_back("particles", run.particles_used());
   out.digest = tables.digest;
   out.command_line = job.command_line;
@@ -248,6 +254,7 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const Quality quality = quality_of(frames, moving, job.config.values.gates);
   outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
   outcome.tracked = count(frames).tracked;
+  for (const std::string& note : run.notes()) control.say(note);
   const Scene scene = with_stature(job.scene, run.stature());
   if (run.stature()) control.say(size_note(*run.stature()));
   const AnalysedMotion analysed =
