@@ -107,13 +107,15 @@ template <typename Groups>
 void KeypointTerm::describe(Groups& groups) {
   using K = KeypointConfig;
   auto k = groups.group("keypoints", "points of a pose detector", &ObservationConfig::keypoints);
-  k.choice("enabled", &K::enabled,
-           {{"auto", KeypointSwitch::kAuto},
-            {"on", KeypointSwitch::kOn},
-            {"off", KeypointSwitch::kOff},
-            {"true", KeypointSwitch::kOn},
-            {"false", KeypointSwitch::kOff}},
-           "auto: where the scene has their files, or with one or two cameras by the network");
+  k.choice(
+      "enabled", &K::enabled,
+      {{"auto", KeypointSwitch::kAuto},
+       {"on", KeypointSwitch::kOn},
+       {"off", KeypointSwitch::kOff},
+       {"true", KeypointSwitch::kOn},
+       {"false", KeypointSwitch::kOff}},
+      "on: from the scene's files, from the built-in network where a camera has none; auto: where "
+      "every camera has a file");
   k.integer("every", &K::every, 1, 1000, "frames, of which the network looks at one");
   k.text("model", &K::model, "the shipped network, or the ONNX file of one of the same family");
   k.number("weight", &K::weight, 0, 10,

@@ -51,7 +51,7 @@ TEST_F(DetectionsTest, FilesAreAskedByTheVideosOwnNumber) {
                                    "with frame 8"));
 }
 
-TEST_F(DetectionsTest, AutoIsForFilesAndForFewCameras) {
+TEST_F(DetectionsTest, AutoIsForFiles) {
   KeypointConfig config;
   EXPECT_TRUE(keypoints_wanted(with_files(), config));
   const std::string camera = "  - {name: NAME, video: a.mp4, calibration: a.yaml}\n";
