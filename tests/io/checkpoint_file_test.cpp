@@ -17,7 +17,9 @@ Checkpoint checkpoint() {
   Checkpoint out{kOrigin, 7, 5, 1234, {}, {{{1, 2, 3, 4}, .01, true}}, {}};
   ObserverState observer;
   observer.background = BackgroundModel{2, 1, {.1f, .2f}, {}, {}, {}, {}};
-  observer.grey_before = {1, 2, 3};
+  observer.grey_before = {3, 1, {1, 2, 3}};
+  observer.errors.scale[2] = 0.25;
+  observer.use.matched = 9;
   out.observers = {observer};
   out.tracker.filter.set.states.resize(3);
   out.tracker.filter.set.states[2].pose.heading = 0.5;
@@ -41,8 +43,10 @@ TEST_F(CheckpointFile, ComesBack) {
   EXPECT_EQ(found.checkpoint->frames_read, 7u);
   EXPECT_EQ(found.checkpoint->record_bytes, 1234u);
   EXPECT_EQ(found.checkpoint->regions.at(0).area.y1, 4);
-  EXPECT_EQ(found.checkpoint->observers.at(0).grey_before, (std::vector<uint8_t>{1, 2, 3}));
+  EXPECT_EQ(found.checkpoint->observers.at(0).grey_before.pixels, (std::vector<uint8_t>{1, 2, 3}));
   EXPECT_EQ(found.checkpoint->observers[0].background->luma[1], .2f);
+  EXPECT_EQ(found.checkpoint->observers[0].errors.scale[2], 0.25);
+  EXPECT_EQ(found.checkpoint->observers[0].use.matched, 9);
   EXPECT_EQ(found.checkpoint->tracker.filter.set.states.at(2).pose.heading, 0.5);
   EXPECT_EQ(found.checkpoint->tracker.filter.scale, 0.25);
   EXPECT_EQ(found.checkpoint->tracker.last_seen->velocity.y(), 4);

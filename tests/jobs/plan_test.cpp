@@ -31,6 +31,13 @@ const PlanItem& item(const Plan& plan, const std::string& name) {
   throw InputError(name);
 }
 
+double first_camera_ms(const Plan& plan, std::string_view what) {
+  double sum = 0;
+  for (const auto& [each, ms] : plan.cost.cameras[0])
+    if (each == what) sum += ms;
+  return sum;
+}
+
 std::string advice(const Plan& plan) {
   std::string text;
   for (const std::string& sentence : plan.advice) text += sentence + "\n";
@@ -82,15 +89,15 @@ TEST(CostModel, HasTheShapeOfTheWork) {
   const Plan one = plan_with({"filter.moves=1"}), three = plan_with({"filter.moves=3"});
   EXPECT_EQ(one.cost.walker, three.cost.walker);
   EXPECT_GT(three.cost.poses, 2 * one.cost.poses);
-  EXPECT_EQ(one.cost.cameras[0].background, three.cost.cameras[0].background);
+  EXPECT_EQ(first_camera_ms(one, "background"), first_camera_ms(three, "background"));
   const Plan large = plan_with({"observation.person_px=240"}),
              small = plan_with({"observation.person_px=120"});
   ASSERT_EQ(large.cameras[0].shrink, 1);
   ASSERT_EQ(small.cameras[0].shrink, 2);
   EXPECT_NEAR(large.work.cameras[0].rows, 2 * small.work.cameras[0].rows, 1e-9);
-  EXPECT_EQ(large.cost.cameras[0].decoding, small.cost.cameras[0].decoding);
-  EXPECT_GT(large.cost.cameras[0].background, 2 * small.cost.cameras[0].background);
-  EXPECT_LE(large.cost.cameras[0].background, 4 * small.cost.cameras[0].background + 1e-9);
+  EXPECT_EQ(first_camera_ms(large, "decoding"), first_camera_ms(small, "decoding"));
+  EXPECT_GT(first_camera_ms(large, "background"), 2 * first_camera_ms(small, "background"));
+  EXPECT_LE(first_camera_ms(large, "background"), 4 * first_camera_ms(small, "background") + 1e-9);
   Scene one_camera = demo();
   one_camera.cameras.resize(1);
   const Plan alone = plan_with({}, one_camera);
