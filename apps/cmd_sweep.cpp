@@ -27,8 +27,8 @@ void declare(CommandLine& line, SweepOptions& options) {
       "knobs and their values: particles, scale (height of a person, px), terms "
       "(background+foreground+flow+keypoints), cameras (how many, or names joined by +), moves, "
       "layers, "
-      "arms, model, path, config (files or presets), or any key of 'walktrack config'; default "
-      "particles=75:150:300,scale=60:120");
+      "arms, keypoints (off:on), model, path, config (files or presets), or any key of 'walktrack "
+      "config'; default particles=75:150:300,scale=60:120");
   add("seeds", po::value(&options.seeds)->value_name("N"), "seeds of each setting; default 3");
   add("repeats", po::value(&options.repeats)->value_name("N"),
       "times that each run is done, for its time; default 1");

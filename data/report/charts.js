@@ -200,5 +200,11 @@ function startTimes() {
   timeChart('Left foot carries the body: probability', 'Probability of left stance', [[series.left_stance, colours.left]], '', {scales: {y: {range: [-0.05, 1.05]}}});
   timeChart(`Effective number of particles (of ${run.config.filter.particles})`, 'Effective sample size over time',
     [[series.ess, colours.trunk], [times.map(() => run.config.filter.resample_below * run.config.filter.particles), '#b0b8c0', 1]], '', {scales: {y: {range: (u, min, max) => [0, max * 1.05]}}});
+  const residuals = Object.keys(series).filter((name) => name.startsWith('keypoint_residual_px.'));
+  if (residuals.length > 0) {
+    const strokes = [colours.trunk, colours.left, colours.right];
+    timeChart('Detected points to the reported pose, median of a frame', 'Distance of detected keypoints from the pose over time, a line for each camera',
+      residuals.map((name, i) => [series[name], strokes[i % strokes.length]]), 'px');
+  }
   timeChart('Log-evidence of the frame', 'Log-evidence over time', [[series.log_evidence, colours.trunk]], 'nats');
 }

@@ -27,7 +27,7 @@ namespace walktrack {
 // What a frame's keypoints say, in pixels of the shrunk image.
 struct KeypointEvidence {
   struct Point {
-    Eigen::Vector2d px;
+    Eigen::Vector2d px = Eigen::Vector2d::Zero();
     double precision = 0;  // 1 / (dof s^2); 0 = missing
     double at_best = 0;    // l_j for r = 0
   };
@@ -107,13 +107,15 @@ template <typename Groups>
 void KeypointTerm::describe(Groups& groups) {
   using K = KeypointConfig;
   auto k = groups.group("keypoints", "points of a pose detector", &ObservationConfig::keypoints);
-  k.choice("enabled", &K::enabled,
-           {{"auto", KeypointSwitch::kAuto},
-            {"on", KeypointSwitch::kOn},
-            {"off", KeypointSwitch::kOff},
-            {"true", KeypointSwitch::kOn},
-            {"false", KeypointSwitch::kOff}},
-           "auto: where the scene has their files, or with one or two cameras by the network");
+  k.choice(
+      "enabled", &K::enabled,
+      {{"auto", KeypointSwitch::kAuto},
+       {"on", KeypointSwitch::kOn},
+       {"off", KeypointSwitch::kOff},
+       {"true", KeypointSwitch::kOn},
+       {"false", KeypointSwitch::kOff}},
+      "on: from the scene's files, from the built-in network where a camera has none; auto: where "
+      "every camera has a file");
   k.integer("every", &K::every, 1, 1000, "frames, of which the network looks at one");
   k.text("model", &K::model, "the shipped network, or the ONNX file of one of the same family");
   k.number("weight", &K::weight, 0, 10,

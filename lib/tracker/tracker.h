@@ -119,6 +119,7 @@ class Tracker {
   const std::vector<Place>& candidates(size_t index);
   bool wants_size() const { return !scene_.size_known && !stature_; }
   WindowScore window_score(const Body& body, const FigureBook& figures) const;
+  std::vector<Sighting> lines_by_keypoints() const;
   std::optional<Sighting> look_for_walk(const BodyModel& model) const;
   Eigen::Vector2d eye() const;
   SizedWalk sized_up(const Sighting& walk, double height) const;

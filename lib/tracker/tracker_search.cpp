@@ -7,6 +7,7 @@
 
 #include "core/conventions.h"
 #include "core/parallel_for.h"
+#include "tracker/detect/keypoint_lines.h"
 #include "tracker/leg_names.h"
 #include "tracker/moves/exchange.h"
 #include "tracker/tracker.h"
@@ -50,8 +51,9 @@ void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& ou
   if (static_cast<int>(window_.size()) < frames_in(config_.sighting.window, scene_.dt)) return;
   if (scene_.initial) return start_as_given(out);
   const WindowEnds ends = window_ends(window_.size());
+  const std::vector<Sighting> lines = lines_by_keypoints();
   const std::optional<Sighting> sighting =
-      find_walk({window_.size(), candidates(ends.early), candidates(ends.late)},
+      find_walk({window_.size(), candidates(ends.early), candidates(ends.late), lines},
                 window_score(body(), kit_.figures), scene_.dt, eye(), config_.sighting, threads_);
   if (sighting && within_reach(sighting->position, frame_) &&
       (wants_size() ? attempt_unsized(*sighting, out) : attempt(*sighting, out)))
@@ -60,6 +62,24 @@ void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& ou
   candidates_.pop_front();
   ++frame_;
   out.emplace_back();
+}
+
+// The lines along which keypoints go at a walker's speed.
+std::vector<Sighting> Tracker::lines_by_keypoints() const {
+  constexpr double kLeastShare = 0.5;  // of the window in which the person was seen
+  std::vector<Sighting> out;
+  for (size_t c = 0; c < scene_.cameras.size(); ++c) {
+    std::vector<const KeypointEvidence*> frames;
+    for (const SceneEvidence& frame : window_) frames.push_back(&frame[c].keypoints);
+    for (const KeypointLine& line :
+         keypoint_lines(frames, scene_.cameras[c], body().subject.height, scene_.dt,
+                        kLeastShare * config_.sighting.window)) {
+      const double speed = line.velocity.norm();
+      if (speed >= config_.sighting.slowest && speed <= config_.sighting.fastest)
+        out.push_back({.position = line.position, .velocity = line.velocity});
+    }
+  }
+  return out;
 }
 
 WindowScore Tracker::window_score(const Body& body, const FigureBook& figures) const {

@@ -55,6 +55,13 @@ void summarise(const WalkerFilterContext& context, const ParticleSet<WalkerParti
     record.samples.push_back(forward_kinematics(body, set.states[i].pose).joints);
 }
 
+std::vector<KeypointEvidence> keypoints_of(const SceneEvidence& evidence) {
+  std::vector<KeypointEvidence> out;
+  if (std::none_of(evidence.begin(), evidence.end(), KeypointTerm::says)) return out;
+  for (const CameraEvidence& camera : evidence) out.push_back(camera.keypoints);
+  return out;
+}
+
 }  // namespace
 
 FrameRecord advance(const WalkerFilterContext& context, const SceneEvidence& evidence,
@@ -80,6 +87,7 @@ FrameRecord advance(const WalkerFilterContext& context, const SceneEvidence& evi
   record.diverged =
       static_cast<int>(std::count(outcomes.begin(), outcomes.end(), Outcome::kDiverged));
   if (!record.filter.all_dead) summarise(context, filter.particles(), record);
+  record.keypoints = keypoints_of(evidence);
   return record;
 }
 

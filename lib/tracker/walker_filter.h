@@ -26,6 +26,8 @@ struct FrameRecord {
   // By camera: what each term says of the best particle, nats; NaN = nothing. Only of tracked
   // frames after the start.
   std::vector<TermValues> evidence;
+  // By camera, what a pose detector saw of the frame; empty where none was asked.
+  std::vector<KeypointEvidence> keypoints;
   FigureFit fit;      // of the pose before frames around it are heard and feet planted
   double moving = 0;  // m^2 of a picture that are newly covered while nobody is tracked
 };

@@ -58,7 +58,7 @@ TEST(SweepKnobs, MistakesAreNamed) {
       {{"cameras=3"}, "found '3'"},
       {{"cameras=1.5"}, "found '1.5'"},
       {{"cameras=side+back"}, "found 'side+back'"},
-      {{"terms=colour"}, "terms: found 'colour', allowed: all, or background, foreground, flow"},
+      {{"terms=colour"}, "terms: found 'colour', allowed: all, or background, foreground, flow, keypoints"},
       {{"terms=all+flow"}, "found 'all+flow'"},
       {{"config=quick"}, "quick: found no such file, allowed: a file, or a preset: fast, balanced"},
   };

@@ -193,12 +193,24 @@ void fields(Archive& archive, T& value) {
   archive(any_number(overlap), better_beside);
 }
 
+template <typename Archive, ArchivedAs<KeypointEvidence::Point> T>
+void fields(Archive& archive, T& value) {
+  auto& [px, precision, at_best] = value;
+  archive(px, precision, at_best);
+}
+
+template <typename Archive, ArchivedAs<KeypointEvidence> T>
+void fields(Archive& archive, T& value) {
+  auto& [people, offsets] = value;
+  archive(people, offsets);
+}
+
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
-  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes, evidence, fit,
-         moving] = value;
+  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes, evidence, keypoints,
+         fit, moving] = value;
   archive(tracked, estimate, filter, any_number(support), samples, a_count(fallen),
-          a_count(diverged), modes, any_number(evidence), fit, moving);
+          a_count(diverged), modes, any_number(evidence), keypoints, fit, moving);
 }
 
 }  // namespace walktrack

@@ -131,6 +131,15 @@ void draw_spread(cv::Mat& image, const Camera& camera, std::span<const JointPosi
   cv::addWeighted(drawn, opacity, image, 1 - opacity, 0, image);
 }
 
+void draw_cross(cv::Mat& image, const Vector2d& px, const cv::Scalar& bgr, double arm_px) {
+  for (const Vector2d& arm : {Vector2d(arm_px, arm_px), Vector2d(arm_px, -arm_px)})
+    draw_piece(image, px - arm, px + arm, bgr, 1);
+}
+
+cv::Scalar left_colour() { return kLeft; }
+cv::Scalar right_colour() { return kRight; }
+cv::Scalar trunk_colour() { return kTrunk; }
+
 void draw_caption(cv::Mat& image, const std::string& text) {
   const int margin = static_cast<int>(std::lround(16 * text_scale(image)));
   draw_text(image, text, {margin, 2 * margin + margin / 2});

@@ -36,6 +36,14 @@ void draw_skeleton(cv::Mat& image, const Camera& camera, const JointPositions& j
 void draw_spread(cv::Mat& image, const Camera& camera, std::span<const JointPositions> skeletons,
                  bool arms, double opacity);
 
+// A thin cross at a point of the image, `arm_px` long to all sides: what a detector saw there.
+void draw_cross(cv::Mat& image, const Eigen::Vector2d& px, const cv::Scalar& bgr, double arm_px);
+
+// The colours of left and right limbs and of the trunk.
+cv::Scalar left_colour();
+cv::Scalar right_colour();
+cv::Scalar trunk_colour();
+
 // A line of text in the upper left corner, readable on any ground.
 void draw_caption(cv::Mat& image, const std::string& text);
 

@@ -16,6 +16,9 @@ constexpr double kWalker = 7.54e3;
 constexpr double kPartPosed = 60;
 constexpr double kFrame = 1.23e5;
 
+// Of MoveNet Lightning on one thread, by hand.
+constexpr double kNetworkLook = 14e6;
+
 // Share of the moves that the first camera lets through (filter/particle_filter.h).
 constexpr double kPassed = 0.57;
 
@@ -26,6 +29,7 @@ constexpr double kMsPerNs = 1e-6;
 
 Costs camera_cost(const FrameWork& work, const CameraWork& camera, double poses) {
   Costs out{{"decoding", kMsPerNs * kDecoding * camera.filmed_px}};
+  if (camera.looks > 0) out.emplace_back("pose network", kMsPerNs * kNetworkLook * camera.looks);
   bool weighs = false;
   Terms::each([&]<typename Term>() {
     const TermWork asked{camera.region_px, camera.rows, poses, work.parts, work.classes};

@@ -2,6 +2,7 @@
 // takes.
 //
 //   decoding     a d                      a: pixels of a camera's frame as it is filmed
+//   pose network i                        for every cut-out that it looks at
 //   each likelihood term that is on, see Term::cost (observation/terms.h), such as
 //     background   b r                    r: pixels of the shrunk image around the walker
 //     appearance   c k                    k: appearances told apart
@@ -35,6 +36,7 @@ struct CameraWork {
   double filmed_px = 0;  // pixels of a frame as it is filmed
   double region_px = 0;  // pixels of the shrunk image around the walker
   double rows = 0;       // that the walker covers there
+  double looks = 0;      // of the pose network, a frame
 };
 
 struct FrameWork {

@@ -9,6 +9,7 @@
 
 #include "core/conventions.h"
 #include "io/video/scene_video.h"
+#include "jobs/track/detections.h"
 #include "jobs/track/track_setup.h"
 #include "tracker/walker_filter.h"
 
@@ -22,6 +23,12 @@ constexpr double kPercent = 100;
 // seen obliquely, and a quarter of that above and below.
 constexpr double kBoxWidth = 1.2, kBoxRise = 0.25;  // m
 
+// How often the pose network looks into a frame; not where there are keypoint files.
+double looks_of(const SceneCamera& camera, const KeypointConfig& keypoints) {
+  if (!is_on(keypoints) || !camera.keypoints.path.empty() || camera.video.empty()) return 0;
+  return 1.0 / keypoints.every;
+}
+
 CameraWork camera_work(const Scene& scene, const SceneCamera& camera, const Config& config) {
   const WorkingScale scale = working_scale(scene, camera.camera, config);
   const double rows = scale.person_px / scale.shrink, height = scene.subject.height;
@@ -31,7 +38,7 @@ CameraWork camera_work(const Scene& scene, const SceneCamera& camera, const Conf
   return {camera.name, static_cast<double>(camera.camera.width_px) * camera.camera.height_px,
           std::min(image_width, kBoxWidth * px_per_m) *
               std::min(image_height, (height + kBoxRise) * px_per_m),
-          std::min(image_height, rows)};
+          std::min(image_height, rows), looks_of(camera, config.observation.keypoints)};
 }
 
 int classes_of(const ObservationConfig& config, const Body& body) {
@@ -231,6 +238,11 @@ std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& c
         fmt::format("Flow: silhouettes hold the track of a walker who stands out from the "
                     "scene; observation.flow.enabled=false {}.",
                     without("observation.flow.enabled=false")));
+  if (is_on(images.keypoints) && scene.cameras.size() > kCamerasInDoubt)
+    out.push_back(
+        fmt::format("Keypoints: with {} cameras silhouettes alone tell left from right; "
+                    "observation.keypoints.enabled=off {}.",
+                    scene.cameras.size(), without("observation.keypoints.enabled=off")));
   if (values.body.arms)
     out.push_back(
         fmt::format("Arms: legs, pelvis and trunk are tracked without them; "
@@ -252,7 +264,9 @@ std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& c
 
 }  // namespace
 
-Plan plan_scene(const Scene& scene, const ConfigWithOrigin& config) {
+Plan plan_scene(const Scene& scene, const ConfigWithOrigin& given) {
+  ConfigWithOrigin config = given;
+  config.values.observation.keypoints = decided_keypoints(scene, given.values);
   Plan plan;
   plan.scene = scene.file;
   plan.frame_rate = SceneVideo(scene).frame_rate();

@@ -18,14 +18,15 @@ namespace {
 constexpr const char* kOrigin = "--over";
 constexpr std::string_view kCameras = "cameras", kTerms = "terms", kAllTerms = "all",
                            kConfig = "config";
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kShortNames{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kShortNames{
     {{"model", "motion.model"},
      {"path", "motion.path"},
      {"particles", "filter.particles"},
      {"scale", "observation.person_px"},
      {"moves", "filter.moves"},
      {"layers", "filter.max_layers"},
-     {"arms", "body.arms"}}};
+     {"arms", "body.arms"},
+     {"keypoints", "observation.keypoints.enabled"}}};
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -108,7 +109,8 @@ std::vector<std::pair<std::string, std::string>> term_flags(const std::string& v
 
 // How much a value promises; nullopt for a word.
 std::optional<double> richness(const std::string& knob, const std::string& value) {
-  if (value == "true" || value == "false") return value == "true" ? 1 : 0;
+  if (value == "true" || value == "on") return 1;
+  if (value == "false" || value == "off") return 0;
   if (value == kAllTerms) return static_cast<double>(term_switches().size());
   const std::optional<double> number = number_from_text(value);
   if (number || (knob != kCameras && knob != kTerms)) return number;

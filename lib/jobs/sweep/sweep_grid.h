@@ -4,6 +4,7 @@
 //   particles=50:100:300      filter.particles           scale=60:120     observation.person_px
 //   moves, layers, arms       filter.moves, filter.max_layers, body.arms
 //   model=markov:kneed        motion.model          path=sagittal:spatial  motion.path
+//   keypoints=off:on          observation.keypoints.enabled
 //   terms=all:background+flow   the likelihood terms that are on, by their switches
 //   cameras=1:2:side+front      the first so many of the scene, or those named
 //   config=fast:balanced:mine.yaml   what -c takes; the other knobs come on top of it

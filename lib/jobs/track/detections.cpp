@@ -38,10 +38,8 @@ KeypointFrames checked_keypoints(const SceneCamera& camera) {
 }  // namespace
 
 bool keypoints_wanted(const Scene& scene, const KeypointConfig& config) {
-  if (config.enabled != KeypointSwitch::kAuto) return config.enabled == KeypointSwitch::kOn;
-  if (all_have_files(scene)) return true;
-  return scene.cameras.size() <= kCamerasInDoubt && has_pose_net() &&
-         pose_model_file(config.model).has_value();
+  return config.enabled == KeypointSwitch::kOn ||
+         (config.enabled == KeypointSwitch::kAuto && all_have_files(scene));
 }
 
 KeypointConfig decided_keypoints(const Scene& scene, const Config& config) {

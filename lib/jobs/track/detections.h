@@ -24,8 +24,7 @@ struct WorkingScale {
   double person_px;  // height of the standing subject in the image as it is filmed
   int shrink;        // factor by which images are shrunk
 };
-// Whether keypoints are used: as configured, or `auto`: where every camera has a file, or where
-// there are few cameras and a network.
+// Whether keypoints are used: as configured, or `auto`: where every camera has a file.
 bool keypoints_wanted(const Scene& scene, const KeypointConfig& config);
 // The configuration's keypoints with that decided: on or off.
 KeypointConfig decided_keypoints(const Scene& scene, const Config& config);

@@ -11,6 +11,7 @@
 #include "io/archive/run_record.h"
 #include "io/archive/sha256.h"
 #include "io/video/scene_video.h"
+#include "jobs/track/keypoint_results.h"
 #include "jobs/track/planted_track.h"
 #include "jobs/track/quality_words.h"
 #include "jobs/track/report.h"
@@ -157,6 +158,7 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
   const bool paced = job.config.values.budget.frame_ms > 0;
   if (paced) out.notes.push_back(pace_note(job.config.values.budget));
   if (run.stature()) out.notes.push_back(size_note(*run.stature()));
+  for (const std::string& note : run.notes()) out.notes.push_back(note);
   out.numbers = {{"frames", double(frames.records.size())},
                  {"tracked_frames", double(counts.tracked)},
                  {"first_tracked_frame", double(counts.first)},
@@ -177,6 +179,7 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
   const std::vector<double> overlaps = mean_overlaps(frames);
   for (size_t c = 0; c < overlaps.size(); ++c)
     out.numbers.emplace_back(overlap_key(job.scene.cameras[c]), 100 * overlaps[c]);
+  for (const auto& number : keypoint_numbers(run.keypoints())) out.numbers.push_back(number);
   out.quality = quality;
   out.by_frame = {
       {"ess", by_frame(frames, [](const FrameRecord& r) { return r.filter.ess; })},
@@ -191,6 +194,9 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
   add_evidence(job.scene, frames, out.by_frame);
   for (size_t c = 0; c < job.scene.cameras.size(); ++c)
     out.by_frame.emplace_back(overlap_key(job.scene.cameras[c]), overlap_percents(frames, c));
+  for (auto& list :
+       keypoint_residuals(frames, with_stature(job.scene, run.stature()), job.config.values))
+    out.by_frame.push_back(std::move(list));
   if (paced) out.by_frame.emplace_back("particles", run.particles_used());
   out.digest = tables.digest;
   out.command_line = job.command_line;
@@ -327,6 +333,7 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
   outcome.tracked = count(frames).tracked;
   if (run.stature()) control.say(size_note(*run.stature()));
+  for (const std::string& note : run.notes()) control.say(note);
   const JointUncertainty uncertainty = uncertainty_of(frames);
   KineticsConfig forces = job.config.values.kinetics;
   forces.cutoff_hz = forces.tracked_cutoff_hz;

@@ -13,8 +13,10 @@
 #include "io/tables/motion_file.h"
 #include "io/video/scene_video.h"
 #include "io/video/video_writer.h"
+#include "jobs/track/keypoint_results.h"
 #include "jobs/track/report.h"
 #include "jobs/track/track_run.h"
+#include "jobs/track/track_setup.h"
 #include "tracker/smooth/model_error.h"
 
 namespace walktrack {
@@ -29,8 +31,10 @@ double time_of(const TrackedFrames& frames, size_t i) {
   return static_cast<double>(i) / frames.frame_rate;
 }
 
+// `shrink`: of the images that `seen` is of.
 void draw_record(const FrameRecord& record, const Camera& camera, bool arms, double time,
-                 cv::Mat& image) {
+                 const KeypointEvidence* seen, int shrink, cv::Mat& image) {
+  if (seen) draw_keypoints(*seen, shrink, image);
   if (record.tracked) {
     draw_spread(image, camera, record.samples, arms, 0.35);
     draw_skeleton(image, camera, record.estimate.joints, arms, 2 * line_thickness(image));
@@ -232,12 +236,17 @@ std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames&
     writers.emplace_back(clips.back().file, cv::Size(camera.width_px, camera.height_px),
                          frames.frame_rate);
   }
+  std::vector<int> shrinks;
+  for (const SceneCamera& camera : job.scene.cameras)
+    shrinks.push_back(working_scale(job.scene, camera.camera, job.config.values).shrink);
   SceneFrames images;
   const bool arms = job.config.values.body.arms;
   for (size_t i = 0; i < frames.records.size() && video.read(images); ++i) {
+    const FrameRecord record = frames.records[i];
     for (size_t c = 0; c < writers.size(); ++c) {
-      draw_record(frames.records[i], job.scene.cameras[c].camera, arms, time_of(frames, i),
-                  images.images[c]);
+      const bool any = images.fresh[c] && !record.keypoints.empty();
+      draw_record(record, job.scene.cameras[c].camera, arms, time_of(frames, i),
+                  any ? &record.keypoints[c] : nullptr, shrinks[c], images.images[c]);
       writers[c].write(images.images[c]);
     }
     control.progress("drawing", i + 1, frames.records.size());

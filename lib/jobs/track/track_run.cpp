@@ -111,6 +111,20 @@ bool TrackRun::finish(bool resumable) {
   return noted || (resumable && std::filesystem::exists(checkpoint_file_));
 }
 
+std::vector<KeypointTerm::State> TrackRun::keypoints() const {
+  std::vector<KeypointTerm::State> out;
+  for (const Observer& observer : setup_.observers) out.push_back(observer.state());
+  return out;
+}
+
+std::vector<std::string> TrackRun::notes() const {
+  std::vector<int> frames;
+  for (size_t c = 0; c < setup_.observers.size(); ++c)
+    frames.push_back(job_.scene.cameras[c].video.empty() ? 0
+                                                         : video_.source(c).facts().frame_count);
+  return setup_.detections.notes(frames);
+}
+
 Region TrackRun::region(size_t camera) const {
   if (!tracker_.tracking()) {
     Region region = everywhere_[camera];

@@ -63,6 +63,10 @@ class TrackRun {
   std::optional<Stature> stature() const { return tracker_.stature(); }
   int threads() const { return threads_; }
   const TrackedFrames& frames() const { return frames_; }
+  // By camera.
+  std::vector<KeypointTerm::State> keypoints() const;
+  // What is odd about keypoint files, one sentence each.
+  std::vector<std::string> notes() const;
   // By frame, NaN while not tracking; empty without a budget.
   const std::vector<double>& particles_used() const { return particles_used_; }
   Stopwatch& watch() { return watch_; }

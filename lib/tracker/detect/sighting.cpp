@@ -327,6 +327,7 @@ std::optional<Sighting> find_walk(const WindowCandidates& candidates, const Wind
   constexpr size_t kRefined = 4, kStride = 3;
   const Window window{score, candidates.frames, dt, threads};
   std::vector<Walk> walks = proposed_walks(candidates, dt, config);
+  for (const Sighting& line : candidates.lines) walks.push_back({line, 0});
   if (walks.empty()) return std::nullopt;
   parallel_for(walks.size(), threads, [&](size_t i) {
     walks[i].score = line_score({score, candidates.frames, dt, 1}, walks[i].line, kStride);

@@ -71,6 +71,7 @@ WindowEnds window_ends(size_t frames);
 struct WindowCandidates {
   size_t frames;  // of the window
   std::span<const Place> early, late;
+  std::span<const Sighting> lines{};  // further ones to try, from elsewhere
 };
 
 // The walk through a window's frames, dt apart; nullopt when nobody walks there, is cut

@@ -1,0 +1,95 @@
+#include "jobs/track/detections.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "jobs/track/pose_model.h"
+#include "tests/io/sample_files.h"
+#include "tests/message_of.h"
+
+namespace walktrack {
+namespace {
+
+using testing::HasSubstr;
+
+std::string person_json() {
+  std::string numbers;
+  for (int i = 0; i < 17; ++i) numbers += std::string(i ? ", " : "") + "20, 30, 0.9";
+  return R"({"people": [{"pose_keypoints_2d": [)" + numbers + "]}]}";
+}
+
+class DetectionsTest : public testing::Test {
+ protected:
+  DetectionsTest() {
+    folder_.write("a.yaml", kCalibrationText);
+    folder_.write("a.mp4", "");
+    folder_.write("points/a_000000000005_keypoints.json", person_json());
+  }
+  Scene scene(const std::string& cameras) const {
+    return read_scene(folder_.write("scene.yaml", "frame_rate: 30\ncameras:\n" + cameras));
+  }
+  Scene with_files() const {
+    return scene("  - {name: a, video: a.mp4, calibration: a.yaml, keypoints: points}\n");
+  }
+  static Detections of(const Scene& scene, const KeypointConfig& config = {}) {
+    return Detections(scene, config, std::vector<WorkingScale>(scene.cameras.size(), {40, 1}));
+  }
+  TemporaryFolder folder_;
+  const cv::Mat picture_ = cv::Mat::zeros(48, 64, CV_8UC3);
+};
+
+TEST_F(DetectionsTest, FilesAreAskedByTheVideosOwnNumber) {
+  Detections detections = of(with_files());
+  EXPECT_TRUE(detections.on());
+  EXPECT_FALSE(detections.uses_network());
+  EXPECT_TRUE(detections.look(0, {picture_, 0, 5, {}, true}).empty());
+  EXPECT_EQ(detections.look(0, {picture_, 5, 0, {}, true}).size(), 1u);
+  EXPECT_THAT(detections.notes({9}),
+              testing::ElementsAre("keypoints of camera a: keypoints end with frame 5, the video "
+                                   "with frame 8"));
+}
+
+TEST_F(DetectionsTest, AutoIsForFiles) {
+  KeypointConfig config;
+  EXPECT_TRUE(keypoints_wanted(with_files(), config));
+  const std::string camera = "  - {name: NAME, video: a.mp4, calibration: a.yaml}\n";
+  std::string cameras;
+  for (const char* name : {"a", "b", "c"}) cameras += replaced(camera, "NAME", name);
+  EXPECT_FALSE(keypoints_wanted(scene(cameras), config));
+  config.enabled = KeypointSwitch::kOff;
+  EXPECT_FALSE(keypoints_wanted(with_files(), config));
+  config.enabled = KeypointSwitch::kOn;
+  EXPECT_TRUE(keypoints_wanted(scene(cameras), config));
+}
+
+TEST_F(DetectionsTest, SaysThatTheModelIsMissing) {
+  const Scene without = scene("  - {name: a, video: a.mp4, calibration: a.yaml}\n");
+  const KeypointConfig config{.enabled = KeypointSwitch::kOn, .every = 1, .model = "none.onnx"};
+  EXPECT_FALSE(message_of<std::runtime_error>([&] { of(without, config); }).empty());
+}
+
+TEST_F(DetectionsTest, NetworkLooksAtEveryNthFrame) {
+  if (!has_pose_net()) GTEST_SKIP() << "built without OpenCV's dnn module";
+  ASSERT_TRUE(pose_model_file(std::string(kShippedModel)));
+  const Scene without = scene("  - {name: a, video: a.mp4, calibration: a.yaml}\n");
+  Detections detections = of(without, {.enabled = KeypointSwitch::kOn, .every = 2});
+  EXPECT_TRUE(detections.uses_network());
+  const Region around{{10, 5, 40, 45}, 0.04, false};
+  EXPECT_EQ(detections.look(0, {picture_, 0, 0, around, true}).size(), 1u);
+  EXPECT_TRUE(detections.look(0, {picture_, 1, 1, around, true}).empty());
+  EXPECT_TRUE(detections.look(0, {picture_, 2, 2, {}, true}).empty());  // out of the picture
+}
+
+TEST_F(DetectionsTest, OfAnotherImageSizeAreRefused) {
+  std::string text = person_json();
+  for (size_t at = 0; (at = text.find("20, 30", at)) != std::string::npos;)
+    text.replace(at, 6, "900, 30");
+  folder_.write("points/a_000000000005_keypoints.json", text);
+  EXPECT_THAT(message_of([&] { of(with_files()); }),
+              HasSubstr("points: found points as far as (900, 30) px, allowed 64x48 px"));
+}
+
+}  // namespace
+}  // namespace walktrack

@@ -1,0 +1,73 @@
+#include "jobs/track/person_finder.h"
+
+#include <gtest/gtest.h>
+
+namespace walktrack {
+namespace {
+
+using enum KeypointName;
+
+DetectedPerson standing(float x, float foot_y, float height) {
+  DetectedPerson person;
+  const auto put = [&](KeypointName name, float dx, float up) {
+    person[name] = {x + dx * height, foot_y - up * height, 0.9f};
+  };
+  put(kLeftShoulder, 0.1f, 0.82f);
+  put(kRightShoulder, -0.1f, 0.82f);
+  put(kLeftHip, 0.05f, 0.53f);
+  put(kRightHip, -0.05f, 0.53f);
+  put(kLeftAnkle, 0.05f, 0.04f);
+  put(kRightAnkle, -0.05f, 0.04f);
+  return person;
+}
+
+bool holds(const CutOut& cut_out, float x, float y) {
+  const auto x0 = static_cast<float>(cut_out.x0), y0 = static_cast<float>(cut_out.y0);
+  const auto side = static_cast<float>(cut_out.side_px);
+  return x >= x0 && x < x0 + side && y >= y0 && y < y0 + side;
+}
+
+TEST(CutOut, HoldsThePersonWithRoomToSpare) {
+  const auto cut_out = cut_out_around(standing(300, 700, 400));
+  ASSERT_TRUE(cut_out);
+  EXPECT_GT(cut_out->side_px, 1.2 * 400);
+  EXPECT_LT(cut_out->side_px, 1.6 * 400);
+  EXPECT_TRUE(holds(*cut_out, 300, 700));
+  EXPECT_TRUE(holds(*cut_out, 300, 300));
+}
+
+TEST(CutOut, IsNotMadeOfHalfAPerson) {
+  DetectedPerson person = standing(300, 700, 400);
+  person[kLeftHip].confidence = person[kRightHip].confidence = 0.1f;
+  EXPECT_FALSE(cut_out_around(person));
+  EXPECT_FALSE(cut_out_around(DetectedPerson()));
+}
+
+// The region is of the shrunk image.
+TEST(CutOut, IsAroundTheRegion) {
+  const Region region{{40, 20, 80, 120}, 0.02, false};
+  const CutOut cut_out = cut_out_around(region, 3, 1.6);
+  EXPECT_EQ(cut_out.side_px, static_cast<int>(std::lround(kCutOutMargin * 80 * 3)));
+  EXPECT_NEAR(cut_out.x0 + cut_out.side_px / 2.0, 180, 1);
+  EXPECT_NEAR(cut_out.y0 + cut_out.side_px / 2.0, 210, 1);
+}
+
+// Wherever somebody stands, one of the squares holds them whole and large enough.
+TEST(Squares, HoldAPersonAnywhere) {
+  const double height = 130;
+  const auto squares = squares_over(640, 480, height);
+  for (float x = 0; x < 640; x += 20) {
+    for (float y = 0; y < 480 - static_cast<float>(height); y += 20) {
+      const bool held = std::any_of(squares.begin() + 1, squares.end(), [&](const CutOut& square) {
+        return holds(square, x, y) && holds(square, x, y + static_cast<float>(height)) &&
+               square.side_px < 3 * height;
+      });
+      EXPECT_TRUE(held) << x << " " << y;
+    }
+  }
+}
+
+TEST(Squares, AreOneForALargePerson) { EXPECT_EQ(squares_over(640, 480, 400).size(), 1u); }
+
+}  // namespace
+}  // namespace walktrack
