@@ -203,6 +203,16 @@ TEST_F(ResultFolders, OfNumberedFiles) {
   expect_refused(of, "labels: found a file");
 }
 
+TEST_F(ResultFolders, OfNumberedFilesThatBeginWithAWord) {
+  const Outputs of = outputs({numbered_files("keypoints", "_k.json", "side_")});
+  const ResultFolder result(of, false);
+  fs::create_directories(of.folder / "keypoints");
+  result.write("keypoints/side_000012_k.json", "");
+  EXPECT_THROW(result.file("keypoints/front_000012_k.json"), std::logic_error);
+  EXPECT_EQ(refusal(of), "");
+  EXPECT_FALSE(there("keypoints"));
+}
+
 TEST_F(ResultFolders, WriteNoFileThatTheyHaveNotNamed) {
   const ResultFolder result(outputs(), false);
   EXPECT_THROW(result.file("planted_frames.bin"), std::logic_error);

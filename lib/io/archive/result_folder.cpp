@@ -91,11 +91,12 @@ void check_name(const std::string& name) {
 
 void check_file(const std::string& file) {
   const size_t number = file.find(kNumber), folder = file.rfind('/', number);
-  if (number == std::string::npos || folder == std::string::npos || folder + 1 != number)
-    return check_name(file);
+  if (number == std::string::npos || folder == std::string::npos) return check_name(file);
   std::istringstream folders(file.substr(0, folder));
   for (std::string part; std::getline(folders, part, '/');) check_name(part);
-  check_name(fmt::format("0{}", file.substr(number + 1)));
+  std::string numbered = file.substr(folder + 1);
+  numbered[number - folder - 1] = '0';
+  check_name(numbered);
 }
 
 // With those that every result has.

@@ -278,7 +278,8 @@ Scene read_scene(const fs::path& path) {
 std::vector<fs::path> files_of(const Scene& scene) {
   std::vector<fs::path> files{scene.file};
   for (const SceneCamera& camera : scene.cameras)
-    files.insert(files.end(), {camera.video, camera.calibration, camera.background});
+    files.insert(files.end(),
+                 {camera.video, camera.calibration, camera.background, camera.keypoints.path});
   files.push_back(scene.truth);
   std::erase(files, fs::path());
   return files;

@@ -71,7 +71,7 @@ std::vector<Polygon> occluders_at(const SceneCamera& camera, double time);
 
 Scene read_scene(const std::filesystem::path& path);
 
-// The scene's own file and all that it names: videos, calibrations, backgrounds, truth.
+// The scene's own file and all that it names: videos, calibrations, backgrounds, keypoints, truth.
 std::vector<std::filesystem::path> files_of(const Scene& scene);
 
 // Whether a path stands for many files, e.g. frames/%05d.png.

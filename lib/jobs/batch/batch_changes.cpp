@@ -33,9 +33,7 @@ std::string changes_of(const BatchJob& job, const Sequence& sequence) {
   if (template_changed(job, sequence))
     return job.scene_template.filename().string() + " has changed";
   try {
-    const Origin inputs =
-        input_digests(read_scene(sequence.scene), job.config->values.observation.keypoints);
-    return changes_since(sequence.output, origin_of(*job.config, inputs));
+    return changes_since(sequence.output, origin_of_track(read_scene(sequence.scene), *job.config));
   } catch (const InputError& error) {
     return error.what();  // it could be read once
   }

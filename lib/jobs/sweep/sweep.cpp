@@ -111,10 +111,8 @@ class Sweep {
   // Whether the run's folder holds what this program would measure now.
   bool measured(const TrackJob& track) const {
     if (!is_complete_result(track.output)) return false;
-    const std::string changed = changes_since(
-        track.output,
-        origin_of(track.config,
-                  input_digests(track.scene, track.config.values.observation.keypoints)));
+    const std::string changed =
+        changes_since(track.output, origin_of_track(track.scene, track.config));
     if (changed.empty()) return true;
     throw UsageError(
         fmt::format("{} holds a run of other settings or inputs ({}); -y measures all runs again",

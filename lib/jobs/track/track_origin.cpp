@@ -70,6 +70,11 @@ Origin origin_of(const ConfigWithOrigin& config, const Origin& inputs) {
   return origin_in(run_json(record));
 }
 
+Origin origin_of_track(const Scene& scene, ConfigWithOrigin config) {
+  config.values.observation.keypoints = decided_keypoints(scene, config.values);
+  return origin_of(config, input_digests(scene, config.values.observation.keypoints));
+}
+
 std::string changes_since(const fs::path& folder, const Origin& wanted) {
   if (!is_complete_result(folder)) return read_checkpoint(folder / kCheckpointFile, wanted).changed;
   return differences(origin_in(read_text_file(folder / kRunFile, kMaxRecordBytes)), wanted);

@@ -16,6 +16,10 @@ Origin input_digests(const Scene& scene, const KeypointConfig& keypoints);
 // Program, inputs and configuration (threads change no result).
 Origin origin_of(const ConfigWithOrigin& config, const Origin& inputs);
 
+// What a track of the scene with this configuration would depend on, what the configuration leaves
+// to the scene decided.
+Origin origin_of_track(const Scene& scene, ConfigWithOrigin config);
+
 // What the result that is in the folder was made of otherwise than is wanted now, in words; that
 // of its checkpoint where it is not complete. "" = nothing, or there is neither.
 std::string changes_since(const std::filesystem::path& folder, const Origin& wanted);
