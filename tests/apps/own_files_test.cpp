@@ -41,7 +41,7 @@ class OwnFiles : public testing::Test {
             "--threads", "1",
             "--set",     "filter.particles=5",
             "--set",     "start.particles=5",
-            "--set",     "gates.least_steps=0",
+            "-c",        WALKTRACK_SOURCE_DIR "/tests/any_quality.yaml",
             "-o",        output};
   }
   // The walk as somebody else has made it: without our marker.

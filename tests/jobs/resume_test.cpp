@@ -163,7 +163,7 @@ TEST_F(Resume, WhoIsToldToStopLeavesACheckpointOfThatFrame) {
   EXPECT_TRUE(fs::exists(folder_ / "stopped/run.partial.json"));
   // Where to look in frame 15 was chosen beside the particles of frame 14, from the pose in 13.
   const auto found_there = read_checkpoint(folder_ / "stopped/checkpoint.bin",
-                                           origin_of(stopped.config, input_digests(stopped.scene)))
+                                           origin_of_track(stopped.scene, stopped.config))
                                .checkpoint;
   ASSERT_TRUE(found_there);
   EXPECT_EQ(found_there->regions.size(), stopped.scene.cameras.size());
