@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "body/kinematics.h"
 #include "core/conventions.h"
@@ -60,8 +59,7 @@ FigureFit figure_fit(const TrackerScene& scene, const SceneEvidence& evidence, c
   const PosedParts parts = parts_of(scene.model.body, pose);
   for (size_t c = 0; c < evidence.size(); ++c) {
     const Overlap found = overlap(evidence[c].planes, project_parts(scene.cameras[c], parts));
-    out.overlap.push_back(found.known() > 0 ? found.share()
-                                            : std::numeric_limits<double>::quiet_NaN());
+    out.overlap.push_back(found.known() > 0 ? found.share() : kNoOverlap);
   }
   if (!evidence.empty()) out.better_beside = better_beside(scene, evidence, pose);
   return out;
