@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "body/kinematics.h"
 #include "core/conventions.h"
@@ -59,7 +60,8 @@ FigureFit figure_fit(const TrackerScene& scene, const SceneEvidence& evidence, c
   const PosedParts parts = parts_of(scene.model.body, pose);
   for (size_t c = 0; c < evidence.size(); ++c) {
     const Overlap found = overlap(evidence[c].planes, project_parts(scene.cameras[c], parts));
-    out.overlap.push_back(found.known() > 0 ? found.share() : kNoOverlap);
+    out.overlap.push_back(found.known() > 0 ? found.share()
+                                            : std::numeric_limits<double>::quiet_NaN());
   }
   if (!evidence.empty()) out.better_beside = better_beside(scene, evidence, pose);
   return out;

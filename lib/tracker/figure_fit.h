@@ -8,11 +8,8 @@
 
 namespace walktrack {
 
-// The overlap in a camera that tells nothing.
-inline constexpr double kNoOverlap = -1;
-
 struct FigureFit {
-  std::vector<double> overlap;  // by camera (Overlap::share), or kNoOverlap
+  std::vector<double> overlap;  // by camera (Overlap::share); NaN where nothing is known
   // By how much the images speak more for the best of the figures that stand 5 to 40 cm beside this
   // one, or turn away from it by 15 or 30 degrees, than for this one: a share of what they say for
   // that. 0 if they speak for none of them more, or for none at all.

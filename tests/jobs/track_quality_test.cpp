@@ -1,6 +1,7 @@
 #include "jobs/track/track_quality.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -110,11 +111,11 @@ TEST_F(QualityOf, WhoMovesUntrackedCountsFromTheFirstFrameOn) {
 
 TEST_F(QualityOf, AFigureBesideThePersonFailsInTheWorstCamera) {
   FrameRecord beside = still();
-  beside.fit.overlap = {0.8, 0.4, kNoOverlap};
+  beside.fit.overlap = {0.8, 0.4, std::nan("")};
   const Quality quality = quality_of(standing(4, {1}, beside));
   EXPECT_NEAR(named(quality, "overlap_percent").value, 40, 1e-9);
   EXPECT_FALSE(named(quality, "overlap_percent").passed());
-  beside.fit.overlap = {0.8, 0.75, kNoOverlap};
+  beside.fit.overlap = {0.8, 0.75, std::nan("")};
   EXPECT_TRUE(named(quality_of(standing(4, {}, beside)), "overlap_percent").passed());
   EXPECT_THROW(named(quality_of(standing(4, {})), "overlap_percent"), std::out_of_range)
       << "no silhouettes";

@@ -61,8 +61,8 @@ std::vector<double> overlap_percents(const TrackedFrames& frames, size_t camera)
   std::vector<double> out;
   for (const FrameRecord& record : frames.records) {
     const std::vector<double>& all = record.fit.overlap;
-    const bool told = record.tracked && camera < all.size() && all[camera] != kNoOverlap;
-    out.push_back(told ? 100 * all[camera] : std::numeric_limits<double>::quiet_NaN());
+    out.push_back(record.tracked && camera < all.size() ? 100 * all[camera]
+                                                        : std::numeric_limits<double>::quiet_NaN());
   }
   return out;
 }

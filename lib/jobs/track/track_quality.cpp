@@ -121,7 +121,7 @@ std::vector<double> mean_overlaps(const TrackedFrames& frames) {
     sums.resize(std::max(sums.size(), overlaps.size()));
     counts.resize(sums.size());
     for (size_t c = 0; record.tracked && c < overlaps.size(); ++c) {
-      if (overlaps[c] == kNoOverlap) continue;
+      if (std::isnan(overlaps[c])) continue;
       sums[c] += overlaps[c];
       ++counts[c];
     }
