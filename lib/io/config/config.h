@@ -30,7 +30,7 @@ struct GateConfig {
   double better_beside = 0.005;     // of the evidence, mean over frames (tracker/figure_fit.h)
   double legs_exchanged = 0.5;      // mean probability
   double leg_swaps = 10;            // a minute
-  double steps_off_way = 0.25;      // of the pelvis' way, by which the steps miss it
+  double steps_off_way = 0.2;       // of the pelvis' way, by which the steps miss it
   double longest_step = 1.2;        // leg lengths
   double shortest_step = 0;         // m along the way; below 0 a foot ends behind the other
   double fastest = 2.5;             // m/s over half a second
