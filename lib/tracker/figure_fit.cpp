@@ -7,6 +7,7 @@
 #include "body/kinematics.h"
 #include "core/conventions.h"
 #include "observation/overlap.h"
+#include "observation/silhouette_term.h"
 
 namespace walktrack {
 
@@ -20,10 +21,11 @@ PosedParts parts_of(const Body& body, const Pose& pose) {
 }
 
 double log_likelihood(const TrackerScene& scene, const SceneEvidence& evidence, const Pose& pose) {
-  const PosedParts parts = parts_of(scene.model.body, pose);
+  const PosedBody posed(scene.model.body, pose);
   double sum = 0;
   for (size_t c = 0; c < evidence.size(); ++c)
-    sum += silhouette_log_likelihood(evidence[c], project_parts(scene.cameras[c], parts));
+    sum += SilhouetteTerm::log_likelihood(scene.observation, evidence[c], scene.cameras[c], posed,
+                                          nullptr);
   return sum;
 }
 
