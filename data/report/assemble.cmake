@@ -23,7 +23,7 @@ string(REPLACE "<!--STYLE-->\n" "${STYLE}" BATCH "${BATCH}")
 string(REPLACE "<!--SCRIPT-->\n" "${SCRIPT}" BATCH "${BATCH}")
 
 file(WRITE ${OUTPUT} "// Made from data/report by assemble.cmake.
-#include \"io/report_page.h\"
+#include \"io/drawing/report_page.h\"
 
 namespace walktrack {
 

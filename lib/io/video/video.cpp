@@ -1,7 +1,6 @@
 #include "io/video/video.h"
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -123,17 +122,6 @@ bool FrameSource::read(cv::Mat& frame) {
   if (facts_.rotated) turn(unturned_, facts_.rotation_deg, frame);
   ++next_frame_;
   return true;
-}
-
-double FrameSource::time() const {
-  return capture_ ? 1e-3 * capture_->get(cv::CAP_PROP_POS_MSEC)
-                  : std::numeric_limits<double>::quiet_NaN();
-}
-
-int FrameSource::missing_before() const {
-  return images_.empty() || next_frame_ == 0
-             ? 0
-             : missing_before_[static_cast<size_t>(next_frame_) - 1];
 }
 
 bool FrameSource::read_image(cv::Mat& frame) {

@@ -72,6 +72,7 @@ CheckReport check_scene(const CheckJob& job, const JobControl& control) {
   const bool poses_can_be = !report.failed();
   // Where calibrations or sizes are wrong, what is seen in the images means nothing.
   if (check_videos(scene, control, report) && poses_can_be) check_steps(scene, control, report);
+  check_decoding(scene, control, report);
   if (!scene.height_given)
     report.findings.push_back(
         {"", false,
