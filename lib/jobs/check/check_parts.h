@@ -32,8 +32,12 @@ using FigurePath = std::vector<std::optional<Figure>>;
 
 // The figures' paths through the videos, by camera, from the first frame on, at most
 // kMostSyncFrames.
-std::vector<FigurePath> figure_paths(const Scene& scene, const JobControl& control);
-inline constexpr int kMostSyncFrames = 360;
+struct SeenFigures {
+  double frame_rate = 0;  // of the scene, Hz
+  std::vector<FigurePath> paths;
+};
+SeenFigures figures_in(const Scene& scene, const JobControl& control);
+inline constexpr int kMostSyncFrames = 300;
 
 // Cameras out of step, found from three or more paths: the vertical planes through the figure, seen
 // by all cameras at one instant, meet in one line. Every single camera that could be shifted to

@@ -27,7 +27,8 @@ constexpr int kFewestInstants = 20;
 // One camera is said to be late when the planes miss each other by more than shadows and arms make
 // them (m), and the lag brings them this much nearer.
 constexpr double kClearGap = 0.012, kClearGain = 0.6;
-constexpr double kParallel = 0.03;  // smallest determinant of the planes' normals that still meet
+constexpr double kBeforeLoss = 0.3;  // s by which the moment of a loss may be told too late
+constexpr double kParallel = 0.03;   // smallest determinant of the planes' normals that still meet
 
 // The vertical plane through a camera and the figure: normal . x = offset on the ground.
 struct Plane {
@@ -95,35 +96,40 @@ std::string start_cure(const Scene& scene, int lag) {
                      camera.name);
 }
 
-void say_lost(const Scene& scene, const PairLag& lag, CheckReport& report) {
+void say_lost(const Scene& scene, const PairLag& lag, double frame_rate, CheckReport& report) {
   const int change = lag.after - lag.before;
   // The camera that lost frames shows things earlier from then on.
   const SceneCamera& camera = scene.cameras[change < 0 ? 1 : 0];
   const SceneCamera& other = scene.cameras[change < 0 ? 0 : 1];
-  report.findings.push_back(
+  const int near = scene.first_frame + lag.changes_at;
+  const int safe = near - static_cast<int>(std::lround(kBeforeLoss * frame_rate));
+  // Before unequal lengths, which come of it.
+  report.findings.insert(
+      report.findings.begin(),
       {camera.name, true,
-       fmt::format("about {} frames are missing near frame {}: from there on it is ahead of {} by "
-                   "so many",
-                   std::abs(change), scene.first_frame + lag.changes_at, other.name),
+       fmt::format("about {} frames are missing near frame {}: from there on it is ahead of {}",
+                   std::abs(change), near, other.name),
        fmt::format("give the file its time stamps back, or make it images whose numbers leave the "
                    "lost ones out; last_frame: {} tracks what comes before",
-                   scene.first_frame + lag.changes_at - 1)});
+                   safe)});
 }
 
-void say_pair_lag(const Scene& scene, const std::optional<PairLag>& lag, CheckReport& report) {
+void say_pair_lag(const Scene& scene, const std::optional<PairLag>& lag, double frame_rate,
+                  CheckReport& report) {
   if (!lag) {
     report.findings.push_back({"", false, "whether the cameras are in step could not be seen",
                                "it takes somebody who walks through both pictures"});
     return;
   }
-  if (lag->before != lag->after) return say_lost(scene, *lag, report);
+  if (lag->before != lag->after) return say_lost(scene, *lag, frame_rate, report);
   if (lag->after == 0) return;
   const SceneCamera& late = scene.cameras[lag->after > 0 ? 1 : 0];
-  report.findings.push_back({"", true,
-                             fmt::format("the cameras are out of step: {} shows things {} frames "
-                                         "later than the other",
-                                         late.name, std::abs(lag->after)),
-                             start_cure(scene, lag->after)});
+  report.findings.insert(report.findings.begin(),
+                         {"", true,
+                          fmt::format("the cameras are out of step: {} shows things {} frames "
+                                      "later than the other",
+                                      late.name, std::abs(lag->after)),
+                          start_cure(scene, lag->after)});
 }
 
 }  // namespace
@@ -151,13 +157,20 @@ std::vector<OutOfStep> find_out_of_step(const std::vector<Camera>& cameras,
 void check_steps(const Scene& scene, const JobControl& control, CheckReport& report) {
   if (scene.cameras.size() < 2) return;
   std::vector<Camera> cameras;
-  for (const SceneCamera& camera : scene.cameras) cameras.push_back(camera.camera);
-  const std::vector<FigurePath> paths = figure_paths(scene, control);
-  if (scene.cameras.size() == 2) {
-    say_pair_lag(scene, find_pair_lag(cameras, paths, scene.frame_rate.value_or(30)), report);
+  for (const SceneCamera& camera : scene.cameras) {
+    cameras.push_back(camera.camera);
+    // A lag is a number of frames.
+    if (!camera.frame_rate || camera.frame_rate == scene.frame_rate) continue;
+    report.findings.push_back({"", false, "whether the cameras are in step is not checked",
+                               "it takes cameras of one frame rate"});
     return;
   }
-  const std::vector<OutOfStep> found = find_out_of_step(cameras, paths);
+  const SeenFigures seen = figures_in(scene, control);
+  if (control.stopping()) return;
+  if (scene.cameras.size() == 2)
+    return say_pair_lag(scene, find_pair_lag(cameras, seen.paths, seen.frame_rate), seen.frame_rate,
+                        report);
+  const std::vector<OutOfStep> found = find_out_of_step(cameras, seen.paths);
   if (found.empty()) return;
   std::string cure;
   for (const OutOfStep& late : found) {

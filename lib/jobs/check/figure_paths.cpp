@@ -23,22 +23,25 @@ constexpr double kUpperPart = 0.4;  // of a figure's height, free of shadow and 
 
 // The frames of one camera, grey and small; empty where it had none of its own.
 struct SmallVideo {
-  double scale = 1;
+  int factor = 1;
   std::vector<cv::Mat> frames;
 
   void add(const cv::Mat& frame) {
     cv::Mat small;
-    cv::resize(frame, small, {}, scale, scale, cv::INTER_AREA);
+    const cv::Size size(frame.cols / factor, frame.rows / factor);
+    cv::resize(frame({{0, 0}, size * factor}), small, size, 0, 0, cv::INTER_AREA);
     cv::cvtColor(small, frames.emplace_back(), cv::COLOR_BGR2GRAY);
   }
 };
 
-std::vector<SmallVideo> small_videos(const Scene& scene, const JobControl& control) {
-  SceneVideo video(scene);
+std::vector<SmallVideo> small_videos(const Scene& scene, SceneVideo& video,
+                                     const JobControl& control) {
   std::vector<SmallVideo> out(scene.cameras.size());
   for (size_t i = 0; i < out.size(); ++i) {
     const Camera& camera = scene.cameras[i].camera;
-    out[i].scale = std::min(1.0, double(kShrunkSide) / std::max(camera.width_px, camera.height_px));
+    // A whole factor averages whole pixels, which is quick.
+    const int side = std::max(camera.width_px, camera.height_px);
+    out[i].factor = (side + kShrunkSide - 1) / kShrunkSide;
   }
   SceneFrames images;
   for (int n = 0; n < kMostSyncFrames && !control.stopping() && video.read(images); ++n) {
@@ -114,8 +117,8 @@ std::optional<Figure> figure_in(const cv::Mat& frame, const cv::Mat& background)
   return figure;
 }
 
-Figure enlarged(Figure figure, double scale) {
-  const auto enlarge = [&](Vector2d& pixel) { pixel = (pixel.array() + 0.5) / scale - 0.5; };
+Figure enlarged(Figure figure, int factor) {
+  const auto enlarge = [&](Vector2d& pixel) { pixel = (pixel.array() + 0.5) * factor - 0.5; };
   enlarge(figure.middle);
   for (auto* ends : {&figure.tops, &figure.bottoms})
     for (Vector2d& pixel : *ends) enlarge(pixel);
@@ -129,17 +132,19 @@ FigurePath path_through(const SmallVideo& video) {
     path.emplace_back();
     if (frame.empty()) continue;
     const auto figure = figure_in(frame, background);
-    if (figure) path.back() = enlarged(*figure, video.scale);
+    if (figure) path.back() = enlarged(*figure, video.factor);
   }
   return path;
 }
 
 }  // namespace
 
-std::vector<FigurePath> figure_paths(const Scene& scene, const JobControl& control) {
-  std::vector<FigurePath> paths;
-  for (const SmallVideo& video : small_videos(scene, control)) paths.push_back(path_through(video));
-  return paths;
+SeenFigures figures_in(const Scene& scene, const JobControl& control) {
+  SceneVideo video(scene);
+  SeenFigures out{video.frame_rate(), {}};
+  for (const SmallVideo& each : small_videos(scene, video, control))
+    out.paths.push_back(path_through(each));
+  return out;
 }
 
 }  // namespace walktrack

@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLongestLag = 1;       // s
 constexpr double kShortestPart = 0.75;  // s, of a video before or after its lag changes
+constexpr double kMostLost = 0.5;       // s of frames that are missing at once
 constexpr double kMoment = 0.25;        // s; frames nearer to each other err together
 constexpr double kNearLine = 0.15;      // sine of the angle to the cameras' line
 constexpr double kTrembling = 0.01;     // m, of an outline's end
@@ -280,10 +281,12 @@ std::optional<PairLag> find_pair_lag(const std::vector<Camera>& cameras,
   };
   const size_t best = best_lag(lags), none = static_cast<size_t>(longest);
   const auto moment = static_cast<size_t>(frames_in(kMoment));
+  const int most_lost = frames_in(kMostLost);
   const Change change =
       best_change(lags, lags[best].mean(), static_cast<size_t>(frames_in(kShortestPart)));
-  if (apart(change.before, change.after) &&
-      is_clear(gain(otherwise(lags, change, best), lags[best], moment)))
+  const bool lost = apart(change.before, change.after) &&
+                    std::abs(lag_of(change.before) - lag_of(change.after)) <= most_lost;
+  if (lost && is_clear(gain(otherwise(lags, change, best), lags[best], moment)))
     return PairLag{lag_of(change.before), lag_of(change.after), static_cast<int>(change.at)};
   if (!apart(best, none) || !is_clear(gain(lags[best], lags[none], moment))) return PairLag{};
   return PairLag{lag_of(best), lag_of(best), 0};

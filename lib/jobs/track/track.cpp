@@ -10,6 +10,7 @@
 #include "io/archive/run_record.h"
 #include "io/archive/sha256.h"
 #include "io/video/scene_video.h"
+#include "jobs/check/check.h"
 #include "jobs/track/planted_track.h"
 #include "jobs/track/report.h"
 #include "jobs/track/track_origin.h"
@@ -93,6 +94,7 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
   out.config = job.config;
   out.status = status_word(outcome.status);
   if (!outcome.trouble.empty()) out.notes.push_back(outcome.trouble);
+  out.notes.insert(out.notes.end(), outcome.checks.begin(), outcome.checks.end());
   const bool paced = job.config.values.budget.frame_ms > 0;
   if (paced) out.notes.push_back(pace_note(job.config.values.budget));
   if (run.stature()) out.notes.push_back(size_note(*run.stature()));
@@ -156,6 +158,26 @@ void require_a_term(const ObservationConfig& observation) {
                             "background, foreground or flow with enabled: true"));
 }
 
+// Says and hands back what the scene's checks found. InputError for the first failure, with its
+// cure, unless failures are to be ignored.
+std::vector<std::string> looked_at(const TrackJob& job, const JobControl& control) {
+  std::vector<std::string> notes;
+  std::string failure;
+  int more = -1;
+  for (const Finding& finding : look_at_scene(job.scene, control).findings) {
+    if (finding.failure && failure.empty()) failure = one_line(finding);
+    if (finding.failure) ++more;
+    notes.push_back((finding.failure ? "a failed check was ignored: " : "") + one_line(finding));
+  }
+  if (!failure.empty() && !job.ignore_checks) {
+    throw InputError(fmt::format(
+        "{}: {}{} (--ignore-checks tracks it as it is)", job.scene.file.string(), failure,
+        more > 0 ? fmt::format("; and {} more, see walktrack check", more) : std::string()));
+  }
+  for (const std::string& note : notes) control.say(note);
+  return notes;
+}
+
 // The checkpoint to go on from, if that is wanted and there is one that fits.
 std::optional<Checkpoint> checkpoint_for(const TrackJob& job, const Origin& origin,
                                          const JobControl& control) {
@@ -191,14 +213,18 @@ bool follow_film(TrackRun& run, const SceneVideo& video, const JobControl& contr
 
 TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   const auto start = Clock::now();
+  const Moment looking;
   require_a_term(job.config.values.observation);
+  TrackOutcome outcome;
+  outcome.checks = looked_at(job, control);
+  const Spent checking = spent_since(looking);
   SceneVideo video(job.scene);
   const Origin origin = origin_of(job);
   std::optional<Checkpoint> checkpoint = checkpoint_for(job, origin, control);
   const ResultFolder folder(job.output, job.overwrite,
                             checkpoint ? kFilesOfWork : std::span<const std::string_view>{});
   TrackRun run(job, video, folder, origin, std::move(checkpoint), control);
-  TrackOutcome outcome;
+  run.watch().add("checks", checking);
   const bool interrupted = follow_film(run, video, control, outcome);
   const Moment writing;
   const SmoothingConfig& smoothing = job.config.values.smoothing;
