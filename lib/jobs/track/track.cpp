@@ -137,13 +137,13 @@ RunRecord record_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
   return out;
 }
 
-TrackStatus judge(const TrackRun& run, const Quality& quality, const SceneVideo& video,
-                  bool interrupted, std::string& trouble) {
+TrackStatus judge(TrackRun& run, const Quality& quality, const SceneVideo& video, bool interrupted,
+                  const JobControl& control, std::string& trouble) {
   if (interrupted) return TrackStatus::kInterrupted;
   trouble = video.trouble();
   if (!trouble.empty()) return TrackStatus::kCutShort;
   if (count(run.frames()).tracked == 0) {
-    trouble = "nobody was found walking";
+    trouble = "nobody was found walking" + run.why_nobody(control);
     return TrackStatus::kNotFound;
   }
   trouble = first_failure(quality);
@@ -235,7 +235,7 @@ TrackOutcome track_scene(const TrackJob& job, const JobControl& control) {
   if (smoothing.plant) still.emplace(planted(moving, folder.file(std::string(kPlantedFile))));
   const TrackedFrames& frames = still ? *still : moving;
   const Quality quality = quality_of(frames, moving, job.config.values.gates);
-  outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
+  outcome.status = judge(run, quality, video, interrupted, control, outcome.trouble);
   outcome.tracked = count(frames).tracked;
   const Scene scene = with_stature(job.scene, run.stature());
   if (run.stature()) control.say(size_note(*run.stature()));

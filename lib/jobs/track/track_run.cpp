@@ -10,6 +10,7 @@
 #include "body/kinematics.h"
 #include "core/errors.h"
 #include "core/parallel_for.h"
+#include "jobs/track/why_nobody.h"
 
 namespace walktrack {
 
@@ -102,6 +103,12 @@ bool TrackRun::finish(bool resumable) {
   if (noted) write_checkpoint();
   for (const FrameRecord& record : tracker_.finish()) frames_.records.append(record);
   return noted || (resumable && std::filesystem::exists(checkpoint_file_));
+}
+
+std::string TrackRun::why_nobody(const JobControl& control) {
+  return walktrack::why_nobody(
+      {job_.scene, job_.config.values.tracker.sighting, prior_, everywhere_, threads_}, setup_,
+      static_cast<double>(frames_read_) / frames_.frame_rate, control);
 }
 
 Region TrackRun::region(size_t camera) const {
