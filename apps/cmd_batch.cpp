@@ -30,11 +30,12 @@ void parse_shard(const std::string& text, BatchJob& job) {
 }
 
 // This program tracking one sequence, with the options that it was given itself.
-std::vector<std::string> track_command(const CommonOptions& common, int jobs) {
+std::vector<std::string> track_command(const CommonOptions& common, int jobs, bool ignore_checks) {
   std::vector<std::string> words{std::filesystem::read_symlink("/proc/self/exe").string(), "track"};
   if (!common.config_file.empty()) words.insert(words.end(), {"-c", common.config_file});
   for (const std::string& setting : common.settings) words.insert(words.end(), {"--set", setting});
   if (!common.seed.empty()) words.insert(words.end(), {"--seed", common.seed});
+  if (ignore_checks) words.emplace_back("--ignore-checks");
   const int share = std::max(1, hardware_threads() / std::max(1, jobs));
   words.insert(words.end(),
                {"--threads", common.threads.empty() ? std::to_string(share) : common.threads});
@@ -71,6 +72,7 @@ int run_batch(const Arguments& arguments) {
   BatchJob job;
   std::string folder, scene_template, shard = "1/1";
   bool list_only = false, dry_run = false, report_only = false, resume = false;
+  bool ignore_checks = false;
   CommandLine line({.name = "batch",
                     .operands = "FOLDER",
                     .about =
@@ -91,6 +93,8 @@ int run_batch(const Arguments& arguments) {
                "print the sequences and their state, do nothing")(
       "retry-failed", po::bool_switch(&job.retry_failed), "do none but those that failed before")(
       "dry-run", po::bool_switch(&dry_run), "print the sequences that would be done, do nothing")(
+      "ignore-checks", po::bool_switch(&ignore_checks),
+      "track scenes though their checks fail (see walktrack check); their reports say so")(
       "report", po::bool_switch(&report_only), "do nothing but the summary of what there is");
   line.operand("FOLDER", &folder);
   if (!line.parse(arguments)) return kDone;
@@ -108,7 +112,7 @@ int run_batch(const Arguments& arguments) {
   if (dry_run) return list_work(job);
   if (report_only) return report(job);
   job.config = line.config();  // a mistake in it would fail every sequence
-  job.command = track_command(line.common(), job.jobs);
+  job.command = track_command(line.common(), job.jobs, ignore_checks);
   Terminal terminal(line.common());
   const JobControl control = terminal.control();
   const BatchOutcome outcome = run_batch(job, control);

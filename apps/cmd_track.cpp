@@ -53,18 +53,22 @@ void set_budget(const std::string& fps, const std::string& budget_ms, ConfigWith
 
 int run_track(const Arguments& arguments) {
   std::string scene;
-  bool no_overlay = false, resume = false;
+  bool no_overlay = false, resume = false, ignore_checks = false;
   std::string fps, budget_ms;
-  CommandLine line({.name = "track",
-                    .operands = "SCENE.yaml",
-                    .about =
-                        "Tracks the walker of one scene: 3-D joints and angles with their "
-                        "uncertainty,\nan overlay video for each camera, and run.json, in the "
-                        "folder --output.\nEnds with 4 when a quality check failed: the report and "
-                        "run.json say which, what it means\nand what to do then.",
-                    .example = "walktrack track data/demo/scene.yaml -o out/demo"});
+  CommandLine line(
+      {.name = "track",
+       .operands = "SCENE.yaml",
+       .about =
+           "Tracks the walker of one scene: 3-D joints and angles with their "
+           "uncertainty,\nan overlay video for each camera, and run.json, in the "
+           "folder --output.\nThe scene is checked before; what is wrong with it "
+           "stops it with exit code 3.\nEnds with 4 when a quality check failed: the report and "
+           "run.json say which, what it means\nand what to do then.",
+       .example = "walktrack track data/demo/scene.yaml -o out/demo"});
   auto add = line.options().add_options();
   add("no-overlay", po::bool_switch(&no_overlay), "write no overlay videos");
+  add("ignore-checks", po::bool_switch(&ignore_checks),
+      "track though the checks of the scene fail (see walktrack check); the report says so");
   add("fps", po::value(&fps)->value_name("N"),
       "keep to so many frames/s by adapting the particles, within budget.least_particles and "
       "budget.most_particles; results then depend on the machine's speed: not deterministic");
@@ -80,6 +84,7 @@ int run_track(const Arguments& arguments) {
   set_budget(fps, budget_ms, job.config);
   job.overlay = !no_overlay;
   job.resume = resume;
+  job.ignore_checks = ignore_checks;
   job.overwrite = line.common().overwrite;
   job.command_line = {"walktrack", "track"};
   job.command_line.insert(job.command_line.end(), arguments.begin(), arguments.end());

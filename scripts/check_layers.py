@@ -13,6 +13,7 @@ ALLOWED_OUTSIDE = {
     "opencv2": {"observation", "synth", "io", "jobs"},
     "yaml-cpp": {"io"},
     "boost": set(),
+    "libavformat": {"io"},
     "toml++": {"io"},
     "nlohmann": {"io", "jobs"},
 }

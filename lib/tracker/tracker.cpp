@@ -17,6 +17,10 @@ namespace {
 // where a person is a few dozen pixels high, a figure does nearly as well as the walker itself.
 constexpr double kFigureShare = 0.9;
 
+// What is left of a video is searched from so many seconds on: as long as a contest of starts
+// takes.
+constexpr double kShortestWindow = 0.5;
+
 const WalkerParticle& best_particle(const ParticleSet<WalkerParticle>& set) {
   const auto best = std::max_element(set.log_weights.begin(), set.log_weights.end());
   return set.states[static_cast<size_t>(best - set.log_weights.begin())];
@@ -51,6 +55,15 @@ std::vector<FrameRecord> Tracker::push(const SceneEvidence& evidence) {
 std::vector<FrameRecord> Tracker::finish() {
   std::vector<FrameRecord> out;
   if (scene_.initial && window_.size() > 1) start_as_given(out);
+  // The window is what is left, and less and less of it.
+  while (mode_ == Mode::kSearching && !scene_.initial &&
+         static_cast<int>(window_.size()) >= frames_in(kShortestWindow, scene_.dt)) {
+    config_.sighting.window = scene_.dt * double(window_.size());
+    const SceneEvidence newest = std::move(window_.back());
+    window_.pop_back();
+    candidates_.pop_back();
+    search(newest, out);
+  }
   if (mode_ == Mode::kStarting) settle(out);
   out.resize(out.size() + window_.size());
   window_.clear();

@@ -54,10 +54,11 @@ size_t number_at(const std::string& bytes, size_t at) {
 
 // An MP4 file lists how long its frames last (ISO 14496-12, stts); the list is replaced. The
 // encoder has no frames out of order, and writes the lists behind the frames.
-void write_uneven_video(const std::string& path, const std::vector<double>& durations) {
-  cv::VideoWriter writer(path, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), 25,
-                         {64, 48});
-  for (size_t i = 0; i < durations.size(); ++i) writer.write(sample_frame(static_cast<int>(i)));
+void write_timed_video(const std::string& path, const std::vector<cv::Mat>& frames, double rate,
+                       const std::vector<double>& durations) {
+  cv::VideoWriter writer(path, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), rate,
+                         frames.front().size());
+  for (const cv::Mat& frame : frames) writer.write(frame);
   writer.release();
   std::string bytes = bytes_of(path);
   const size_t list = bytes.find("stts");
@@ -73,6 +74,12 @@ void write_uneven_video(const std::string& path, const std::vector<double>& dura
   }
   bytes.replace(bytes.find("edts"), 4, "free");  // which would end the film where it ended before
   std::ofstream(path, std::ios::binary) << bytes;
+}
+
+void write_uneven_video(const std::string& path, const std::vector<double>& durations) {
+  std::vector<cv::Mat> frames;
+  for (size_t i = 0; i < durations.size(); ++i) frames.push_back(sample_frame(static_cast<int>(i)));
+  write_timed_video(path, frames, 25, durations);
 }
 
 // Phones write the sensor's pixels and a turn in the track header (tkhd, matrix).

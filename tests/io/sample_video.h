@@ -17,6 +17,9 @@ int shown_number(const cv::Mat& frame);
 void write_sample_video(const std::string& path, int frames);
 // 25 Hz, numbers from 0; frame i is shown until 1 / 25 s * durations[i] later.
 void write_uneven_video(const std::string& path, const std::vector<double>& durations);
+// These frames at this rate, of which frame i is shown until durations[i] / rate s later.
+void write_timed_video(const std::string& path, const std::vector<cv::Mat>& frames, double rate,
+                       const std::vector<double>& durations);
 // Has the file ask for a turn, clockwise.
 void turn_video_by_90_degrees(const std::string& path);
 // frame<number>.png

@@ -107,6 +107,41 @@ TEST_F(SceneVideoTest, FramesAfterDroppedOnesKeepTheirTime) {
   }
 }
 
+// Steps of half as long again and half as long: pairs of frames are as long as two usual ones, so
+// that time and count do not part, however far the video goes.
+TEST_F(SceneVideoTest, FramesOfAVaryingRateArePairedByTime) {
+  std::vector<double> durations(20, 1);
+  for (size_t i = 0; i < 8; ++i) durations[4 + i] = i % 2 == 0 ? 1.5 : 0.5;
+  write_uneven_video(folder_ / "b.mp4", durations);
+  SceneVideo video = open("", "", "frame_rate: 25\n");
+  EXPECT_EQ(video.frame_count(), 20);
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(video.read(frames_));
+    EXPECT_EQ(shown_number(frames_.images[1]), i);
+    EXPECT_TRUE(frames_.fresh[1]);
+  }
+  EXPECT_FALSE(video.read(frames_));
+}
+
+// A container's own rate is an average: with dropped frames it is not that of the others.
+TEST_F(SceneVideoTest, TheRateIsThatOfTheFramesThatWereNotDropped) {
+  std::vector<double> durations(18, 1);
+  durations[9] = 3;
+  write_uneven_video(folder_ / "a.mp4", durations);
+  SceneVideo video = open("", "", "");
+  EXPECT_NEAR(video.frame_rate(), 25, 1e-6);
+  EXPECT_EQ(video.frame_count(), 20);
+  int fresh = 0;
+  while (video.read(frames_)) {
+    EXPECT_EQ(shown_number(frames_.images[1]), frames_.number);
+    EXPECT_TRUE(frames_.fresh[1]);
+    fresh += frames_.fresh[0];
+    if (frames_.fresh[0] && frames_.number > 9)
+      EXPECT_EQ(shown_number(frames_.images[0]), frames_.number - 2);
+  }
+  EXPECT_EQ(fresh, 18);
+}
+
 // The same of a folder of images, of which two were lost.
 TEST_F(SceneVideoTest, ImagesAfterMissingOnesKeepTheirTime) {
   write_sample_images(folder_ / "f", {0, 1, 2, 5, 6, 7});

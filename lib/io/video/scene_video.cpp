@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "io/keypoints/keypoint_file.h"
+#include "io/video/frame_stamps.h"
 
 namespace walktrack {
 
@@ -16,15 +17,22 @@ namespace {
 
 // Rates that differ by less drift by less than half a frame in an hour at 60 Hz.
 constexpr double kSameRate = 2e-6;
-// Stamps of a file whose own rate differs by more from the stated one are a guess like that rate.
+// Stamps of a file whose usual rate differs by more from the stated one are a guess.
 constexpr double kStampsBelieved = 0.1;
+constexpr double kRounding = 1e-3, kHalf = 0.5 + kRounding;  // of a frame; stamps are rounded
 
-// How many frames' times a source has gone on with its last frame: 1, more after dropped frames. A
-// stamp that stands still takes back one that came too early; the last frames of a file may have
-// none (0).
-int frames_passed(double stamp, double before, double rate) {
-  if (!std::isfinite(stamp) || stamp <= 0 || stamp < before) return 1;
-  return static_cast<int>(std::lround((stamp - before) * rate));
+// Stamps, or the numbers of images, in frames; empty if neither says anything.
+std::vector<double> places_from(const std::vector<double>& stamps, double usual) {
+  std::vector<double> places;
+  for (const double stamp : stamps) places.push_back(stamp / usual);
+  return places;
+}
+
+std::vector<double> places_from(const FrameSource& source) {
+  std::vector<double> places;
+  double place = -1;
+  for (const int missing : source.missing_images()) places.push_back(place += 1 + missing);
+  return places;
 }
 
 cv::Size size_of(const SceneCamera& camera) {
@@ -45,75 +53,85 @@ SceneVideo::SceneVideo(const Scene& scene)
                                             : FrameSource(camera.video, size_of(camera)));
     start_frames_.push_back(camera.start_frame);
   }
-  rate_ = scene.frame_rate.value_or(sources_.front().facts().frame_rate);
-  if (!(rate_ > 0)) {
-    throw InputError(describe({scene.file.string(), 0, "frame_rate"}, "nothing",
-                              "a rate in Hz, for the frames are images without one"));
-  }
-  for (size_t i = 0; i < sources_.size(); ++i) {
-    // A rate given for the whole scene wins over the container's, which is often a guess.
-    const double own = scene.frame_rate ? rate_ : sources_[i].facts().frame_rate;
-    rates_.push_back(scene.cameras[i].frame_rate.value_or(own > 0 ? own : rate_));
-    if (std::abs(rates_[i] / rate_ - 1) < kSameRate) rates_[i] = rate_;
-  }
-  ahead_.resize(sources_.size());
+  for (size_t i = 0; i < sources_.size(); ++i) place_frames(i, scene);
+  for (double& rate : rates_)
+    if (std::abs(rate / rate_ - 1) < kSameRate) rate = rate_;
+  shown_.assign(sources_.size(), -1);
   if (frame_count() < 0) {
     throw InputError(describe({scene.file.string(), 0, "first_frame"}, std::to_string(first_frame_),
                               "a frame before the videos' end"));
   }
 }
 
-int SceneVideo::camera_frame(size_t camera, int scene_frame) const {
-  const double frames = scene_frame * (rates_[camera] / rate_);
-  return start_frames_[camera] + static_cast<int>(std::lround(frames));
+// The camera's rate and when its frames were taken.
+void SceneVideo::place_frames(size_t camera, const Scene& scene) {
+  const std::vector<double> stamps = frame_stamps(scene.cameras[camera].video);
+  const StampSteps steps = steps_of(stamps);
+  const double own = usual_rate(sources_[camera].facts(), steps);
+  if (camera == 0) rate_ = scene.frame_rate.value_or(own);
+  if (!(rate_ > 0)) {
+    throw InputError(describe({scene.file.string(), 0, "frame_rate"}, "nothing",
+                              "a rate in Hz, for the frames are images without one"));
+  }
+  // A rate given for the whole scene wins over the container's, which is often a guess.
+  const double usual = scene.frame_rate || own == 0 ? rate_ : own;
+  rates_.push_back(scene.cameras[camera].frame_rate.value_or(usual));
+  const bool believed = steps.usual > 0 && std::abs(own / rates_[camera] - 1) <= kStampsBelieved;
+  places_.push_back(believed ? places_from(stamps, steps.usual) : places_from(sources_[camera]));
+}
+
+// Where the frame would lie that is to be shown next.
+double SceneVideo::wanted(size_t camera) const {
+  return start_frames_[camera] + next_frame_ * (rates_[camera] / rate_);
+}
+
+double SceneVideo::place_of(size_t camera, int frame) const {
+  const std::vector<double>& places = places_[camera];
+  if (frame < std::ssize(places)) return places[static_cast<size_t>(frame)];
+  return places.empty() ? frame
+                        : places.back() + static_cast<double>(frame + 1 - std::ssize(places));
+}
+
+// The frame nearest to a place, but none that lies more than half a frame ahead of it; of two that
+// are as near the later one.
+int SceneVideo::nearest(size_t camera, double place) const {
+  const auto ahead = [&](int frame) { return place_of(camera, frame) - place; };
+  int frame = std::max(0, shown_[camera]);
+  while (ahead(frame + 1) <= kHalf && ahead(frame + 1) + ahead(frame) <= kRounding) ++frame;
+  return frame;
 }
 
 int SceneVideo::frame_count() const {
   double end = last_frame_ ? *last_frame_ + 1.0 : std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < sources_.size(); ++i) {
-    const int count = sources_[i].facts().frame_count;
-    if (count == 0) continue;
-    // The last scene frame whose rounded camera frame exists.
+    const int held = sources_[i].facts().frame_count;
+    if (held == 0) continue;
+    const double count = places_[i].empty() ? held : std::round(places_[i].back()) + 1;
+    // The last scene frame whose nearest camera frame exists.
     const double last = (count - 0.5 - start_frames_[i]) * (rate_ / rates_[i]);
-    end = std::min(end, rates_[i] == rate_ ? double(count - start_frames_[i]) : std::ceil(last));
+    end = std::min(end, rates_[i] == rate_ ? count - start_frames_[i] : std::ceil(last));
   }
   if (std::isinf(end)) return 0;
   const int frames = static_cast<int>(end) - first_frame_;
   return frames > 0 ? frames : -1;
 }
 
-bool SceneVideo::read_ahead(size_t camera) {
+bool SceneVideo::advance(size_t camera, SceneFrames& frames) {
+  const double place = wanted(camera);
+  const int frame = nearest(camera, place), before = shown_[camera];
+  frames.fresh[camera] = false;
+  if (frame == before) return true;
   FrameSource& source = sources_[camera];
-  Ahead& ahead = ahead_[camera];
-  if (!source.read(ahead.image)) {
+  if (!source.skip(frame - before - 1) || !source.read(frames.images[camera])) {
     trouble_ = source.trouble();
     return false;
   }
-  const double rate = rates_[camera], stamp = source.time();
-  const bool believed = std::abs(source.facts().frame_rate / rate - 1) <= kStampsBelieved;
-  const bool first = ahead.number < 0;
-  ahead.number += first || !believed ? 1 : frames_passed(stamp, ahead.stamp, rate);
-  ahead.number += source.missing_before();
-  ahead.source = source.number();
-  if (first || stamp > ahead.stamp) ahead.stamp = stamp;
-  ahead.waits = true;
+  shown_[camera] = frame;
+  frames.source[camera] = source.number();
+  // After dropped frames the one before them may be the nearest that was not shown: it is too old.
+  const double reach = kHalf * std::max(1.0, rates_[camera] / rate_);
+  frames.fresh[camera] = place - place_of(camera, frame) <= reach;
   return true;
-}
-
-bool SceneVideo::advance(size_t camera, SceneFrames& frames) {
-  Ahead& ahead = ahead_[camera];
-  const int wanted = camera_frame(camera, next_frame_);
-  frames.fresh[camera] = false;
-  for (;;) {
-    if (ahead.waits && ahead.number <= wanted) {
-      cv::swap(frames.images[camera], ahead.image);
-      frames.fresh[camera] = true;
-      frames.source[camera] = ahead.source;
-      ahead.waits = false;
-    }
-    if (ahead.number >= wanted) return true;
-    if (!read_ahead(camera)) return false;
-  }
 }
 
 bool SceneVideo::read(SceneFrames& frames) {

@@ -1,10 +1,13 @@
 // The frames of all cameras of a scene, step by step in scene time.
 //
 // Scene frame n (n = first_frame, first_frame + 1, ...) is at time (n - first_frame) / rate. A
-// camera shows its frame start_frame + round(n * camera_rate / rate) then: cameras of other rates
-// are met at their nearest frame, and a slow one shows the same frame several times, of which only
-// the first is fresh. So does one that has dropped frames: a container's time stamps tell where,
-// and the frames after the gap keep their time.
+// camera shows the frame then that it took nearest to that moment, counted from its start_frame: so
+// cameras of other rates are met, and a slow one shows the same frame several times, of which only
+// the first is fresh. So does one that has dropped frames, or whose rate varies: a container's time
+// stamps, or the numbers of images, tell when each frame was taken (io/video/frame_stamps.h), and
+// frames are paired by time and not by count. A stated rate scales the stamps to itself, for files
+// are wrong about their clock more often than about which frames they hold; stamps whose usual rate
+// is more than a tenth off the stated one are not believed at all.
 //
 // A camera without a video shows plain_frames().
 #pragma once
@@ -48,21 +51,17 @@ class SceneVideo {
   const std::string& trouble() const { return trouble_; }
 
  private:
-  int camera_frame(size_t camera, int scene_frame) const;
+  void place_frames(size_t camera, const Scene& scene);
+  double wanted(size_t camera) const;
+  double place_of(size_t camera, int frame) const;
+  int nearest(size_t camera, double place) const;
   bool advance(size_t camera, SceneFrames& frames);
-  bool read_ahead(size_t camera);
-
-  // The newest frame of a source, which may be too early to show.
-  struct Ahead {
-    int number = -1;   // at the camera's rate, counting those that were dropped
-    double stamp = 0;  // s
-    int source = 0;    // see SceneFrames
-    bool waits = false;
-    cv::Mat image;
-  };
 
   std::vector<FrameSource> sources_;
-  std::vector<Ahead> ahead_;
+  // By camera and frame of its source: where it lies, in frames at the camera's rate from the first
+  // one on; whole numbers but for dropped frames and rates that vary. Empty: one after another.
+  std::vector<std::vector<double>> places_;
+  std::vector<int> shown_;  // frame of each source; -1 before the first
   std::vector<int> start_frames_;
   std::vector<double> rates_;  // Hz, of each camera
   double rate_ = 0;

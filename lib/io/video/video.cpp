@@ -1,7 +1,6 @@
 #include "io/video/video.h"
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -140,17 +139,6 @@ int FrameSource::number() const {
   const int place = next_frame_ - 1;
   if (images_.empty()) return place;
   return last_number_in(images_[static_cast<size_t>(place)].stem().string()).value_or(place);
-}
-
-double FrameSource::time() const {
-  return capture_ ? 1e-3 * capture_->get(cv::CAP_PROP_POS_MSEC)
-                  : std::numeric_limits<double>::quiet_NaN();
-}
-
-int FrameSource::missing_before() const {
-  return images_.empty() || next_frame_ == 0
-             ? 0
-             : missing_before_[static_cast<size_t>(next_frame_) - 1];
 }
 
 bool FrameSource::read_image(cv::Mat& frame) {

@@ -43,10 +43,8 @@ class FrameSource {
   // What the last frame read is called: the number in its image's name where that has one,
   // otherwise its place in the source, from 0.
   int number() const;
-  // The container's time stamp of the last frame read or passed, s; NaN for images.
-  double time() const;
-  // How many images are missing before the last one read or passed.
-  int missing_before() const;
+  // How many images are missing before each; empty for a video.
+  const std::vector<int>& missing_images() const { return missing_before_; }
 
   // The next frame, 8-bit BGR; overwritten by the next call, so clone it to keep it. False at the
   // end and when a frame cannot be read: then trouble() says which and why.

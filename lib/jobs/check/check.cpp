@@ -61,9 +61,12 @@ bool CheckReport::failed() const {
                      [](const Finding& finding) { return finding.failure; });
 }
 
-CheckReport check_scene(const CheckJob& job, const JobControl& control) {
-  const Scene scene = read_scene(job.scene);
-  if (!job.pictures.empty()) refuse_what_is_not_ours(check_outputs(scene, job.pictures));
+std::string one_line(const Finding& finding) {
+  return fmt::format("{}{}{}", finding.camera.empty() ? "" : finding.camera + ": ", finding.what,
+                     finding.cure.empty() ? "" : "; cure: " + finding.cure);
+}
+
+CheckReport look_at_scene(const Scene& scene, const JobControl& control) {
   CheckReport report;
   for (const SceneCamera& camera : scene.cameras) {
     report.cameras.push_back(
@@ -74,6 +77,14 @@ CheckReport check_scene(const CheckJob& job, const JobControl& control) {
   // Where calibrations or sizes are wrong, what is seen in the images means nothing.
   if (check_videos(scene, control, report) && poses_can_be) check_steps(scene, control, report);
   check_keypoints(scene, report);
+  return report;
+}
+
+CheckReport check_scene(const CheckJob& job, const JobControl& control) {
+  const Scene scene = read_scene(job.scene);
+  if (!job.pictures.empty()) refuse_what_is_not_ours(check_outputs(scene, job.pictures));
+  CheckReport report = look_at_scene(scene, control);
+  check_decoding(scene, control, report);
   if (!scene.height_given)
     report.findings.push_back(
         {"", false,

@@ -3,6 +3,10 @@
 // down, millimetres for metres, a transposed or inverted pose, a wrong image size, unequal or
 // varying frame rates, turned phone video, cameras out of step. A mistake comes with its cure.
 //
+// What costs little of it is done before a scene is tracked, too: calibrations, sizes, rates and
+// time stamps without decoding a frame; of two cameras or more the first frames, to see whether
+// they are in step.
+//
 // What makes a scene unreadable (a matrix that is no rotation, a mirrored one, unknown keys) is an
 // InputError of the readers, with its place and cure.
 #pragma once
@@ -42,6 +46,12 @@ struct CheckReport {
 };
 
 CheckReport check_scene(const CheckJob& job, const JobControl& control);
+
+// The part of it that `track` begins with.
+CheckReport look_at_scene(const Scene& scene, const JobControl& control);
+
+// A finding as one line: "cam1: stands 3.20 m underground; cure: ...".
+std::string one_line(const Finding& finding);
 
 // The report for people, one paragraph a camera, findings last.
 std::string check_text(const CheckReport& report);

@@ -16,19 +16,32 @@ namespace walktrack {
 // ground; and which single change of their file would put them right.
 void check_poses(const Scene& scene, CheckReport& report);
 
-// Frame sizes, rates, lengths, time stamps and turns of the videos. False if frames cannot be
-// compared with the calibrations.
+// Frame sizes, rates, lengths, time stamps and turns of the videos, without decoding them. False if
+// frames cannot be compared with the calibrations.
 bool check_videos(const Scene& scene, const JobControl& control, CheckReport& report);
 
 // Keypoint files: InputErrors for those that cannot be used, notes about what is odd.
 void check_keypoints(const Scene& scene, CheckReport& report);
 
-// Where the moving figure of one frame is; nullopt when nothing or too much moves.
-using FigurePath = std::vector<std::optional<Eigen::Vector2d>>;  // px of the full image
+// Frames that cannot be decoded.
+void check_decoding(const Scene& scene, const JobControl& control, CheckReport& report);
 
-// The figure's path through one video, from its start frame on, at most kMostSyncFrames.
-FigurePath figure_path(const SceneCamera& camera);
-inline constexpr int kMostSyncFrames = 600;
+// The moving figure of one frame, px of the full image.
+struct Figure {
+  Eigen::Vector2d middle;                      // of its upper part
+  std::vector<Eigen::Vector2d> tops, bottoms;  // of its columns; empty where the image cuts it off
+};
+// By scene frame; nullopt when nothing or too much moves, or a camera has no frame of its own.
+using FigurePath = std::vector<std::optional<Figure>>;
+
+// The figures' paths through the videos, by camera, from the first frame on, at most
+// kMostSyncFrames.
+struct SeenFigures {
+  double frame_rate = 0;  // of the scene, Hz
+  std::vector<FigurePath> paths;
+};
+SeenFigures figures_in(const Scene& scene, const JobControl& control);
+inline constexpr int kMostSyncFrames = 300;
 
 // Cameras out of step, found from three or more paths: the vertical planes through the figure, seen
 // by all cameras at one instant, meet in one line. Every single camera that could be shifted to
@@ -41,6 +54,17 @@ struct OutOfStep {
 };
 std::vector<OutOfStep> find_out_of_step(const std::vector<Camera>& cameras,
                                         const std::vector<FigurePath>& paths);
+
+// How two cameras are out of step, found from the heights at which the figure's outline ends: a
+// plane through both cameras that touches it in one image touches it in the other at that instant
+// (epipolar tangents; Sinha & Pollefeys 2004). Frames are the scene's.
+struct PairLag {
+  int before = 0, after = 0;  // frames that the second camera shows things later than the first
+  int changes_at = 0;         // frame from which `after` holds; equal lags: no change
+};
+// nullopt if the cameras see too little to tell.
+std::optional<PairLag> find_pair_lag(const std::vector<Camera>& cameras,
+                                     const std::vector<FigurePath>& paths, double frame_rate);
 
 void check_steps(const Scene& scene, const JobControl& control, CheckReport& report);
 

@@ -27,61 +27,8 @@ constexpr int kFewestInstants = 20;
 // One camera is said to be late when the planes miss each other by more than shadows and arms make
 // them (m), and the lag brings them this much nearer.
 constexpr double kClearGap = 0.012, kClearGain = 0.6;
-constexpr double kParallel = 0.03;  // smallest determinant of the planes' normals that still meet
-
-std::vector<cv::Mat> shrunk_frames(const SceneCamera& camera, double& scale) {
-  FrameSource source(camera.video, cv::Size(camera.camera.width_px, camera.camera.height_px));
-  std::vector<cv::Mat> frames;
-  if (!source.skip(camera.start_frame)) return frames;
-  scale = std::min(1.0,
-                   double(kShrunkSide) / std::max(camera.camera.width_px, camera.camera.height_px));
-  cv::Mat frame, small;
-  while (static_cast<int>(frames.size()) < kMostSyncFrames && source.read(frame)) {
-    cv::resize(frame, small, {}, scale, scale, cv::INTER_AREA);
-    cv::cvtColor(small, frames.emplace_back(), cv::COLOR_BGR2GRAY);
-  }
-  return frames;
-}
-
-cv::Mat median_frame(const std::vector<cv::Mat>& frames) {
-  cv::Mat median = frames.front().clone();
-  const size_t count = std::min<size_t>(kBackgroundFrames, frames.size());
-  std::vector<uchar> values(count);
-  for (int y = 0; y < median.rows; ++y) {
-    for (int x = 0; x < median.cols; ++x) {
-      for (size_t k = 0; k < count; ++k)
-        values[k] = frames[k * frames.size() / count].at<uchar>(y, x);
-      std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(count / 2), values.end());
-      median.at<uchar>(y, x) = values[count / 2];
-    }
-  }
-  return median;
-}
-
-// Centre of the upper part of the largest moving blob (its shadow lies below), px of the shrunk
-// image; none if it touches the image's side.
-std::optional<Vector2d> figure_in(const cv::Mat& frame, const cv::Mat& background) {
-  cv::Mat difference, labels, statistics, centres;
-  cv::absdiff(frame, background, difference);
-  cv::Mat moving = difference > kDifference;
-  cv::morphologyEx(moving, moving, cv::MORPH_CLOSE, cv::Mat::ones(5, 3, CV_8U));
-  const int count = cv::connectedComponentsWithStats(moving, labels, statistics, centres);
-  int best = 0, area = 0;
-  for (int i = 1; i < count; ++i) {
-    if (statistics.at<int>(i, cv::CC_STAT_AREA) <= area) continue;
-    area = statistics.at<int>(i, cv::CC_STAT_AREA);
-    best = i;
-  }
-  const double share = area / static_cast<double>(frame.total());
-  if (share < kSmallestFigure || share > kLargestFigure) return std::nullopt;
-  const cv::Rect box(
-      statistics.at<int>(best, cv::CC_STAT_LEFT), statistics.at<int>(best, cv::CC_STAT_TOP),
-      statistics.at<int>(best, cv::CC_STAT_WIDTH),
-      static_cast<int>(std::ceil(kUpperPart * statistics.at<int>(best, cv::CC_STAT_HEIGHT))));
-  if (box.x < 2 || box.x + box.width > frame.cols - 2) return std::nullopt;
-  const cv::Moments moments = cv::moments(labels(box) == best, true);
-  return Vector2d(box.x + moments.m10 / moments.m00, box.y + moments.m01 / moments.m00);
-}
+constexpr double kBeforeLoss = 0.3;  // s by which the moment of a loss may be told too late
+constexpr double kParallel = 0.03;   // smallest determinant of the planes' normals that still meet
 
 // The vertical plane through a camera and the figure: normal . x = offset on the ground.
 struct Plane {
@@ -93,9 +40,9 @@ using PlanePath = std::vector<std::optional<Plane>>;
 
 PlanePath planes_of(const Camera& camera, const FigurePath& path) {
   PlanePath planes;
-  for (const auto& pixel : path) {
+  for (const auto& figure : path) {
     planes.emplace_back();
-    const auto ray = pixel ? unproject(camera, *pixel) : std::nullopt;
+    const auto ray = figure ? unproject(camera, figure->middle) : std::nullopt;
     if (!ray || ray->direction.head<2>().norm() < 1e-3) continue;
     const Vector2d along = ray->direction.head<2>().normalized();
     const Vector2d normal(-along.y(), along.x());
@@ -141,22 +88,51 @@ std::optional<double> median_gap(const std::vector<PlanePath>& planes, size_t la
   return *middle;
 }
 
-}  // namespace
-
-FigurePath figure_path(const SceneCamera& camera) {
-  if (camera.video.empty()) return {};
-  double scale = 1;
-  const std::vector<cv::Mat> frames = shrunk_frames(camera, scale);
-  FigurePath path;
-  if (frames.empty()) return path;
-  const cv::Mat background = median_frame(frames);
-  for (const cv::Mat& frame : frames) {
-    auto place = figure_in(frame, background);
-    if (place) place = (place->array() + 0.5) / scale - 0.5;
-    path.push_back(place);
-  }
-  return path;
+// What to do about a camera that began so many frames early; or the other one late.
+std::string start_cure(const Scene& scene, int lag) {
+  const bool second = scene.cameras[1].start_frame + lag >= 0;
+  const SceneCamera& camera = scene.cameras[second ? 1 : 0];
+  return fmt::format("set start_frame: {} for {}", camera.start_frame + (second ? lag : -lag),
+                     camera.name);
 }
+
+void say_lost(const Scene& scene, const PairLag& lag, double frame_rate, CheckReport& report) {
+  const int change = lag.after - lag.before;
+  // The camera that lost frames shows things earlier from then on.
+  const SceneCamera& camera = scene.cameras[change < 0 ? 1 : 0];
+  const SceneCamera& other = scene.cameras[change < 0 ? 0 : 1];
+  const int near = scene.first_frame + lag.changes_at;
+  const int safe = near - static_cast<int>(std::lround(kBeforeLoss * frame_rate));
+  // Before unequal lengths, which come of it.
+  report.findings.insert(
+      report.findings.begin(),
+      {camera.name, true,
+       fmt::format("about {} frames are missing near frame {}: from there on it is ahead of {}",
+                   std::abs(change), near, other.name),
+       fmt::format("give the file its time stamps back, or make it images whose numbers leave the "
+                   "lost ones out; last_frame: {} tracks what comes before",
+                   safe)});
+}
+
+void say_pair_lag(const Scene& scene, const std::optional<PairLag>& lag, double frame_rate,
+                  CheckReport& report) {
+  if (!lag) {
+    report.findings.push_back({"", false, "whether the cameras are in step could not be seen",
+                               "it takes somebody who walks through both pictures"});
+    return;
+  }
+  if (lag->before != lag->after) return say_lost(scene, *lag, frame_rate, report);
+  if (lag->after == 0) return;
+  const SceneCamera& late = scene.cameras[lag->after > 0 ? 1 : 0];
+  report.findings.insert(report.findings.begin(),
+                         {"", true,
+                          fmt::format("the cameras are out of step: {} shows things {} frames "
+                                      "later than the other",
+                                      late.name, std::abs(lag->after)),
+                          start_cure(scene, lag->after)});
+}
+
+}  // namespace
 
 std::vector<OutOfStep> find_out_of_step(const std::vector<Camera>& cameras,
                                         const std::vector<FigurePath>& paths) {
@@ -180,24 +156,22 @@ std::vector<OutOfStep> find_out_of_step(const std::vector<Camera>& cameras,
 
 void check_steps(const Scene& scene, const JobControl& control, CheckReport& report) {
   if (scene.cameras.size() < 2) return;
-  const auto same_rate = [&](const SceneCamera& camera) {
-    return !camera.frame_rate || camera.frame_rate == scene.frame_rate;
-  };
-  if (scene.cameras.size() == 2 ||
-      !std::all_of(scene.cameras.begin(), scene.cameras.end(), same_rate)) {
+  std::vector<Camera> cameras;
+  for (const SceneCamera& camera : scene.cameras) {
+    if (camera.video.empty()) return;
+    cameras.push_back(camera.camera);
+    // A lag is a number of frames.
+    if (!camera.frame_rate || camera.frame_rate == scene.frame_rate) continue;
     report.findings.push_back({"", false, "whether the cameras are in step is not checked",
-                               "it takes three cameras of one frame rate"});
+                               "it takes cameras of one frame rate"});
     return;
   }
-  std::vector<Camera> cameras;
-  std::vector<FigurePath> paths;
-  for (const SceneCamera& camera : scene.cameras) {
-    if (control.stopping()) return;
-    control.progress("checking steps", paths.size(), scene.cameras.size());
-    cameras.push_back(camera.camera);
-    paths.push_back(figure_path(camera));
-  }
-  const std::vector<OutOfStep> found = find_out_of_step(cameras, paths);
+  const SeenFigures seen = figures_in(scene, control);
+  if (control.stopping()) return;
+  if (scene.cameras.size() == 2)
+    return say_pair_lag(scene, find_pair_lag(cameras, seen.paths, seen.frame_rate), seen.frame_rate,
+                        report);
+  const std::vector<OutOfStep> found = find_out_of_step(cameras, seen.paths);
   if (found.empty()) return;
   std::string cure;
   for (const OutOfStep& late : found) {

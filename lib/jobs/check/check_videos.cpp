@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
+#include "io/video/frame_stamps.h"
 #include "io/video/scene_video.h"
+#include "io/video/video.h"
 #include "jobs/check/check_parts.h"
 
 namespace walktrack {
@@ -12,9 +14,8 @@ namespace walktrack {
 namespace {
 
 constexpr double kRateTolerance = 1e-3;  // 29.97 for 30 Hz passes; 25 for 24 does not
-constexpr int kMostStamps = 2000;        // frames whose time stamps are looked at
+constexpr int kMostDecoded = 2000;       // frames of each video that are tried
 constexpr double kEqualFrames = 5, kEqualShare = 0.02;  // of unequal lengths that are usual
-constexpr double kUneven = 0.25;                        // of the median step between frames
 constexpr double kUnevenShare = 0.02;                   // of the frames
 constexpr double kFewUneven = 3;                        // decoders stumble at the start
 
@@ -45,19 +46,52 @@ bool check_size(const SceneCamera& camera, const VideoFacts& video, CheckReport&
   return false;
 }
 
-// A container's rate is that of the frames it holds; `dropped` ones belong to the camera's.
-void check_rate(const Scene& scene, const SceneCamera& camera, const VideoFacts& video, int dropped,
-                double scene_rate, CheckReport& report) {
-  if (video.frame_rate == 0) return;
-  const double held = std::max(1, video.frame_count);
-  const double rate = video.frame_rate * (held + dropped) / held;
+// What a video says of its time.
+struct Timing {
+  double rate = 0;    // Hz, of most frames; 0 = not known
+  double frames = 0;  // with those that were dropped; 0 = not known
+  StampSteps steps;
+};
+
+Timing timing_of(const SceneCamera& camera, const VideoFacts& video) {
+  const std::vector<double> stamps = frame_stamps(camera.video);
+  Timing out;
+  out.steps = steps_of(stamps);
+  out.rate = usual_rate(video, out.steps);
+  const bool stamped = out.steps.usual > 0;
+  out.frames = stamped ? stamps.back() / out.steps.usual + 1 : video.frame_count;
+  return out;
+}
+
+bool same_rate(double a, double b) { return std::abs(a / b - 1) <= kRateTolerance; }
+
+// A rate that is stated for all cameras, and that none of them has.
+bool check_common_rate(const Scene& scene, const std::vector<Timing>& timing, CheckReport& report) {
+  const double own = timing.front().rate;
+  if (!scene.frame_rate || own == 0 || same_rate(own, *scene.frame_rate)) return false;
+  for (size_t i = 0; i < timing.size(); ++i)
+    if (scene.cameras[i].frame_rate || timing[i].rate == 0 || !same_rate(timing[i].rate, own))
+      return false;
+  report.findings.push_back(
+      {"", true,
+       fmt::format("{} {:.6g} Hz, the scene {:g} Hz",
+                   timing.size() == 1 ? "the video says" : "the videos say", own,
+                   *scene.frame_rate),
+       fmt::format("set frame_rate: {:.6g} in the scene; if the file is wrong, as of slow motion, "
+                   "convert it to its true rate",
+                   own)});
+  return true;
+}
+
+void check_rate(const Scene& scene, const SceneCamera& camera, double own, double scene_rate,
+                CheckReport& report) {
   const double stated = camera.frame_rate.value_or(scene_rate);
-  if (std::abs(rate / stated - 1) <= kRateTolerance) return;
+  if (own == 0 || same_rate(own, stated)) return;
   report.findings.push_back(
       {camera.name, true,
-       fmt::format("the video says {:g} Hz, the scene {:g} Hz{}", rate, stated,
+       fmt::format("the video says {:.6g} Hz, the scene {:g} Hz{}", own, stated,
                    scene.frame_rate || camera.frame_rate ? "" : " (of its first camera)"),
-       fmt::format("set frame_rate: {:g} for this camera, or convert the video", rate)});
+       fmt::format("set frame_rate: {:.6g} for this camera, or convert the video", own)});
 }
 
 void say_dropped(const SceneCamera& camera, int frames, const char* what, CheckReport& report) {
@@ -66,58 +100,29 @@ void say_dropped(const SceneCamera& camera, int frames, const char* what, CheckR
                              "tracking goes on without them; the others keep their time"});
 }
 
-// A rate that varies, and frames that were dropped: steps between time stamps that differ from
-// their median, or are several of it. Hands back how many frames were dropped.
-int check_steps_between_frames(const SceneCamera& camera, const std::vector<double>& steps,
-                               CheckReport& report) {
-  std::vector<double> sorted = steps;
-  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2),
-                   sorted.end());
-  const double median = sorted[sorted.size() / 2];
-  int uneven = 0, missing = 0;
-  for (const double step : steps) {
-    const double whole = std::max(1.0, std::round(step / median));
-    if (std::abs(step - whole * median) > kUneven * median) {
-      ++uneven;
-    } else {
-      missing += static_cast<int>(whole) - 1;
-    }
-  }
-  say_dropped(camera, missing, "frames were dropped", report);
-  const double allowed = std::max(kFewUneven, kUnevenShare * static_cast<double>(steps.size()));
-  if (uneven <= allowed) return missing;
+// Frames that were dropped, and a rate that varies.
+void check_steps_between_frames(const SceneCamera& camera, const StampSteps& steps, int frames,
+                                CheckReport& report) {
+  say_dropped(camera, steps.dropped, "frames were dropped", report);
+  if (steps.uneven <= std::max(kFewUneven, kUnevenShare * frames)) return;
   report.findings.push_back(
-      {camera.name, true,
-       fmt::format("the frame rate varies: {} of {} steps between frames are uneven", uneven,
-                   steps.size()),
-       "convert to a constant rate, e.g. ffmpeg -i in.mp4 -vf fps=30 out.mp4"});
-  return missing;
+      {camera.name, false,
+       fmt::format("the frame rate varies: {} of {} steps between frames are uneven", steps.uneven,
+                   frames - 1),
+       "frames are taken at the time that they say, to half a step; a constant rate is safer"});
 }
 
-// The number of dropped frames among those whose stamps are looked at.
-int check_stamps(const SceneCamera& camera, FrameSource& source, CheckReport& report) {
-  std::vector<double> steps;
-  cv::Mat frame;
-  double last = NAN;
-  for (int i = 0; i < kMostStamps && source.skip(1); ++i) {
-    const double stamp = source.time();
-    if (std::isfinite(stamp - last)) steps.push_back(stamp - last);
-    last = stamp;
-  }
-  if (!source.trouble().empty()) {
-    report.findings.push_back(
-        {camera.name, true, source.trouble(), "copy or convert the file again"});
-  }
-  return steps.size() < 3 ? 0 : check_steps_between_frames(camera, steps, report);
-}
-
-void check_lengths(const Scene& scene, CheckReport& report, double scene_rate) {
+// Cameras that began together and did not end together: one of them may have lost frames.
+void check_lengths(const Scene& scene, const std::vector<Timing>& timing, double scene_rate,
+                   CheckReport& report) {
   double shortest = INFINITY, longest = 0;
-  for (size_t i = 0; i < scene.cameras.size(); ++i) {
-    const VideoFacts& video = report.cameras[i].video;
-    if (video.frame_count == 0) return;
-    const double rate = scene.cameras[i].frame_rate.value_or(scene_rate);
-    const double seconds = (video.frame_count - scene.cameras[i].start_frame) / rate;
+  bool began_together = true;
+  for (size_t i = 0; i < timing.size(); ++i) {
+    if (timing[i].frames == 0) return;
+    const SceneCamera& camera = scene.cameras[i];
+    const double seconds =
+        (timing[i].frames - camera.start_frame) / camera.frame_rate.value_or(scene_rate);
+    began_together = began_together && camera.start_frame == 0;
     shortest = std::min(shortest, seconds);
     longest = std::max(longest, seconds);
   }
@@ -126,10 +131,12 @@ void check_lengths(const Scene& scene, CheckReport& report, double scene_rate) {
       scene.last_frame && (*scene.last_frame + 1) / scene_rate <= shortest + 1e-9;
   if (longest - shortest <= allowed || range_is_stated) return;
   report.findings.push_back(
-      {"", true,
+      {"", began_together,
        fmt::format("videos last from {:.2f} s to {:.2f} s after their start frames", shortest,
                    longest),
-       "cut them to one span, or state last_frame; check start_frame of each camera"});
+       began_together ? "if one has lost frames, give it its time stamps back; if they began "
+                        "unequally, set start_frame; if only their ends differ, state last_frame"
+                      : "tracking ends with the shortest"});
 }
 
 }  // namespace
@@ -137,25 +144,42 @@ void check_lengths(const Scene& scene, CheckReport& report, double scene_rate) {
 bool check_videos(const Scene& scene, const JobControl& control, CheckReport& report) {
   double scene_rate = scene.frame_rate.value_or(0);
   bool sizes_fit = true;
+  std::vector<Timing> timing;
   for (size_t i = 0; i < scene.cameras.size() && !control.stopping(); ++i) {
-    control.progress("checking videos", i, scene.cameras.size());
     const SceneCamera& camera = scene.cameras[i];
     FrameSource source = camera.video.empty() ? plain_frames(camera) : FrameSource(camera.video);
     const VideoFacts video = source.facts();
     report.cameras[i].video = video;
-    if (scene_rate == 0) scene_rate = video.frame_rate;
     sizes_fit &= check_size(camera, video, report);
+    timing.push_back(timing_of(camera, video));
+    if (scene_rate == 0) scene_rate = timing.back().rate;
     if (scene_rate == 0) {
       report.findings.push_back(
           {"", true, "no frame rate: the frames are images", "state frame_rate in the scene"});
       return false;
     }
     say_dropped(camera, video.missing, "images are missing, by the numbers in their names", report);
-    const int dropped = check_stamps(camera, source, report);
-    check_rate(scene, camera, video, dropped, scene_rate, report);
+    check_steps_between_frames(camera, timing.back().steps, video.frame_count, report);
   }
-  check_lengths(scene, report, scene_rate);
+  if (timing.size() < scene.cameras.size()) return false;
+  if (!check_common_rate(scene, timing, report)) {
+    for (size_t i = 0; i < timing.size(); ++i)
+      check_rate(scene, scene.cameras[i], timing[i].rate, scene_rate, report);
+  }
+  check_lengths(scene, timing, scene_rate, report);
   return sizes_fit;
+}
+
+void check_decoding(const Scene& scene, const JobControl& control, CheckReport& report) {
+  for (size_t i = 0; i < scene.cameras.size() && !control.stopping(); ++i) {
+    control.progress("checking videos", i, scene.cameras.size());
+    if (scene.cameras[i].video.empty()) continue;
+    FrameSource source(scene.cameras[i].video);
+    source.skip(kMostDecoded);
+    if (source.trouble().empty()) continue;
+    report.findings.push_back(
+        {scene.cameras[i].name, true, source.trouble(), "copy or convert the file again"});
+  }
 }
 
 }  // namespace walktrack

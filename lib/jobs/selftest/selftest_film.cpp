@@ -148,6 +148,7 @@ TrackOutcome track(const fs::path& scene, ConfigWithOrigin config, const fs::pat
   job.config = std::move(config);
   job.output = output;
   job.overlay = false;
+  job.ignore_checks = true;  // extremes are what it is about
   return track_scene(job, control);
 }
 

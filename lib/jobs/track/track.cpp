@@ -11,6 +11,7 @@
 #include "io/archive/run_record.h"
 #include "io/archive/sha256.h"
 #include "io/video/scene_video.h"
+#include "jobs/check/check.h"
 #include "jobs/track/keypoint_results.h"
 #include "jobs/track/planted_track.h"
 #include "jobs/track/quality_words.h"
@@ -155,6 +156,7 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
   out.config = job.config;
   out.status = status_word(outcome.status);
   if (!outcome.trouble.empty()) out.notes.push_back(outcome.trouble);
+  out.notes.insert(out.notes.end(), outcome.checks.begin(), outcome.checks.end());
   const bool paced = job.config.values.budget.frame_ms > 0;
   if (paced) out.notes.push_back(pace_note(job.config.values.budget));
   if (run.stature()) out.notes.push_back(size_note(*run.stature()));
@@ -208,13 +210,13 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
   return out;
 }
 
-TrackStatus judge(const TrackRun& run, const Quality& quality, const SceneVideo& video,
-                  bool interrupted, std::string& trouble) {
+TrackStatus judge(TrackRun& run, const Quality& quality, const SceneVideo& video, bool interrupted,
+                  const JobControl& control, std::string& trouble) {
   if (interrupted) return TrackStatus::kInterrupted;
   trouble = video.trouble();
   if (!trouble.empty()) return TrackStatus::kCutShort;
   if (count(run.frames()).tracked == 0) {
-    trouble = "nobody was found walking";
+    trouble = "nobody was found walking" + run.why_nobody(control);
     return TrackStatus::kNotFound;
   }
   trouble = first_failure(quality);
@@ -255,6 +257,26 @@ void see_to_earlier_result(const TrackJob& job, const Origin& origin, const JobC
   if (!changed.empty())
     control.say(fmt::format("{}: made again, for it was of other settings or inputs ({})",
                             job.output.string(), changed));
+}
+
+// Says and hands back what the scene's checks found. InputError for the first failure, with its
+// cure, unless failures are to be ignored.
+std::vector<std::string> looked_at(const TrackJob& job, const JobControl& control) {
+  std::vector<std::string> notes;
+  std::string failure;
+  int more = -1;
+  for (const Finding& finding : look_at_scene(job.scene, control).findings) {
+    if (finding.failure && failure.empty()) failure = one_line(finding);
+    if (finding.failure) ++more;
+    notes.push_back((finding.failure ? "a failed check was ignored: " : "") + one_line(finding));
+  }
+  if (!failure.empty() && !job.ignore_checks) {
+    throw InputError(fmt::format(
+        "{}: {}{} (--ignore-checks tracks it as it is)", job.scene.file.string(), failure,
+        more > 0 ? fmt::format("; and {} more, see walktrack check", more) : std::string()));
+  }
+  for (const std::string& note : notes) control.say(note);
+  return notes;
 }
 
 // The checkpoint to go on from, if that is wanted and there is one that fits.
@@ -302,7 +324,11 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const auto start = Clock::now();
   TrackJob job = given;
   job.config.values.observation.keypoints = decided_keypoints(job.scene, job.config.values);
+  const Moment looking;
   require_a_term(job.config.values.observation);
+  TrackOutcome outcome;
+  outcome.checks = looked_at(job, control);
+  const Spent checking = spent_since(looking);
   SceneVideo video(job.scene);
   require_room_for_search(job.scene, job.config.values, video.frame_rate());
   const Outputs outputs = track_outputs(job);
@@ -314,7 +340,7 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const ResultFolder folder(outputs, job.overwrite,
                             checkpoint ? kFilesOfWork : std::span<const std::string_view>{});
   TrackRun run(job, video, folder, origin, std::move(checkpoint), control);
-  TrackOutcome outcome;
+  run.watch().add("checks", checking);
   const bool interrupted = follow_film(run, video, control, outcome);
   const Moment writing;
   const SmoothingConfig& smoothing = job.config.values.smoothing;
@@ -330,7 +356,7 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   Quality quality =
       quality_of(frames, moving, job.config.values.gates, leg_length(body_lengths(scene.subject)));
   quality.push_back(quality_measure("scale_sd_percent", 100 * analysed.figure_error.scale));
-  outcome.status = judge(run, quality, video, interrupted, outcome.trouble);
+  outcome.status = judge(run, quality, video, interrupted, control, outcome.trouble);
   outcome.tracked = count(frames).tracked;
   if (run.stature()) control.say(size_note(*run.stature()));
   for (const std::string& note : run.notes()) control.say(note);

@@ -4,6 +4,9 @@
 // Frames are streamed and their records kept in a file (io/archive/frame_file.h): what grows in
 // memory with the film is what the tables are made of, some kilobytes a frame, at the end.
 //
+// Before it begins it looks at the scene as `check` does (jobs/check/check.h): what is wrong stops
+// it, what is worth knowing goes into run.json and the report.
+//
 // While it works the folder also holds checkpoint.bin and frames.bin, from which another process
 // can go on after this one was killed or told to stop: it ends with the same bytes. Checkpoints are
 // made between frames in which the walker is tracked, not while they are searched for.
@@ -26,6 +29,7 @@ struct TrackJob {
   bool overwrite = false;  // a complete result, and a checkpoint that is not gone on from
   bool resume = false;     // go on from the folder's checkpoint, if there is one
   bool overlay = true;
+  bool ignore_checks = false;  // go on though the scene's checks fail, and say so
   std::vector<std::string> command_line;
 };
 
@@ -40,14 +44,15 @@ enum class TrackStatus {
 struct TrackOutcome {
   TrackStatus status = TrackStatus::kTracked;
   int frames = 0, tracked = 0;
-  double frames_per_second = 0;   // of tracking, without the overlay
-  bool resumable = false;         // for kInterrupted: there is a checkpoint to go on from
-  std::string trouble;            // for kCutShort and kBelowGates: what happened
-  std::filesystem::path look_at;  // the file to open first
+  double frames_per_second = 0;     // of tracking, without the overlay
+  bool resumable = false;           // for kInterrupted: there is a checkpoint to go on from
+  std::vector<std::string> checks;  // what the scene's checks found
+  std::string trouble;              // for kCutShort and kBelowGates: what happened
+  std::filesystem::path look_at;    // the file to open first
 };
 
-// Throws UsageError, InputError for what cannot be started, also for a checkpoint that does not
-// fit.
+// Throws UsageError, InputError for what cannot be started, also for a checkpoint that does not fit
+// and for a scene whose checks fail.
 TrackOutcome track_scene(const TrackJob& job, const JobControl& control);
 
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "body/kinematics.h"
 #include "core/errors.h"
 #include "core/parallel_for.h"
+#include "jobs/track/why_nobody.h"
 
 namespace walktrack {
 
@@ -123,6 +124,12 @@ std::vector<std::string> TrackRun::notes() const {
     frames.push_back(job_.scene.cameras[c].video.empty() ? 0
                                                          : video_.source(c).facts().frame_count);
   return setup_.detections.notes(frames);
+}
+
+std::string TrackRun::why_nobody(const JobControl& control) {
+  return walktrack::why_nobody(
+      {job_.scene, job_.config.values.tracker.sighting, prior_, everywhere_, threads_}, setup_,
+      static_cast<double>(frames_read_) / frames_.frame_rate, control);
 }
 
 Region TrackRun::region(size_t camera) const {

@@ -62,6 +62,8 @@ class TrackRun {
   int losses() const { return tracker_.losses(); }
   std::optional<Stature> stature() const { return tracker_.stature(); }
   int threads() const { return threads_; }
+  // Looks again at a video in which nobody was found, and says what was missing (why_nobody.h).
+  std::string why_nobody(const JobControl& control);
   const TrackedFrames& frames() const { return frames_; }
   // By camera.
   std::vector<KeypointTerm::State> keypoints() const;

@@ -23,12 +23,6 @@ namespace {
 constexpr double kNearShare = 0.7;
 constexpr double kFallbackDistance = 10;  // m, where no place on the ground is in view
 
-double height_px(const Camera& camera, const Eigen::Vector2d& place, double height) {
-  const auto foot = project(camera, Eigen::Vector3d(place.x(), place.y(), 0));
-  const auto head = project(camera, Eigen::Vector3d(place.x(), place.y(), height));
-  return foot && head ? (*foot - *head).norm() : 0;
-}
-
 // How high the subject is expected to stand in the image.
 double expected_height_px(const Scene& scene, const Camera& camera, const SightingConfig& config) {
   const double height = scene.subject.height;
@@ -104,6 +98,12 @@ Detections detections_of(const Scene& scene, const Config& config) {
 }
 
 }  // namespace
+
+double height_px(const Camera& camera, const Eigen::Vector2d& place, double height) {
+  const auto foot = project(camera, Eigen::Vector3d(place.x(), place.y(), 0));
+  const auto head = project(camera, Eigen::Vector3d(place.x(), place.y(), height));
+  return foot && head ? (*foot - *head).norm() : 0;
+}
 
 WorkingScale working_scale(const Scene& scene, const Camera& camera, const Config& config) {
   const double person_px = expected_height_px(scene, camera, config.tracker.sighting);

@@ -25,6 +25,10 @@ struct TrackSetup {
 TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
                   std::span<const ObserverState> learned, const JobControl& control);
 
+// How high somebody of this height who stands at a place on the ground is in an image, px; 0 where
+// they are not in front of the camera.
+double height_px(const Camera& camera, const Eigen::Vector2d& place, double height);
+
 // How large a camera's images are worked on.
 WorkingScale working_scale(const Scene& scene, const Camera& camera, const Config& config);
 

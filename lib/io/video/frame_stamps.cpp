@@ -1,0 +1,108 @@
+#include "io/video/frame_stamps.h"
+
+extern "C" {
+#include <libavformat/avformat.h>
+}
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace walktrack {
+
+namespace {
+
+constexpr double kUneven = 0.25;       // of the usual step
+constexpr double kRoundedRate = 1e-3;  // what containers round their rates to
+
+struct CloseFile {
+  void operator()(AVFormatContext* file) const { avformat_close_input(&file); }
+};
+struct FreePacket {
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+};
+// The library speaks of broken files on the terminal; their reader does that in its own words.
+class Hushed {
+ public:
+  Hushed() { av_log_set_level(AV_LOG_QUIET); }
+  ~Hushed() { av_log_set_level(before_); }
+  Hushed(const Hushed&) = delete;
+  Hushed& operator=(const Hushed&) = delete;
+
+ private:
+  int before_ = av_log_get_level();
+};
+using File = std::unique_ptr<AVFormatContext, CloseFile>;
+using Packet = std::unique_ptr<AVPacket, FreePacket>;
+
+File opened(const std::filesystem::path& video) {
+  AVFormatContext* file = nullptr;
+  if (avformat_open_input(&file, video.c_str(), nullptr, nullptr) < 0) return nullptr;
+  return File(file);
+}
+
+// The stream that OpenCV decodes: the best video. The others' packets are passed over.
+const AVStream* video_stream(AVFormatContext& file) {
+  const int best = av_find_best_stream(&file, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  for (unsigned i = 0; i < file.nb_streams; ++i)
+    if (static_cast<int>(i) != best) file.streams[i]->discard = AVDISCARD_ALL;
+  return best < 0 ? nullptr : file.streams[best];
+}
+
+int64_t stamp_of(const AVPacket& packet) {
+  return packet.pts != AV_NOPTS_VALUE ? packet.pts : packet.dts;
+}
+
+}  // namespace
+
+std::vector<double> frame_stamps(const std::filesystem::path& video) {
+  const Hushed hushed;
+  std::vector<double> stamps;
+  const File file = opened(video);
+  const AVStream* stream = file ? video_stream(*file) : nullptr;
+  if (!stream) return stamps;
+  const Packet packet(av_packet_alloc());
+  for (; av_read_frame(file.get(), packet.get()) >= 0; av_packet_unref(packet.get())) {
+    const bool shown = (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
+    if (packet->stream_index != stream->index || !shown) continue;
+    if (stamp_of(*packet) == AV_NOPTS_VALUE) return {};
+    stamps.push_back(static_cast<double>(stamp_of(*packet)) * av_q2d(stream->time_base));
+  }
+  std::sort(stamps.begin(), stamps.end());
+  for (size_t i = stamps.size(); i-- > 0;) stamps[i] -= stamps[0];
+  return stamps;
+}
+
+StampSteps steps_of(const std::vector<double>& stamps) {
+  std::vector<double> steps;
+  for (size_t i = 1; i < stamps.size(); ++i) steps.push_back(stamps[i] - stamps[i - 1]);
+  if (steps.size() < 3) return {};
+  std::vector<double> sorted = steps;
+  const auto middle = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double median = *middle;
+  if (!(median > 0)) return {};
+  StampSteps out;
+  double sum = 0;
+  int usual = 0;
+  for (const double step : steps) {
+    const double whole = std::max(1.0, std::round(step / median));
+    if (std::abs(step - whole * median) > kUneven * median) {
+      ++out.uneven;
+    } else {
+      out.dropped += static_cast<int>(whole) - 1;
+      sum += step / whole;
+      ++usual;
+    }
+  }
+  out.usual = usual > 0 ? sum / usual : median;
+  return out;
+}
+
+double usual_rate(const VideoFacts& facts, const StampSteps& steps) {
+  if (steps.usual == 0) return facts.frame_rate;
+  const bool as_said = std::abs(facts.frame_rate * steps.usual - 1) <= kRoundedRate;
+  return as_said ? facts.frame_rate : 1 / steps.usual;
+}
+
+}  // namespace walktrack

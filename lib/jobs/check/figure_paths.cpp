@@ -1,0 +1,150 @@
+// What moves in the videos of a scene, quickly: the largest blob that differs from the median
+// frame.
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "io/video/scene_video.h"
+#include "jobs/check/check_parts.h"
+
+namespace walktrack {
+
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kShrunkSide = 320;                                // px, enough to find a figure
+constexpr int kBackgroundFrames = 25;                           // whose median is the empty scene
+constexpr int kDifference = 25;                                 // grey levels
+constexpr double kSmallestFigure = 5e-4, kLargestFigure = 0.3;  // shares of the image
+constexpr double kUpperPart = 0.4;  // of a figure's height, free of shadow and legs
+
+// The frames of one camera, grey and small; empty where it had none of its own.
+struct SmallVideo {
+  int factor = 1;
+  std::vector<cv::Mat> frames;
+
+  void add(const cv::Mat& frame) {
+    cv::Mat small;
+    const cv::Size size(frame.cols / factor, frame.rows / factor);
+    cv::resize(frame({{0, 0}, size * factor}), small, size, 0, 0, cv::INTER_AREA);
+    cv::cvtColor(small, frames.emplace_back(), cv::COLOR_BGR2GRAY);
+  }
+};
+
+std::vector<SmallVideo> small_videos(const Scene& scene, SceneVideo& video,
+                                     const JobControl& control) {
+  std::vector<SmallVideo> out(scene.cameras.size());
+  for (size_t i = 0; i < out.size(); ++i) {
+    const Camera& camera = scene.cameras[i].camera;
+    // A whole factor averages whole pixels, which is quick.
+    const int side = std::max(camera.width_px, camera.height_px);
+    out[i].factor = (side + kShrunkSide - 1) / kShrunkSide;
+  }
+  SceneFrames images;
+  for (int n = 0; n < kMostSyncFrames && !control.stopping() && video.read(images); ++n) {
+    for (size_t i = 0; i < out.size(); ++i) {
+      if (images.fresh[i])
+        out[i].add(images.images[i]);
+      else
+        out[i].frames.emplace_back();
+    }
+  }
+  return out;
+}
+
+cv::Mat median_frame(const std::vector<cv::Mat>& all) {
+  std::vector<const cv::Mat*> frames;
+  for (const cv::Mat& frame : all)
+    if (!frame.empty()) frames.push_back(&frame);
+  if (frames.empty()) return {};
+  cv::Mat median = frames.front()->clone();
+  const size_t count = std::min<size_t>(kBackgroundFrames, frames.size());
+  std::vector<uchar> values(count);
+  for (int y = 0; y < median.rows; ++y) {
+    for (int x = 0; x < median.cols; ++x) {
+      for (size_t k = 0; k < count; ++k)
+        values[k] = frames[k * frames.size() / count]->at<uchar>(y, x);
+      std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(count / 2), values.end());
+      median.at<uchar>(y, x) = values[count / 2];
+    }
+  }
+  return median;
+}
+
+// The blob's outermost pixels, column by column, px of the shrunk image.
+void add_ends(const cv::Mat& labels, int blob, const cv::Rect& box, Figure& figure) {
+  for (int x = box.x; x < box.x + box.width; ++x) {
+    int top = -1, bottom = -1;
+    for (int y = box.y; y < box.y + box.height; ++y) {
+      if (labels.at<int>(y, x) != blob) continue;
+      if (top < 0) top = y;
+      bottom = y;
+    }
+    if (top < 0) continue;
+    if (box.y > 0) figure.tops.emplace_back(x, top - 0.5);
+    if (box.y + box.height < labels.rows) figure.bottoms.emplace_back(x, bottom + 0.5);
+  }
+}
+
+// The largest moving blob, px of the shrunk image; its middle is that of the upper part, for its
+// shadow lies below. None if it touches the image's side.
+std::optional<Figure> figure_in(const cv::Mat& frame, const cv::Mat& background) {
+  cv::Mat difference, labels, statistics, centres;
+  cv::absdiff(frame, background, difference);
+  cv::Mat moving = difference > kDifference;
+  cv::morphologyEx(moving, moving, cv::MORPH_CLOSE, cv::Mat::ones(5, 3, CV_8U));
+  const int count = cv::connectedComponentsWithStats(moving, labels, statistics, centres);
+  int best = 0, area = 0;
+  for (int i = 1; i < count; ++i) {
+    if (statistics.at<int>(i, cv::CC_STAT_AREA) <= area) continue;
+    area = statistics.at<int>(i, cv::CC_STAT_AREA);
+    best = i;
+  }
+  const double share = area / static_cast<double>(frame.total());
+  if (share < kSmallestFigure || share > kLargestFigure) return std::nullopt;
+  const cv::Rect box(
+      statistics.at<int>(best, cv::CC_STAT_LEFT), statistics.at<int>(best, cv::CC_STAT_TOP),
+      statistics.at<int>(best, cv::CC_STAT_WIDTH), statistics.at<int>(best, cv::CC_STAT_HEIGHT));
+  if (box.x < 2 || box.x + box.width > frame.cols - 2) return std::nullopt;
+  cv::Rect upper = box;
+  upper.height = static_cast<int>(std::ceil(kUpperPart * box.height));
+  const cv::Moments moments = cv::moments(labels(upper) == best, true);
+  Figure figure{{box.x + moments.m10 / moments.m00, box.y + moments.m01 / moments.m00}, {}, {}};
+  add_ends(labels, best, box, figure);
+  return figure;
+}
+
+Figure enlarged(Figure figure, int factor) {
+  const auto enlarge = [&](Vector2d& pixel) { pixel = (pixel.array() + 0.5) * factor - 0.5; };
+  enlarge(figure.middle);
+  for (auto* ends : {&figure.tops, &figure.bottoms})
+    for (Vector2d& pixel : *ends) enlarge(pixel);
+  return figure;
+}
+
+FigurePath path_through(const SmallVideo& video) {
+  FigurePath path;
+  const cv::Mat background = median_frame(video.frames);
+  for (const cv::Mat& frame : video.frames) {
+    path.emplace_back();
+    if (frame.empty()) continue;
+    const auto figure = figure_in(frame, background);
+    if (figure) path.back() = enlarged(*figure, video.factor);
+  }
+  return path;
+}
+
+}  // namespace
+
+SeenFigures figures_in(const Scene& scene, const JobControl& control) {
+  SceneVideo video(scene);
+  SeenFigures out{video.frame_rate(), {}};
+  for (const SmallVideo& each : small_videos(scene, video, control))
+    out.paths.push_back(path_through(each));
+  return out;
+}
+
+}  // namespace walktrack

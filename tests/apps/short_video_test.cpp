@@ -1,0 +1,100 @@
+// Videos that are shorter than the window in which a walk is looked for, and what is said of those
+// in which nobody is found.
+#include <filesystem>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/io/sample_files.h"
+#include "tests/run_program.h"
+
+namespace walktrack {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kDemo = WALKTRACK_SOURCE_DIR "/data/demo/";
+
+class ShortVideo : public testing::Test {
+ protected:
+  ProgramResult track(const std::string& scene) const {
+    return run_walktrack({"track", scene, "-o", folder_ / "out", "-y", "--no-overlay", "--set",
+                          "filter.particles=100"});
+  }
+  // The demo's first frames, or its empty room.
+  std::string demo(int frames, const std::string& video = "") const {
+    std::string text =
+        "frame_rate: 30\nsubject: {height: 1.75}\nlast_frame: " + std::to_string(frames - 1) +
+        "\ncameras:\n";
+    for (const std::string name : {"side", "front"}) {
+      const std::string place = kDemo + name;
+      text.append("  - {name: ").append(name).append(", video: ").append(place).append(video);
+      text.append(".mp4, background: ").append(place).append("_background.mp4, calibration: ");
+      text.append(place).append(".yaml}\n");
+    }
+    return folder_.write("demo.yaml", text);
+  }
+  // One camera's view of a motion, 2 s.
+  std::string filmed(const std::string& motion, double distance) const {
+    const std::string options =
+        folder_.write("film.yaml",
+                      "frame_rate: 30\nduration: 2\nbackground_frames: 10\ncameras:\n"
+                      "  - {name: side, azimuth_deg: -90, height: 1.2, focal_px: 300, size: [320, "
+                      "240], distance: " +
+                          std::to_string(distance) + "}\n");
+    const ProgramResult made =
+        run_walktrack({"render", motion, "--options", options, "-o", folder_ / "film"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return folder_ / "film/scene.yaml";
+  }
+  nlohmann::json numbers() const {
+    return nlohmann::json::parse(read_file(folder_ / "out/run.json")).at("numbers");
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ShortVideo, IsSearchedFromHalfASecondOn) {
+  for (const int frames : {18, 30}) {  // 0.6 and 1 s
+    const ProgramResult result = track(demo(frames));
+    EXPECT_THAT(result.err, testing::Not(HasSubstr("nobody"))) << frames << ": " << result.err;
+    EXPECT_GE(numbers().at("tracked_frames"), frames - 6);
+  }
+}
+
+TEST_F(ShortVideo, OfLessThanThatSaysSo) {
+  const ProgramResult result = track(demo(12));
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_THAT(result.err, HasSubstr("nobody was found walking: the video lasts 0.40 s, a walk "
+                                    "takes at least 0.5 s to be found"));
+}
+
+TEST_F(ShortVideo, OfAnEmptyRoomSaysThatNobodyStandsOut) {
+  const ProgramResult result = track(demo(20, "_background"));
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_THAT(result.err, HasSubstr("no person stands out from the background"));
+}
+
+TEST_F(ShortVideo, OfSomebodyFarAwaySaysHowSmall) {
+  const ProgramResult result = track(filmed(kDemo + "truth.csv", 35));
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("px high, at least 24 px are needed"));
+}
+
+TEST_F(ShortVideo, OfSomebodyWhoStandsSaysSo) {
+  std::istringstream truth(read_file(kDemo + "truth.csv"));
+  std::string header, row;
+  while (std::getline(truth, header) && header.starts_with("#")) {
+  }
+  for (int i = 0; i < 60; ++i) std::getline(truth, row);  // in the middle of the walk
+  std::string standing = header + "\n";
+  for (int i = 0; i <= 60; ++i)
+    standing += std::to_string(i / 30.0) + row.substr(row.find(',')) + "\n";
+  const ProgramResult result = track(filmed(folder_.write("standing.csv", standing), 5));
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("does not walk; it moves at 0.0"));
+}
+
+}  // namespace
+}  // namespace walktrack
