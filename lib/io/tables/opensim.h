@@ -10,7 +10,7 @@
 // -.056276,
 // -.078490, .077260 in the pelvis; Rajagopal et al., IEEE Trans. Biomed. Eng. 63, 2016) where legs
 // are .81 m long from hip to ankle, and taken to grow with these. OpenSim's own inverse kinematics
-// of two walks has it 77 and 81 mm above, this file 80 (tests/jobs/analyse_test.cpp).
+// of two walks has it 81 and 77 mm above; 77 and 76 follow from their legs.
 #pragma once
 
 #include <span>
