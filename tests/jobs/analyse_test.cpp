@@ -134,7 +134,8 @@ Agreement agreement(const std::vector<double>& a_deg, const std::vector<double>&
 
 // The same laboratory trials by OpenSim's own inverse kinematics: our names and signs are theirs.
 // Offsets of angles are not compared: OpenSim takes the pelvis's tilt and the foot's zero from
-// markers. The pelvis's origin is as high as in the model that OpenSim had scaled.
+// markers. The pelvis's origin is as high as in the model that OpenSim had scaled, but for what its
+// tilt makes of it.
 TEST_F(Analyse, AnglesGoAsOpenSimsInverseKinematicsDo) {
   const std::map<std::string, double> spread_deg{
       {"hip_flexion", 4}, {"knee_angle", 4}, {"ankle_angle", 5}};
@@ -146,7 +147,7 @@ TEST_F(Analyse, AnglesGoAsOpenSimsInverseKinematicsDo) {
     each.overwrite = true;
     analyse(each);
     const auto ours = read_storage(folder_ / "angles.mot"), theirs = read_storage(ik);
-    EXPECT_NEAR(mean(ours.at("pelvis_ty")), mean(theirs.at("pelvis_ty")), 0.01) << trial;
+    EXPECT_NEAR(mean(ours.at("pelvis_ty")), mean(theirs.at("pelvis_ty")), 0.015) << trial;
     for (const auto& [joint, allowed] : spread_deg) {
       for (const char* side : {"_r", "_l"}) {
         const Agreement found = agreement(ours.at(joint + side), theirs.at(joint + side));

@@ -6,11 +6,10 @@
 // which have the names and signs of the Rajagopal and Lai full-body models.
 //
 // The origin of those models' pelvis is not the midpoint of the hip centres but that of the
-// anterior iliac spines: 56.3 mm ahead of it and 78.5 mm above it in the pelvis's axes (hip_r at
-// -.056276,
-// -.078490, .077260 in the pelvis; Rajagopal et al., IEEE Trans. Biomed. Eng. 63, 2016) where legs
-// are .81 m long from hip to ankle, and taken to grow with these. OpenSim's own inverse kinematics
-// of two walks has it 77 and 81 mm above, this file 80 (tests/jobs/analyse_test.cpp).
+// anterior iliac spines: 56.3 mm ahead of it and 78.5 mm above it in the pelvis's axes (hip_r is at
+// -.056276, -.078490, .077260; Rajagopal et al., IEEE Trans. Biomed. Eng. 63, 2016) where legs are
+// .81 m long from hip to ankle, and taken to grow with these. OpenSim's own inverse kinematics of
+// two walks has it 81 and 77 mm above; 77 and 76 follow from their legs.
 #pragma once
 
 #include <span>
