@@ -50,6 +50,33 @@ TEST_F(SceneFile, NeedsOnlyACamera) {
   EXPECT_TRUE(scene.truth.empty());
 }
 
+TEST_F(SceneFile, ReadsKeypointsWithAndWithoutAMap) {
+  folder_.write("points.json", "");
+  const Scene plain = read(replaced(kCamera, "}", ", keypoints: points.json}"));
+  EXPECT_EQ(plain.cameras[0].keypoints.path, folder_.path() / "points.json");
+  EXPECT_TRUE(plain.cameras[0].keypoints.names.empty());
+  const Scene mapped = read(replaced(
+      kCamera, "}", ", keypoints: {file: points.json, map: {left_knee: kneeL, nose: snout}}}"));
+  EXPECT_EQ(mapped.cameras[0].keypoints.names.at("left_knee"), "kneeL");
+  EXPECT_EQ(mapped.cameras[0].keypoints.names.size(), 2u);
+}
+
+// Where a video may not leave the house, its keypoints may.
+TEST_F(SceneFile, NeedsNoVideoWhereThereAreKeypoints) {
+  folder_.write("points.json", "");
+  const std::string text = "cameras:\n  - {name: a, calibration: a.yaml, keypoints: points.json}\n";
+  EXPECT_TRUE(read(text).cameras[0].video.empty());
+  EXPECT_THAT(message_for(replaced(text, ", keypoints: points.json", "")),
+              HasSubstr("cameras[0]: found neither 'video' nor 'keypoints', allowed one of them"));
+  EXPECT_THAT(
+      message_for(replaced(text, "points.json}", "points.json, background: a.mp4}")),
+      HasSubstr("cameras[0].background: found pictures of the empty scene without a video"));
+  EXPECT_THAT(message_for(replaced(text, "points.json", "none.json")),
+              HasSubstr("cameras[0].keypoints: found 'none.json'"));
+  EXPECT_THAT(message_for(replaced(text, "points.json", "{file: points.json, map: {knee: x}}")),
+              HasSubstr("cameras[0].keypoints.map"));
+}
+
 TEST_F(SceneFile, ReadsEveryKey) {
   const Scene scene = read(
       "cameras:\n"

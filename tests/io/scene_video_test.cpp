@@ -47,6 +47,42 @@ TEST_F(SceneVideoTest, StepsThroughAllCameras) {
   EXPECT_EQ(video.trouble(), "");
 }
 
+// What keypoints are looked up by.
+TEST_F(SceneVideoTest, SaysWhichFrameOfItsVideoIsShown) {
+  SceneVideo video = open(", start_frame: 3", "", "first_frame: 4\n");
+  ASSERT_TRUE(video.read(frames_));
+  EXPECT_EQ(frames_.source[0], 7);
+  EXPECT_EQ(frames_.source[1], 4);
+}
+
+TEST_F(SceneVideoTest, TakesNumbersFromTheNamesOfImages) {
+  write_sample_images(folder_ / "images", {11, 12, 14});
+  SceneVideo video(read_scene(
+      folder_.write("images.yaml",
+                    "frame_rate: 25\ncameras: [{name: a, video: images, calibration: c.yaml}]\n")));
+  std::vector<int> fresh;
+  while (video.read(frames_))
+    if (frames_.fresh[0]) fresh.push_back(frames_.source[0]);
+  EXPECT_THAT(fresh, testing::ElementsAre(11, 12, 14));
+}
+
+// Up to the last frame that the keypoints speak of.
+TEST_F(SceneVideoTest, ShowsPlainPicturesWithoutAVideo) {
+  std::string numbers = "10, 10, 0.9";
+  for (int i = 1; i < 17; ++i) numbers += ", 10, 10, 0.9";
+  folder_.write("points.json", "[{\"image_id\": 6, \"keypoints\": [" + numbers + "]}]");
+  SceneVideo video(read_scene(folder_.write(
+      "points.yaml",
+      "frame_rate: 25\ncameras: [{name: a, keypoints: points.json, calibration: c.yaml}]\n")));
+  EXPECT_EQ(video.frame_count(), 7);
+  int frames = 0;
+  for (; video.read(frames_); ++frames) {
+    EXPECT_EQ(frames_.source[0], frames);
+    EXPECT_EQ(frames_.images[0].cols, 64);
+  }
+  EXPECT_EQ(frames, 7);
+}
+
 TEST_F(SceneVideoTest, HonoursStartFramesAndTheRange) {
   SceneVideo video = open(", start_frame: 3", "", "first_frame: 4\nlast_frame: 6\n");
   EXPECT_EQ(video.frame_count(), 3);

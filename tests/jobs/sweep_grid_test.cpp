@@ -58,7 +58,8 @@ TEST(SweepKnobs, MistakesAreNamed) {
       {{"cameras=3"}, "found '3'"},
       {{"cameras=1.5"}, "found '1.5'"},
       {{"cameras=side+back"}, "found 'side+back'"},
-      {{"terms=colour"}, "terms: found 'colour', allowed: all, or background, foreground, flow, keypoints"},
+      {{"terms=colour"},
+       "terms: found 'colour', allowed: all, or background, foreground, flow, keypoints"},
       {{"terms=all+flow"}, "found 'all+flow'"},
       {{"config=quick"}, "quick: found no such file, allowed: a file, or a preset: fast, balanced"},
   };
@@ -81,6 +82,17 @@ TEST(SweepGrid, RichestIsTheLargestOfEachKnobWhereverItStands) {
                                {"arms", {"true", "false"}},
                                {"config", {"fast", "balanced"}}}),
               ElementsAre("1000", "side+front", "all", "true", "balanced"));
+}
+
+TEST(SweepSetting, SwitchesKeypoints) {
+  Scene scene = scene_of({"side"});
+  ConfigWithOrigin config;
+  const std::vector<SweepKnob> knobs{{"keypoints", {"off", "on"}}};
+  apply_sweep_setting(knobs, {"on"}, scene, config);
+  EXPECT_EQ(config.values.observation.keypoints.enabled, KeypointSwitch::kOn);
+  apply_sweep_setting(knobs, {"off"}, scene, config);
+  EXPECT_EQ(config.values.observation.keypoints.enabled, KeypointSwitch::kOff);
+  EXPECT_THAT(richest_setting(knobs), ElementsAre("on"));
 }
 
 TEST(SweepSetting, ReachesSceneAndConfiguration) {
