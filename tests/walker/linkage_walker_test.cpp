@@ -492,7 +492,7 @@ TEST(LinkageWalker, AngularMomentumOfAWalkingCycleStaysSmall) {
 }
 
 // Rates off the cycle by 5 % bend knees that rest and rest knees that bend. Some walkers fall;
-// none ends in a stop that fires for ever. Of these 16 walks three once did.
+// none ends in a stop that fires for ever.
 TEST(LinkageWalker, DisturbedWalksEndInNoChatter) {
   const CycleFile file = read_kneed_cycles();
   const ReferenceCycle& row = file.cycles.back();
