@@ -67,6 +67,7 @@ class UnevenCameras : public testing::Test {
     write_file_atomically(folder_ / "scene/named.yaml", scene + more);
     TrackJob job;
     job.scene = read_scene(folder_ / "scene/named.yaml");
+    apply_config_file(job.config, WALKTRACK_SOURCE_DIR "/tests/any_quality.yaml");
     job.config.values.tracker.filter.particles = 100;
     job.output = folder_ / "tracked";
     job.overlay = false;

@@ -57,6 +57,7 @@ class UnknownSize : public testing::Test {
     write_file_atomically(folder() / "scene/other.yaml", replaced(scene, kSubject, subject));
     TrackJob job;
     job.scene = read_scene(folder() / "scene/other.yaml");
+    apply_config_file(job.config, WALKTRACK_SOURCE_DIR "/tests/any_quality.yaml");
     job.config.values.tracker.filter.particles = 60;
     job.config.values.tracker.start.particles = 40;
     job.output = folder() / "tracked";
