@@ -81,8 +81,7 @@ std::string_view trouble_of(const ObserverState& state) {
     return "colours of another number of bins";
   const GreyImage& grey = state.grey_before;
   const size_t pixels = static_cast<size_t>(grey.width) * static_cast<size_t>(grey.height);
-  if (!grey.pixels.empty() && grey.pixels.size() != pixels)
-    return "an image of another size";
+  if (!grey.pixels.empty() && grey.pixels.size() != pixels) return "an image of another size";
   return "";
 }
 
