@@ -36,7 +36,7 @@ class Looker {
   Looker(const SearchedVideo& searched, TrackSetup& setup)
       : searched_(searched),
         setup_(setup),
-        figures_(walking_figures(setup.scene.model, searched.prior, kUsualSpeed)),
+        figures_(setup.scene.model, searched.prior),
         near_(standing_places(setup.scene.cameras, height(), searched.config)) {
     for (const Vector2d& place :
          standing_places(setup.scene.cameras, kFar * height(), searched.config)) {
@@ -89,8 +89,9 @@ class Looker {
 
   Seen best_of(const SceneEvidence& evidence, std::span<const Vector2d> places) const {
     const auto score = [&](const Vector2d& place) {
-      return place_score(setup_.scene, evidence, setup_.scene.model.body, figures_, place,
-                         side_on_heading(setup_.scene.cameras[0], place));
+      const double heading = side_on_heading(setup_.scene.cameras[0], place);
+      return place_score(setup_.scene, evidence, setup_.scene.model.body,
+                         figures_.at(kUsualSpeed, heading), place, heading);
     };
     const std::vector<Place> found =
         find_figures(score, places, searched_.config, searched_.threads);
@@ -99,7 +100,7 @@ class Looker {
 
   const SearchedVideo& searched_;
   TrackSetup& setup_;
-  std::vector<Pose> figures_;
+  FigureBook figures_;
   std::vector<Vector2d> near_, far_;  // places where figures are large enough, and smaller
 };
 
