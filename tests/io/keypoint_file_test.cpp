@@ -154,7 +154,7 @@ TEST_F(KeypointFile, ReadsDeepLabCutByAMap) {
               }),
               HasSubstr("dlc.csv:2: found no body part 'kneeR' for left_knee"));
   EXPECT_THAT(message_of([&] { read_keypoints({path}); }),
-              HasSubstr("found body parts of other names, such as 'kneeL', allowed a map"));
+              HasSubstr("found body parts of other names, such as 'kneeL', allowed: a map"));
 }
 
 TEST_F(KeypointFile, ReadsSeveralAnimalsOfDeepLabCut) {
@@ -170,21 +170,21 @@ TEST_F(KeypointFile, ReadsSeveralAnimalsOfDeepLabCut) {
 TEST_F(KeypointFile, SaysWhatIsWrongAndWhere) {
   const std::string person = numbered(17);
   const std::vector<std::pair<std::string, std::string>> faults{
-      {"", "found an empty file, allowed a folder of OpenPose JSON files, COCO results"},
+      {"", "found an empty file, allowed: a folder of OpenPose JSON files, COCO results"},
       {"hello", "found a file of another kind"},
       {"{\"a\": 1}", "found JSON of another kind"},
-      {openpose(""), "found OpenPose's file of one frame, allowed its folder"},
+      {openpose(""), "found OpenPose's file of one frame, allowed: its folder"},
       {"[{\"image_id\": 1,\n \"keypoints\": [1, 2", ":2: found no JSON"},
       {"[{\"image_id\": 1}]", "[0]: found no 'keypoints'"},
       {"[{\"image_id\": 1, \"keypoints\": [1, 2, 3]}]",
-       "[0].keypoints: found 3 numbers, allowed x, y and confidence of 17 (COCO), 18, 25"},
+       "[0].keypoints: found 3 numbers, allowed: x, y and confidence of 17 (COCO), 18, 25"},
       {"[{\"image_id\": 1, \"keypoints\": [\"a\"]}]", "[0].keypoints[0]: found \"a\""},
       {"[{\"image_id\": \"x.png\", \"keypoints\": [" + person + "]}]",
-       "[0].image_id: found 'x.png', allowed a frame's number"},
+       "[0].image_id: found 'x.png', allowed: a frame's number"},
       {"[{\"image_id\": -1, \"keypoints\": [" + person + "]}]", "[0].image_id: found -1"},
       {"[{\"image_id\": 1, \"keypoints\": [" + person + "]}, {\"image_id\": 2, \"keypoints\": [" +
            numbered(26) + "]}]",
-       "[1].keypoints: found 26 points, allowed 17, as before"},
+       "[1].keypoints: found 26 points, allowed: 17, as before"},
       {"[]", "found nobody in any frame"},
       {"scorer,a\nbodyparts,b\n", "found other rows above the numbers"},
       {replaced(kDeepLabCut, "3,4,0.8", "3,x,0.8"), "such as 'kneeL'"}};
@@ -194,7 +194,7 @@ TEST_F(KeypointFile, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(message_of([&] {
                 read_keypoints({table, {{"left_knee", "kneeL"}}});
               }),
-              HasSubstr("d.csv:5: /kneeL/y: found 'x', allowed a number"));
+              HasSubstr("d.csv:5: /kneeL/y: found 'x', allowed: a number"));
 }
 
 TEST_F(KeypointFile, RefusesTwoVideosInOneFolder) {
@@ -228,8 +228,9 @@ class ImageSize : public KeypointFile {
 TEST_F(ImageSize, IsTheCalibrations) {
   EXPECT_EQ(fault(1, 30, 120), "");
   EXPECT_EQ(fault(1, 30, 110), "");  // a little beyond the edge
-  EXPECT_THAT(fault(4, 640, 300), HasSubstr("p.json: found points as far as (100, 460) px, allowed "
-                                            "640x300 px, the calibration's image size"));
+  EXPECT_THAT(fault(4, 400, 300),
+              HasSubstr("p.json: found points as far as (100, 460) px, allowed: "
+                        "400x300 px, the calibration's image size"));
   EXPECT_THAT(fault(4, 480, 110), HasSubstr("(they fit a picture that is turned by 90 degrees)"));
   EXPECT_THAT(fault(0.001, 640, 480), HasSubstr("found coordinates between 0 and 1"));
 }

@@ -67,7 +67,7 @@ TEST_F(SceneFile, NeedsNoVideoWhereThereAreKeypoints) {
   const std::string text = "cameras:\n  - {name: a, calibration: a.yaml, keypoints: points.json}\n";
   EXPECT_TRUE(read(text).cameras[0].video.empty());
   EXPECT_THAT(message_for(replaced(text, ", keypoints: points.json", "")),
-              HasSubstr("cameras[0]: found neither 'video' nor 'keypoints', allowed one of them"));
+              HasSubstr("cameras[0]: found neither 'video' nor 'keypoints', allowed: one of them"));
   EXPECT_THAT(
       message_for(replaced(text, "points.json}", "points.json, background: a.mp4}")),
       HasSubstr("cameras[0].background: found pictures of the empty scene without a video"));

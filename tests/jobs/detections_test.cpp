@@ -88,7 +88,7 @@ TEST_F(DetectionsTest, OfAnotherImageSizeAreRefused) {
     text.replace(at, 6, "900, 30");
   folder_.write("points/a_000000000005_keypoints.json", text);
   EXPECT_THAT(message_of([&] { of(with_files()); }),
-              HasSubstr("points: found points as far as (900, 30) px, allowed 64x48 px"));
+              HasSubstr("points: found points as far as (900, 30) px, allowed: 64x48 px"));
 }
 
 }  // namespace

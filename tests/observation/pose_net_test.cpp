@@ -55,7 +55,7 @@ TEST(NetFile, WidensHalfPrecision) {
 TEST(NetFile, RefusesOtherFiles) {
   const std::string net = shipped();
   EXPECT_THAT(message_of([] { widened_net("hello", "x.onnx"); }),
-              HasSubstr("x.onnx: found no ONNX file, allowed an ONNX file of a pose network"));
+              HasSubstr("x.onnx: found no ONNX file, allowed: an ONNX file of a pose network"));
   EXPECT_THAT(message_of([] { widened_net("", "x.onnx"); }), HasSubstr("another kind of input"));
   EXPECT_THAT(message_of([&] { widened_net(net.substr(0, net.size() / 2), "x"); }),
               HasSubstr("no ONNX file"));
@@ -64,9 +64,10 @@ TEST(NetFile, RefusesOtherFiles) {
 TEST(PoseNet, RefusesWhatItCannotRun) {
   if (!has_pose_net()) GTEST_SKIP() << "built without OpenCV's dnn module";
   std::string net = shipped();
-  const size_t at = net.find("SAME_UPPER");
+  const std::string_view name = "heat_out";
+  size_t at = net.find(name);
   ASSERT_NE(at, std::string::npos);
-  net.replace(at, 10, "SAME_WRONG");
+  for (; at != std::string::npos; at = net.find(name, at)) net.replace(at, name.size(), "heat_not");
   EXPECT_THAT(message_of([&] { PoseNet(net, "x.onnx"); }), HasSubstr("x.onnx: found a network"));
 }
 
@@ -96,7 +97,7 @@ TEST(PoseNet, FindsAPersonsJoints) {
        {Row{KeypointName::kNose, 1237, 563}, Row{KeypointName::kLeftHip, 1265, 728},
         Row{KeypointName::kLeftKnee, 1210, 802}, Row{KeypointName::kLeftAnkle, 1195, 905},
         Row{KeypointName::kRightAnkle, 1310, 912}}) {
-    EXPECT_GT(person[row.name].confidence, 0.5);
+    EXPECT_GT(person[row.name].confidence, 0.3);
     EXPECT_NEAR(person[row.name].x_px, row.x_px, 20);
     EXPECT_NEAR(person[row.name].y_px, row.y_px, 20);
   }
