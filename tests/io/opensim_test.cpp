@@ -65,7 +65,12 @@ TEST(Trc, HasTheFormOfItsKind) {
 }
 
 // Legs as long as those of the model that is not scaled.
-const BodyLengths kModel{.thigh = 0.41, .shank = 0.40};
+const BodyLengths kModel = [] {
+  BodyLengths lengths = body_lengths({});
+  lengths.thigh = 0.41;
+  lengths.shank = 0.40;
+  return lengths;
+}();
 
 // A row of angles.mot by column name.
 std::map<std::string, double> angles_of_row(const Pose& pose, const BodyLengths& lengths = kModel) {
