@@ -172,8 +172,9 @@ TEST_F(SceneVideoTest, TheRateIsThatOfTheFramesThatWereNotDropped) {
     EXPECT_EQ(shown_number(frames_.images[1]), frames_.number);
     EXPECT_TRUE(frames_.fresh[1]);
     fresh += frames_.fresh[0];
-    if (frames_.fresh[0] && frames_.number > 9)
+    if (frames_.fresh[0] && frames_.number > 9) {
       EXPECT_EQ(shown_number(frames_.images[0]), frames_.number - 2);
+    }
   }
   EXPECT_EQ(fresh, 18);
 }

@@ -97,8 +97,9 @@ TEST_F(MotionTables, OpenSimShowsFeetOnTheGroundAndForcesAtThem) {
   for (size_t i = 0; i < angles.rows.size(); ++i) {
     const auto joints = opensim_joints(angles.row(i), lengths);
     for (size_t k = 0; k < markers.names.size(); ++k)
-      if (const auto joint = joints.find(markers.names[k]); joint != joints.end())
+      if (const auto joint = joints.find(markers.names[k]); joint != joints.end()) {
         EXPECT_LT((joint->second - markers.rows[i][k]).norm(), 0.01) << joint->first << " in " << i;
+      }
     model[angles.rows[i][0]] = joints;
   }
   int loaded = 0;
