@@ -57,12 +57,12 @@ struct TimeSpan {
 
 // What is wrong with the keypoints of a film.
 struct KeypointFaults {
-  double noise = 0.01;            // deviation of a coordinate at full confidence, share of height
-  double dropout = 0;             // share of the points that are missing
-  double flips = 0;               // share of the frames in which the legs' names are swapped
-  double bias = 0;                // all points lie higher by that share of the person's height
-  std::vector<TimeSpan> flipped;  // times at which they are swapped in every frame
-  std::vector<TimeSpan> missing;  // times at which only others are seen, not the subject
+  double noise = 0.01;              // deviation of a coordinate at full confidence, share of height
+  double dropout = 0;               // share of the points that are missing
+  double flips = 0;                 // share of the frames in which the legs' names are swapped
+  double bias = 0;                  // all points lie higher by that share of the person's height
+  std::vector<TimeSpan> flipped{};  // times at which they are swapped in every frame
+  std::vector<TimeSpan> missing{};  // times at which only others are seen, not the subject
 };
 
 struct RenderOptions {
