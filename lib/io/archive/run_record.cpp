@@ -129,7 +129,8 @@ Origin origin_in(const std::string& run_json) {
     return root.contains(key) && root[key].is_object() ? root[key] : Json::object();
   };
   Origin out{{"version of the program", program_in(object("program"))}};
-  for (const auto& [file, digest] : object("inputs").items())
+  const Json inputs = object("inputs");
+  for (const auto& [file, digest] : inputs.items())
     out.emplace_back(fmt::format("{}{}", kContentOf, file), plain(digest));
   append_settings(object("config"), "", out);
   return out;
