@@ -18,6 +18,13 @@ Within<T> a_count(T& value) {
   return within(value, 0, std::numeric_limits<std::remove_const_t<T>>::max());
 }
 
+// A sum of weights, which rounding takes a little beyond 1.
+template <typename T>
+Within<T> a_share(T& value) {
+  constexpr double kRounding = 1e-9;
+  return within(value, -kRounding, 1 + kRounding);
+}
+
 template <typename Archive, ArchivedAs<LegPose> T>
 void fields(Archive& archive, T& value) {
   auto& [hip_flexion, hip_abduction, hip_rotation, knee_flexion, ankle_dorsiflexion] = value;
@@ -88,7 +95,7 @@ void fields(Archive& archive, T& value) {
 template <typename Archive, ArchivedAs<FilterState<WalkerParticle>> T>
 void fields(Archive& archive, T& value) {
   auto& [set, scale] = value;
-  archive(set, within(scale, 0, 1));
+  archive(set, a_share(scale));
 }
 
 template <typename Archive, ArchivedAs<LastSeen> T>
@@ -107,7 +114,7 @@ template <typename Archive, ArchivedAs<TrackerState> T>
 void fields(Archive& archive, T& value) {
   auto& [frame, starts, filter, last_seen, supports, below, beaten, losses, doubt, stature] = value;
   archive(frame, starts, filter, last_seen, supports, a_count(below), a_count(beaten),
-          a_count(losses), within(doubt, 0, 1), stature);
+          a_count(losses), a_share(doubt), stature);
 }
 
 template <typename Archive, ArchivedAs<BackgroundModel> T>
@@ -172,7 +179,7 @@ template <typename Archive, ArchivedAs<FrameEstimate> T>
 void fields(Archive& archive, T& value) {
   auto& [joint_count, joints, spread, pose, angles, left_stance, since_transfer, speed] = value;
   archive(within(joint_count, 0, size_t{kJointCount}), joints, spread, pose, angles,
-          within(left_stance, 0, 1), since_transfer, speed);
+          a_share(left_stance), since_transfer, speed);
 }
 
 template <typename Archive, ArchivedAs<FilterReport> T>
