@@ -213,7 +213,7 @@ TEST_F(KeypointFile, RefusesAMapWhereNamesAreKnown) {
               HasSubstr("found a map of names for COCO results"));
 }
 
-class ImageSize : public KeypointFile {
+class KeypointImageSize : public KeypointFile {
  protected:
   std::string fault(double scale, int width, int height) {
     const KeypointFrames frames =
@@ -225,7 +225,7 @@ class ImageSize : public KeypointFile {
   }
 };
 
-TEST_F(ImageSize, IsTheCalibrations) {
+TEST_F(KeypointImageSize, IsTheCalibrations) {
   EXPECT_EQ(fault(1, 30, 120), "");
   EXPECT_EQ(fault(1, 30, 110), "");  // a little beyond the edge
   EXPECT_THAT(fault(4, 400, 300),

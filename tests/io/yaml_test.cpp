@@ -56,7 +56,7 @@ TEST(Yaml, RefusesKeysTwiceWhereverTheyStand) {
 
 TEST(Yaml, RefusesASecondDocument) {
   EXPECT_EQ(message_of([] { parse("a: 1\n---\na: 2\n"); }),
-            "f.yaml:3: found a second YAML document, allowed: one a file");
+            "f.yaml:2: found a second YAML document, allowed: one a file");
   for (const char* one : {"---\na: 1\n", "%YAML:1.0\n---\na: 1\n", "a: 1\n...\n", "# a\n"})
     EXPECT_EQ(message_of([&] { parse(one); }), "") << one;
 }

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kShrunkSide = 320;                                // px, enough to find a figure
+constexpr int kShrunkSide = 640;                                // px, enough to find a figure
 constexpr int kBackgroundFrames = 25;                           // whose median is the empty scene
 constexpr int kDifference = 25;                                 // grey levels
 constexpr double kSmallestFigure = 5e-4, kLargestFigure = 0.3;  // shares of the image
