@@ -145,12 +145,24 @@ TEST_F(Changes, ABatchOfVideosSeesAnotherTemplate) {
                     "-o",    folder_ / "out"};
   EXPECT_THAT(run(words, {}).exit_code, AnyOf(0, 4));
   EXPECT_THAT(run(words, {}).err, Not(HasSubstr("left as they are")));
-  append("in/a/room.yaml", "frame_rate: 12\n");
+  append("in/a/room.yaml", "frame_rate: 10\n");
   const ProgramResult again = run(words, {});
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_THAT(again.err, HasSubstr("\n  room.yaml has changed: a\n"));
   EXPECT_THAT(run(words, {"-y"}).exit_code, AnyOf(0, 4));
   EXPECT_THAT(run(words, {}).exit_code, AnyOf(0, 4));
+}
+
+// What was to be made again and failed is no success because the earlier result is still there.
+TEST_F(Changes, ABatchSaysThatRemakingFailed) {
+  ASSERT_THAT(batch().exit_code, AnyOf(0, 4));
+  const std::string kept = record("out/a");
+  std::string scene = read_file(folder_ / "in/a/scene.yaml");
+  const std::string said = "frame_rate: 10";
+  scene.replace(scene.find(said), said.size(), "frame_rate: 20");
+  folder_.write("in/a/scene.yaml", scene);
+  EXPECT_EQ(batch({"-y"}).exit_code, 1);
+  EXPECT_EQ(record("out/a"), kept);
 }
 
 TEST_F(Changes, ASweepSeesAnotherVideo) {

@@ -348,7 +348,7 @@ TEST_F(CheckTest, FindsTheCameraThatIsOutOfStep) {
   }
 }
 
-// From the films to the cure: four cameras about a walk, one of which began three frames early.
+// From the films to the cure: four cameras about a walk, one of which began six frames early.
 TEST_F(CheckTest, NamesTheStartFrameThatPutsCamerasInStep) {
   RenderJob job;
   MadeWalk walk;
@@ -366,7 +366,7 @@ TEST_F(CheckTest, NamesTheStartFrameThatPutsCamerasInStep) {
     camera.height_px = 240;
     camera.azimuth = -1.8 + 1.4 * i;
     camera.height = 1.5 + 0.3 * i;
-    camera.start_frame = i == 2 ? 3 : 0;
+    camera.start_frame = i == 2 ? 6 : 0;
     job.options.cameras.push_back(camera);
   }
   render_scene(job, {});
@@ -374,12 +374,12 @@ TEST_F(CheckTest, NamesTheStartFrameThatPutsCamerasInStep) {
   const CheckReport in_step = check_scene(job_, {});
   EXPECT_FALSE(in_step.failed()) << check_text(in_step);
   std::string scene = read_file(job.output / "scene.yaml");
-  const std::string said = ", start_frame: 3";
+  const std::string said = ", start_frame: 6";
   scene.replace(scene.find(said), said.size(), "");
   job_.scene = folder_.write("walk/scene.yaml", scene);
   const Finding finding = only_failure(check_scene(job_, {}));
   EXPECT_THAT(finding.what, HasSubstr("out of step"));
-  EXPECT_THAT(finding.cure, testing::StartsWith("start_frame: 3 for c2"));
+  EXPECT_THAT(finding.cure, testing::StartsWith("start_frame: 6 for c2"));
 }
 
 // The demo's two cameras, the second one's frames taken from other places of its path.

@@ -214,10 +214,12 @@ void refuse_what_is_not_ours(const Outputs& outputs) {
         fmt::format("{} is a file, allowed: a folder for the results", outputs.folder.string()));
   }
   // Looked at before the markers are: another worker marks its files before it writes them.
-  const std::vector<Entry> found = entries(outputs.folder, names);
+  std::vector<Entry> found = entries(outputs.folder, names);
   const Names ours = marked(outputs.folder, outputs.command);
   const Names made_for_it = marked(outputs.folder, kSceneMaker);
   refuse_inputs(outputs, made_for_it);
+  // A scene says most about whose folder it is.
+  std::ranges::stable_partition(found, [](const Entry& e) { return e.name == kSceneFile; });
   for (const Entry& entry : found) {
     if (entry.name == kSceneFile && !lists(ours, entry.name) && !lists(made_for_it, entry.name))
       throw UsageError(describe({outputs.folder.string(), 0, ""}, "a scene", kElsewhere));

@@ -145,9 +145,11 @@ std::vector<Sequence> sequences_to_do(const BatchJob& job) {
 }
 
 SequenceResult result_of(const Sequence& sequence) {
+  // A failure is of the last attempt: it stands beside a complete result that was to be made again.
   const fs::path failure = sequence.output / kFailureFile;
-  if (is_complete_result(sequence.output)) return complete_result(sequence.output / "run.json");
-  if (!fs::exists(failure)) return {};
+  if (!fs::exists(failure))
+    return is_complete_result(sequence.output) ? complete_result(sequence.output / "run.json")
+                                               : SequenceResult{};
   SequenceResult result{.state = SequenceState::kFailed};
   result.reason = read_text_file(failure, kMostSceneBytes);
   while (result.reason.ends_with('\n')) result.reason.pop_back();

@@ -17,16 +17,14 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kShrunkSide = 320;                                // px, enough to find a figure
-constexpr int kBackgroundFrames = 25;                           // whose median is the empty scene
-constexpr int kDifference = 25;                                 // grey levels
-constexpr double kSmallestFigure = 5e-4, kLargestFigure = 0.3;  // shares of the image
-constexpr double kUpperPart = 0.4;  // of a figure's height, free of shadow and legs
-constexpr int kLargestLag = 15;     // frames
+constexpr int kLargestLag = 15;  // frames
 constexpr int kFewestInstants = 20;
 // One camera is said to be late when the planes miss each other by more than shadows and arms make
 // them (m), and the lag brings them this much nearer.
 constexpr double kClearGap = 0.012, kClearGain = 0.6;
+// Right cameras miss each other by up to 22 mm (rendered walks with three cameras), for shadows and
+// clothes do not look alike from all sides; beyond this it is a failure (m), below it a remark.
+constexpr double kSureGap = 0.05;
 constexpr double kBeforeLoss = 0.3;  // s by which the moment of a loss may be told too late
 constexpr double kParallel = 0.03;   // smallest determinant of the planes' normals that still meet
 
@@ -173,6 +171,7 @@ void check_steps(const Scene& scene, const JobControl& control, CheckReport& rep
                         report);
   const std::vector<OutOfStep> found = find_out_of_step(cameras, seen.paths);
   if (found.empty()) return;
+  const bool sure = found.front().gap_before > kSureGap;
   std::string cure;
   for (const OutOfStep& late : found) {
     const SceneCamera& camera = scene.cameras[late.camera];
@@ -180,10 +179,10 @@ void check_steps(const Scene& scene, const JobControl& control, CheckReport& rep
                         camera.start_frame + late.frames_late, camera.name, 1000 * late.gap_after);
   }
   report.findings.push_back(
-      {"", true,
-       fmt::format("the cameras are out of step: planes through the figure miss each other by "
+      {"", sure,
+       fmt::format("the cameras {} out of step: planes through the figure miss each other by "
                    "{:.0f} mm",
-                   1000 * found.front().gap_before),
+                   sure ? "are" : "may be", 1000 * found.front().gap_before),
        cure + "; a negative number means to raise that of all others instead"});
 }
 
