@@ -25,7 +25,8 @@ constexpr SuiteScene kScenes[] = {
     {"three_cameras", true},  {"one_camera", true}, {"slow", false},      {"fast", false},
     {"turn", false},          {"slope", false},     {"low_light", false}, {"blur", false},
     {"field", false},         {"occluder", false},  {"seven_fps", true},  {"fps_120", false},
-    {"second_walker", false}, {"flow_only", true},  {"unaided", false},
+    {"second_walker", false}, {"flow_only", true},  {"unaided", false},   {"slope_up", false},
+    {"slope_down", false},
 };
 
 fs::path suite_folder() { return fs::path(WALKTRACK_SOURCE_DIR) / "tests/regression"; }
