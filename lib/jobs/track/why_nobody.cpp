@@ -110,10 +110,15 @@ std::string in_words(const Account& seen, const Looker& looker, const SightingCo
                        looker.px(seen.best_small.place), std::ceil(looker.least_px()));
   }
   if (seen.best.score < config.least_score) {
+    const std::string size =
+        seen.best.score > 0
+            ? fmt::format("; a person there is {:.0f} px high, and {:.0f} px are the least",
+                          looker.px(seen.best.place), looker.least_px())
+            : std::string();
     return fmt::format(
         ": no person stands out from the background; the best place has {:.1f} nats, {:g} are "
-        "needed",
-        seen.best.score, config.least_score);
+        "needed{}",
+        seen.best.score, config.least_score, size);
   }
   if (seen.speed < config.slowest) {
     return fmt::format(
