@@ -121,7 +121,7 @@ FrameRecord frame_record_from_bytes(std::string_view bytes, std::string_view fil
 
 std::string frame_file_trouble(const std::filesystem::path& path, uint64_t records,
                                uint64_t bytes) try {
-  const std::string lacking =
+  std::string lacking =
       fmt::format("{}: lacks frames that the checkpoint counts on", path.string());
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored) || std::filesystem::file_size(path) < bytes)

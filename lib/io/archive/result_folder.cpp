@@ -219,7 +219,8 @@ void refuse_what_is_not_ours(const Outputs& outputs) {
   const Names made_for_it = marked(outputs.folder, kSceneMaker);
   refuse_inputs(outputs, made_for_it);
   // A scene says most about whose folder it is.
-  std::ranges::stable_partition(found, [](const Entry& e) { return e.name == kSceneFile; });
+  std::stable_partition(found.begin(), found.end(),
+                        [](const Entry& e) { return e.name == kSceneFile; });
   for (const Entry& entry : found) {
     if (entry.name == kSceneFile && !lists(ours, entry.name) && !lists(made_for_it, entry.name))
       throw UsageError(describe({outputs.folder.string(), 0, ""}, "a scene", kElsewhere));

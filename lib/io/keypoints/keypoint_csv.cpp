@@ -69,7 +69,7 @@ struct Column {
 };
 
 std::string file_name_of(size_t point, const KeypointSource& source) {
-  const std::string ours(kKeypointNames[point]);
+  std::string ours(kKeypointNames[point]);
   if (source.names.empty()) return ours;
   const auto found = source.names.find(ours);
   return found == source.names.end() ? "" : found->second;
