@@ -18,10 +18,10 @@ constexpr double kMiB = 1024 * 1024, kMsPerSecond = 1000, kPercent = 100;
 Costs stages(const FrameCost& cost) {
   Costs out;
   for (const Costs& camera : cost.cameras) {
-    for (const auto& [what, ms] : camera) {
-      const auto same = [&](const auto& each) { return each.first == what; };
+    for (const auto& cost_of : camera) {
+      const auto same = [&](const auto& each) { return each.first == cost_of.first; };
       const auto found = std::find_if(out.begin(), out.end(), same);
-      found == out.end() ? void(out.emplace_back(what, ms)) : void(found->second += ms);
+      found == out.end() ? void(out.push_back(cost_of)) : void(found->second += cost_of.second);
     }
   }
   out.emplace_back("walker", cost.walker);
