@@ -17,7 +17,7 @@ constexpr double kRetraction = 0.045;    // of the stride, from the turning poin
 constexpr double kUsualStride = 1.1;     // s, where a motion has one turning point
 constexpr double kLeastProgress = 0.15;  // m/s; slower than any walk, the direction means nothing
 
-// Consecutive rows [begin, end) in which pelvis and feet are known.
+// Consecutive rows [begin, end) in which pelvis and feet are known and somebody walks.
 struct Run {
   size_t begin, end;
 };
@@ -27,18 +27,34 @@ bool usable(const JointPositions& joints) {
   return known(foot_point(joints, Side::kLeft)) && known(foot_point(joints, Side::kRight));
 }
 
-std::vector<Run> known_runs(const Motion& motion) {
+Vector2d ground(const Eigen::Vector3d& point) { return point.head<2>(); }
+
+// Whether somebody stands in row i: the pelvis does not get on in the second around it, as far as
+// that is known.
+bool stands(const Motion& motion, size_t i) {
+  constexpr double kAround = 0.5;  // s
+  size_t a = i, b = i;
+  while (a > 0 && usable(motion.joints[a - 1]) && motion.time[i] - motion.time[a - 1] <= kAround)
+    --a;
+  while (b + 1 < motion.time.size() && usable(motion.joints[b + 1]) &&
+         motion.time[b + 1] - motion.time[i] <= kAround)
+    ++b;
+  const double time = motion.time[b] - motion.time[a];
+  const Vector2d way =
+      ground(motion.joints[b][Joint::kPelvis]) - ground(motion.joints[a][Joint::kPelvis]);
+  return time >= kAround && way.norm() < kLeastProgress * time;
+}
+
+std::vector<Run> walking_runs(const Motion& motion) {
   std::vector<Run> runs;
   for (size_t i = 0; i < motion.time.size(); ++i) {
-    if (!usable(motion.joints[i])) continue;
+    if (!usable(motion.joints[i]) || stands(motion, i)) continue;
     if (runs.empty() || runs.back().end != i) runs.push_back({i, i});
     runs.back().end = i + 1;
   }
   std::erase_if(runs, [](const Run& run) { return run.end - run.begin < 3; });
   return runs;
 }
-
-Vector2d ground(const Eigen::Vector3d& point) { return point.head<2>(); }
 
 // Rows of the run within half of kPathWindow around row i, cut symmetrically at the ends.
 Run window_around(const Motion& motion, const Run& run, size_t i) {
@@ -259,7 +275,7 @@ double mean_stance_share(const std::vector<Stance>& stances) {
 Gait gait_from_motion(const Motion& motion) {
   Gait gait;
   double length = 0, duration = 0;
-  for (const Run& run : known_runs(motion)) {
+  for (const Run& run : walking_runs(motion)) {
     const std::vector<Vector2d> path = smoothed_path(motion, run);
     for (size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
     duration += motion.time[run.end - 1] - motion.time[run.begin];

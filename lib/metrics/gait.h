@@ -7,8 +7,10 @@
 // later (four strikes of two trials), and what footprint walks are made of (lib/synth/made_walk.h)
 // is 5 % later, whatever their speed. How far the foot has slowed down would say it more directly,
 // but a tracked foot lands more slowly than the person's (README.md).
-// Turning points count when the foot has swung by at least kLeastSwing, so someone who stands or
-// sways has no gait. Times are refined between rows. Metres, seconds; the ground is z = 0.
+// Rows in which the pelvis gets on by less than 15 cm a second are standing: they belong to no
+// walk, neither to its events nor to its speed. Turning points count when the foot has swung by at
+// least kLeastSwing, so someone who stands or sways has no gait. Times are refined between rows.
+// Metres, seconds; the ground is z = 0.
 #pragma once
 
 #include <optional>
@@ -50,7 +52,7 @@ struct Step {
 struct Gait {
   std::vector<GaitEvent> events;  // by time
   std::vector<Stance> stances;    // by time of `on`, then `off`
-  double speed = 0;               // m/s, length of the smoothed path of the pelvis over its time
+  double speed = 0;  // m/s, length of the smoothed path of the pelvis over its time, walking
   std::vector<Step> steps;
   double mean_step_length = 0;  // m, along the direction of walking; 0 without steps
   double mean_step_time = 0;    // s, between their strikes; 0 without

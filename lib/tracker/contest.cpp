@@ -25,6 +25,13 @@ Contest::Contest(const MotionContext& motion, const StartConfig& start, const Fi
     : filter_(filter), seed_(seed), frames_to_decide_(frames_in(start.seconds, motion.dt)) {
   FilterConfig small = filter;
   small.particles = start.particles;
+  if (sighting.standing) {  // in no phase of a stride
+    hypotheses_.push_back({WalkerFilter(filter, seed, threads), seed, 0, {}, false});
+    StartConfig all = start;
+    all.particles = filter.particles;
+    hypotheses_.back().filter.start(spawn(motion, all, sighting, {}, seed));
+    return;
+  }
   for (const PhaseRange& range :
        stride_phase ? phase_ranges(start, *stride_phase) : phase_ranges(start)) {
     // Streams of its own.

@@ -37,4 +37,16 @@ double legs_log_odds(const TrackerScene& scene, const std::deque<SceneEvidence>&
   return sum / kNatsForOne;
 }
 
+double names_in_frame(const TrackerScene& scene, const SceneEvidence& evidence, const Pose& pose) {
+  // A detector that takes one leg for the other does so until the legs have passed each other.
+  constexpr double kErrsFor = 0.15;  // s
+  if (std::none_of(evidence.begin(), evidence.end(), KeypointTerm::says)) return 0;
+  const PosedBody posed(scene.model.body, pose);
+  double sum = 0;
+  for (size_t c = 0; c < evidence.size(); ++c)
+    sum += KeypointTerm::names_log_odds(scene.observation, scene.model.body, scene.cameras[c],
+                                        evidence[c], evidence[c], posed, posed);
+  return sum * std::min(1.0, scene.dt / kErrsFor);
+}
+
 }  // namespace walktrack

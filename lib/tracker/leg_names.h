@@ -17,4 +17,8 @@ namespace walktrack {
 double legs_log_odds(const TrackerScene& scene, const std::deque<SceneEvidence>& window,
                      std::span<const FrameRecord> records);
 
+// How much more a frame's keypoints speak for a pose's legs than for the same legs exchanged, nats
+// of evidence that counts once; 0 without any.
+double names_in_frame(const TrackerScene& scene, const SceneEvidence& evidence, const Pose& pose);
+
 }  // namespace walktrack

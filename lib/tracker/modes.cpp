@@ -51,17 +51,32 @@ double mass_apart(double phase, std::span<const double> phases, std::span<const 
 
 StrideModes stride_modes(std::span<const WalkerParticle> particles,
                          std::span<const double> weights) {
-  std::vector<double> phases;
+  // Those who stand are at no place in a stride.
+  std::vector<double> phases, shares;
   phases.reserve(particles.size());
-  for (const WalkerParticle& particle : particles) phases.push_back(stride_phase(particle));
-  const double phase = leading_phase(phases, weights);
-  return {phase, mass_apart(phase, phases, weights)};
+  shares.reserve(particles.size());
+  double walking = 0;
+  for (size_t i = 0; i < particles.size(); ++i) {
+    if (particles[i].regime == Regime::kStanding) continue;
+    phases.push_back(stride_phase(particles[i]));
+    shares.push_back(weights[i]);
+    walking += weights[i];
+  }
+  StrideModes out{.standing = std::max(0.0, 1 - walking)};
+  if (phases.size() == particles.size()) out.standing = 0;
+  if (!(walking > 0)) return out;
+  if (out.standing > 0)
+    for (double& share : shares) share /= walking;
+  out.phase = leading_phase(phases, shares);
+  out.exchanged = mass_apart(out.phase, phases, shares);
+  return out;
 }
 
 double phase_ahead(std::span<const WalkerParticle> particles, std::span<const double> weights,
                    double dt) {
   double steps = 0;  // per second
-  for (size_t i = 0; i < particles.size(); ++i) steps += weights[i] / particles[i].aim.duration();
+  for (size_t i = 0; i < particles.size(); ++i)
+    if (particles[i].regime == Regime::kWalking) steps += weights[i] / particles[i].aim.duration();
   return whole_turns_off(stride_modes(particles, weights).phase + 0.5 * steps * dt);
 }
 

@@ -18,6 +18,7 @@ struct StrideModes {
   double phase = 0;      // of the mode reported, shares of the stride in [0, 1)
   double exchanged = 0;  // mass of the other one: probability that the legs are exchanged,
                          // in a FrameRecord of tracker/tracker.h with the doubt of the start
+  double standing = 0;   // probability of standing; above one half there is no phase to speak of
 };
 
 // In [0, 1).

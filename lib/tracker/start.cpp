@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/conventions.h"
+#include "tracker/motion/standing.h"
 
 namespace walktrack {
 
@@ -67,6 +68,7 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
     phases[i] = range.from + (range.to - range.from) * rng.uniform();
   }
   context.moves.enter(context, phases, out);
+  if (sighting.standing) std::for_each(out.begin(), out.end(), stand);
   for (size_t i = 0; i < out.size(); ++i) place(context, positions[i], out[i]);
   return out;
 }

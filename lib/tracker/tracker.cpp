@@ -7,6 +7,7 @@
 #include "core/conventions.h"
 #include "core/log_weights.h"
 #include "tracker/frame_likelihood.h"
+#include "tracker/leg_names.h"
 #include "tracker/moves/exchange.h"
 
 namespace walktrack {
@@ -34,7 +35,11 @@ WalkerKit::WalkerKit(const BodyModel& model, const GaitPrior& prior, const Motio
       moves(make_motion_model(motion.model, model, prior)),
       frame_scale(noise_scale(*moves, motion, model, dt)),
       markov(markov_steps(*moves, motion, dt)),
-      figures(model, prior) {}
+      figures(model, prior) {
+  // Other models do without a walker, or have none that could rest.
+  if (motion.standing && motion.model == MotionKind::kKneed)
+    standing = standing_process(*moves, motion, dt);
+}
 
 Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig& config,
                  uint64_t seed, int threads)
@@ -65,7 +70,8 @@ std::vector<FrameRecord> Tracker::finish() {
     search(newest, out);
   }
   if (mode_ == Mode::kStarting) settle(out);
-  out.resize(out.size() + window_.size());
+  out.resize(out.size() + waiting_.size() + window_.size());
+  waiting_.clear();
   window_.clear();
   return out;
 }
@@ -127,7 +133,8 @@ WalkerFilterContext Tracker::context(bool first) const {
       first ? start_scale(config_.start, *kit_.moves, motion, kit_.frame_scale) : kit_.frame_scale;
   if (first && start_is_given_) motion.arrival = motion.given;
   return {scene_,
-          {scene_.model, prior_, *kit_.moves, motion, scale, kit_.markov, scene_.dt},
+          {scene_.model, prior_, *kit_.moves, motion, scale, kit_.markov, scene_.dt,
+           kit_.standing ? &*kit_.standing : nullptr},
           config_.samples,
           threads_,
           config_.model_error};
@@ -189,7 +196,8 @@ FrameRecord Tracker::follow(const SceneEvidence& evidence) {
     expected = phase_ahead(set.states, normalised_weights(set.log_weights), scene_.dt);
   }
   FrameRecord record = advance(now, evidence, frame_, seed_, false, filter_);
-  if (expected && record.tracked && leapt(*expected, record.modes.phase)) {
+  if (expected && record.tracked && record.modes.standing < 0.5 &&
+      leapt(*expected, record.modes.phase)) {
     exchange_legs(now.motion, filter_);
     exchange_legs(body(), record);
   }
@@ -203,6 +211,7 @@ void Tracker::refine(const SceneEvidence& evidence, FrameRecord& record) const {
   if (!window_.empty() || !record.tracked) return;
   if (config_.estimate == EstimateKind::kMap) walktrack::refine(scene_, evidence, threads_, record);
   record.fit = figure_fit(scene_, evidence, record.estimate.pose);
+  record.names = names_in_frame(scene_, evidence, record.estimate.pose);
 }
 
 void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {

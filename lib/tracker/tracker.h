@@ -21,7 +21,9 @@
 #include <vector>
 
 #include "tracker/contest.h"
+#include "tracker/detect/standing_start.h"
 #include "tracker/detect/stature.h"
+#include "tracker/motion/standing.h"
 #include "tracker/smooth/refinement.h"
 #include "tracker/walker_filter.h"
 
@@ -67,6 +69,7 @@ struct WalkerKit {
   std::unique_ptr<const MotionModel> moves;
   NoiseScale frame_scale;
   MarkovSteps markov;
+  std::optional<StandingProcess> standing;
   FigureBook figures;
 };
 
@@ -120,6 +123,11 @@ class Tracker {
   bool wants_size() const { return !scene_.size_known && !stature_; }
   WindowScore window_score(const Body& body, const FigureBook& figures) const;
   std::vector<Sighting> lines_by_keypoints() const;
+  bool walks_clearly(const Sighting& walk);
+  std::optional<StandingStart> standing_lead(const Sighting& walk) const;
+  bool attempt_standing(const Sighting& walk, std::vector<FrameRecord>& out);
+  bool attempt_found(const Sighting& walk, std::vector<FrameRecord>& out);
+  void slide(std::vector<FrameRecord>& out);
   std::optional<Sighting> look_for_walk(const BodyModel& model) const;
   Eigen::Vector2d eye() const;
   SizedWalk sized_up(const Sighting& walk, double height) const;
@@ -157,6 +165,10 @@ class Tracker {
   uint32_t frame_ = 0;  // of the next evidence to be worked on
   std::vector<Eigen::Vector2d> places_;
   std::deque<SceneEvidence> window_;
+  // Frames before the window in which somebody may have stood who walks now; their records have
+  // not come out.
+  std::deque<SceneEvidence> waiting_;
+  size_t slight_walks_ = 0;  // windows in a row that show somebody who may as well stand
   std::deque<std::optional<std::vector<Place>>> candidates_;  // of frames that were asked
   std::optional<Contest> contest_;
   // The contest's frames that are not in the window, to refine what it says of them.

@@ -17,6 +17,8 @@ namespace walktrack {
 namespace {
 
 constexpr double kUsualSpeed = 1.25;  // m/s
+// Frames before a walk are kept for so long, s, to follow somebody who stood there first.
+constexpr double kStandingKept = 3;
 // Log-odds at which the pictures agree with the names of the legs, and at which they exchange them:
 // set on 80 made walks, four of which were exchanged rightly and one wrongly (README.md).
 constexpr double kAgreed = 1.5, kExchanged = 0.75;
@@ -55,13 +57,77 @@ void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& ou
   const std::optional<Sighting> sighting =
       find_walk({window_.size(), candidates(ends.early), candidates(ends.late), lines},
                 window_score(body(), kit_.figures), scene_.dt, eye(), config_.sighting, threads_);
-  if (sighting && within_reach(sighting->position, frame_) &&
-      (wants_size() ? attempt_unsized(*sighting, out) : attempt(*sighting, out)))
-    return;
+  if (sighting && within_reach(sighting->position, frame_) && attempt_found(*sighting, out)) return;
+  slide(out);
+}
+
+// The window begins a frame later.
+void Tracker::slide(std::vector<FrameRecord>& out) {
+  waiting_.push_back(std::move(window_.front()));
   window_.pop_front();
   candidates_.pop_front();
   ++frame_;
+  const auto kept =
+      kit_.standing ? static_cast<size_t>(frames_in(kStandingKept, scene_.dt)) : size_t{0};
+  if (waiting_.size() <= kept) return;
+  waiting_.pop_front();
   out.emplace_back();
+}
+
+bool Tracker::attempt_found(const Sighting& walk, std::vector<FrameRecord>& out) {
+  if (!walks_clearly(walk)) return false;
+  std::vector<FrameRecord> found;
+  const bool sized = wants_size();
+  if (!(sized ? attempt_unsized(walk, found)
+              : attempt_standing(walk, found) || attempt(walk, found)))
+    return false;
+  out.resize(out.size() + waiting_.size());  // of those before nobody was followed
+  waiting_.clear();
+  std::move(found.begin(), found.end(), std::back_inserter(out));
+  return true;
+}
+
+// Somebody who stands is now and then seen to walk slowly, above all along the viewing ray: such a
+// walk is believed when it has been seen for as long as the window.
+bool Tracker::walks_clearly(const Sighting& walk) {
+  constexpr double kClearly = 0.15, kSlightly = 0.05;
+  if (!kit_.standing || walk.over_standing >= kClearly) return true;
+  slight_walks_ = walk.over_standing >= kSlightly ? slight_walks_ + 1 : 0;
+  return slight_walks_ >= window_.size();
+}
+
+std::optional<StandingStart> Tracker::standing_lead(const Sighting& walk) const {
+  const Pose figure = standing_pose(scene_.model);
+  const auto score = [&](size_t back, const Eigen::Vector2d& place,
+                         double heading) -> std::optional<double> {
+    if (back > waiting_.size()) return std::nullopt;
+    return place_score(scene_, waiting_[waiting_.size() - back], body(), {&figure, 1}, place,
+                       heading);
+  };
+  return standing_before(walk, score, scene_.dt, config_.sighting);
+}
+
+// Tracks from where somebody stands before the walk, if anybody does.
+bool Tracker::attempt_standing(const Sighting& walk, std::vector<FrameRecord>& out) {
+  if (waiting_.empty()) return false;
+  std::optional<StandingStart> lead = standing_lead(walk);
+  if (!lead) return false;
+  const double walked = walk.score * double(window_.size());
+  for (size_t i = 0; i < lead->frames; ++i) {
+    window_.push_front(std::move(waiting_.back()));
+    waiting_.pop_back();
+    candidates_.emplace_front();
+  }
+  frame_ -= static_cast<uint32_t>(lead->frames);
+  lead->sighting.score = (walked + lead->score) / double(window_.size());
+  if (attempt(lead->sighting, out)) return true;
+  for (size_t i = 0; i < lead->frames; ++i) {
+    waiting_.push_back(std::move(window_.front()));
+    window_.pop_front();
+    candidates_.pop_front();
+  }
+  frame_ += static_cast<uint32_t>(lead->frames);
+  return false;
 }
 
 // The lines along which keypoints go at a walker's speed.

@@ -23,6 +23,7 @@ struct FrameRecord {
   std::vector<JointPositions> samples;  // a few particles, to show their spread
   int fallen = 0, diverged = 0;
   StrideModes modes;
+  double names = 0;  // nats that this frame's keypoints speak for the legs' names
   // By camera: what each term says of the best particle, nats; NaN = nothing. Only of tracked
   // frames after the start.
   std::vector<TermValues> evidence;

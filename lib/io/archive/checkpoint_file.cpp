@@ -14,7 +14,7 @@ namespace walktrack {
 
 namespace {
 
-constexpr std::string_view kFormat = "walktrack checkpoint 3\n";
+constexpr std::string_view kFormat = "walktrack checkpoint 4\n";
 constexpr size_t kDigestBytes = 64;
 
 template <typename Archive, ArchivedAs<Checkpoint> T>

@@ -11,6 +11,7 @@
 namespace walktrack {
 
 constexpr Side last_value(Side) { return Side::kRight; }
+constexpr Regime last_value(Regime) { return Regime::kStanding; }
 
 // How often something has happened.
 template <typename T>
@@ -78,11 +79,11 @@ void fields(Archive& archive, T& value) {
 template <typename Archive, ArchivedAs<WalkerParticle> T>
 void fields(Archive& archive, T& value) {
   auto& [predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_extra, noise,
-         walker, stance, ball, extra, extra_before, pose, pose_before, way, arriving, controls,
-         aim] = value;
+         walker, stance, ball, extra, extra_before, pose, pose_before, way, arriving, regime,
+         controls, aim] = value;
   archive(predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_extra, noise,
-          walker, stance, ball, extra, extra_before, pose, pose_before, way, arriving, controls,
-          aim);
+          walker, stance, ball, extra, extra_before, pose, pose_before, way, arriving, regime,
+          controls, aim);
 }
 
 template <typename Archive, ArchivedAs<ParticleSet<WalkerParticle>> T>
@@ -190,8 +191,8 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<StrideModes> T>
 void fields(Archive& archive, T& value) {
-  auto& [phase, exchanged] = value;
-  archive(phase, exchanged);
+  auto& [phase, exchanged, standing] = value;
+  archive(phase, exchanged, a_share(standing));
 }
 
 template <typename Archive, ArchivedAs<FigureFit> T>
@@ -214,10 +215,10 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
-  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes, evidence, keypoints,
-         fit, moving] = value;
+  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes, names, evidence,
+         keypoints, fit, moving] = value;
   archive(tracked, estimate, filter, any_number(support), samples, a_count(fallen),
-          a_count(diverged), modes, any_number(evidence), keypoints, fit, moving);
+          a_count(diverged), modes, names, any_number(evidence), keypoints, fit, moving);
 }
 
 }  // namespace walktrack

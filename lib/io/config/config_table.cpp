@@ -85,6 +85,7 @@ void add_motion(ParameterTable& table) {
   m.number("aim_drift", &M::aim_drift, 0, 1, "relative, per step, of speed and step length");
   m.number("rephasing", &M::rephasing, 0, 100,
            "1/s: how often a particle reads its pose as another moment of a step");
+  m.flag("standing", &M::standing, "whether people may stand, set off and stop");
 }
 
 void add_filter(ParameterTable& table) {

@@ -13,6 +13,7 @@
 #include "io/video/scene_video.h"
 #include "jobs/check/check.h"
 #include "jobs/track/keypoint_results.h"
+#include "jobs/track/named_track.h"
 #include "jobs/track/planted_track.h"
 #include "jobs/track/quality_words.h"
 #include "jobs/track/report.h"
@@ -192,6 +193,7 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
        by_frame(frames, [](const FrameRecord& r) { return r.estimate.left_stance; })},
       {"stride_phase", by_frame(frames, [](const FrameRecord& r) { return r.modes.phase; })},
       {"legs_exchanged", by_frame(frames, [](const FrameRecord& r) { return r.modes.exchanged; })},
+      {"standing", by_frame(frames, [](const FrameRecord& r) { return r.modes.standing; })},
       {"speed", pelvis_speeds(frames)}};
   add_evidence(job.scene, frames, out.by_frame);
   for (size_t c = 0; c < job.scene.cameras.size(); ++c)
@@ -344,10 +346,13 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const bool interrupted = follow_film(run, video, control, outcome);
   const Moment writing;
   const SmoothingConfig& smoothing = job.config.values.smoothing;
-  std::optional<TrackedFrames> light, still;
+  std::optional<TrackedFrames> sided, light, still;
+  if (says_names(run.frames()))
+    sided.emplace(named(run.frames(), run.body(), folder.file(std::string(kNamedFile))));
+  const TrackedFrames& tracked = sided ? *sided : run.frames();
   if (smoothing.lag > 0)
-    light.emplace(smoothed(run.frames(), smoothing, folder.file(std::string(kSmoothedFile))));
-  const TrackedFrames& moving = light ? *light : run.frames();
+    light.emplace(smoothed(tracked, smoothing, folder.file(std::string(kSmoothedFile))));
+  const TrackedFrames& moving = light ? *light : tracked;
   if (smoothing.plant) still.emplace(planted(moving, folder.file(std::string(kPlantedFile))));
   const TrackedFrames& frames = still ? *still : moving;
   const Scene scene = with_stature(job.scene, run.stature());

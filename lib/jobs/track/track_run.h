@@ -25,10 +25,11 @@ namespace walktrack {
 // The files of unfinished work in a result folder.
 inline constexpr std::string_view kCheckpointFile = "checkpoint.bin", kFramesFile = "frames.bin";
 inline constexpr std::string_view kSmoothedFile = "smoothed_frames.bin",
+                                  kNamedFile = "named_frames.bin",
                                   kPlantedFile = "planted_frames.bin";
 // Those that a run is resumed from; all that there are only while it works.
 inline constexpr std::array kFilesOfWork{kCheckpointFile, kFramesFile};
-inline constexpr std::array kPassingFiles{kCheckpointFile, kFramesFile, kSmoothedFile,
+inline constexpr std::array kPassingFiles{kCheckpointFile, kFramesFile, kNamedFile, kSmoothedFile,
                                           kPlantedFile};
 
 // When a checkpoint is worth its time.
@@ -61,6 +62,7 @@ class TrackRun {
   int frames_read() const { return static_cast<int>(frames_read_); }
   int losses() const { return tracker_.losses(); }
   std::optional<Stature> stature() const { return tracker_.stature(); }
+  const Body& body() const { return tracker_.body(); }
   int threads() const { return threads_; }
   // Looks again at a video in which nobody was found, and says what was missing (why_nobody.h).
   std::string why_nobody(const JobControl& control);

@@ -94,12 +94,26 @@ double mean_of_worst_third(std::vector<double> scores) {
   return std::accumulate(scores.begin(), scores.begin() + long(third), 0.0) / double(third);
 }
 
+// Standing in the middle of a line.
+Sighting halt(const Window& window, const Sighting& line) {
+  const double half = 0.5 * window.dt * double(window.frames - 1);
+  return {line.position + half * line.velocity, Vector2d::Zero(), line.ray, 0, 0};
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+}
+
+double share_over_standing(const Window& window, const Sighting& line) {
+  const double walking = mean(scores_along(window, line, line.velocity, 1));
+  return 1 - mean(scores_along(window, halt(window, line), line.velocity, 1)) / walking;
+}
+
 // Whether the line explains the frames where it fails better than standing in its middle explains
 // those where that fails: neither somebody who stands there, nor two things that are always there,
 // make a walk.
 bool moves(const Window& window, const Sighting& line) {
-  const double half = 0.5 * window.dt * double(window.frames - 1);
-  const Sighting still{line.position + half * line.velocity, Vector2d::Zero(), line.ray, 0, 0, 0};
+  const Sighting still = halt(window, line);
   const Vector2d& pace = line.velocity;
   return mean_of_worst_third(scores_along(window, line, pace, 1)) >
          std::max(0.0, mean_of_worst_third(scores_along(window, still, pace, 1)));
@@ -347,6 +361,7 @@ std::optional<Sighting> find_walk(const WindowCandidates& candidates, const Wind
   best.score = line_score(window, best.line);
   measure_spread((best.line.position - eye).normalized(), window, best);
   best.line.score = best.score;
+  best.line.over_standing = share_over_standing(window, best.line);
   return best.line;
 }
 

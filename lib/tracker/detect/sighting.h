@@ -35,7 +35,9 @@ struct Sighting {
   Eigen::Vector2d ray = Eigen::Vector2d::UnitX();  // over the ground, away from the first camera
   double position_sd = 0, velocity_sd = 0;         // along the ray
   bool given = false;                              // by the scene, not found in a film
+  bool standing = false;                           // still, and will set off at that velocity
   double score = 0;  // nats a frame: how much better than an empty scene the walk explains it
+  double over_standing = 0;  // share of that which standing in the walk's middle does not explain
 };
 
 struct Place {

@@ -6,6 +6,7 @@
 
 #include "core/conventions.h"
 #include "tracker/motion/noise_groups.h"
+#include "tracker/motion/standing.h"
 #include "tracker/motion/support.h"
 #include "tracker/motion/walk_on.h"
 #include "tracker/moves/rephase.h"
@@ -140,6 +141,8 @@ void KneedMotion::enter(const MotionContext& context, std::span<const double> ph
 
 void KneedMotion::reconsider(const MotionContext& context, WalkerParticle& particle,
                              Rng& rng) const {
+  if (context.standing != nullptr && change_regime(context, steps_, particle, rng)) return;
+  if (particle.regime == Regime::kStanding) return;
   if (rng.uniform() < context.config.rephasing * context.dt)
     rephase(context, steps_, particle, rng);
 }
@@ -150,6 +153,11 @@ void KneedMotion::walk(const MotionContext& context, std::span<WalkerParticle> p
 }
 
 bool KneedMotion::expect(const MotionContext& context, WalkerParticle& particle) const {
+  if (particle.regime == Regime::kStanding) {
+    particle.velocity_per_impulse.setZero();
+    particle.ball_sigma = foot_sigma(context, particle);
+    return true;
+  }
   const Matrix5 mass = kneed_mass_matrix(context.model.walker, particle.walker.q);
   particle.velocity_per_impulse = mass.llt().solve(torque_distribution());
   particle.ball_sigma = foot_sigma(context, particle);
@@ -157,7 +165,9 @@ bool KneedMotion::expect(const MotionContext& context, WalkerParticle& particle)
 }
 
 void KneedMotion::realise(const MotionContext& context, WalkerParticle& particle) const {
-  walktrack::realise(context.model, context.scale, particle);
+  // Where somebody is first seen is as uncertain of those who stand as of those who walk.
+  const bool stands = particle.regime == Regime::kStanding && !particle.arriving;
+  walktrack::realise(context.model, stands ? context.standing->scale : context.scale, particle);
 }
 
 std::span<const NoiseGroup> KneedMotion::noise_groups(Path path) const {

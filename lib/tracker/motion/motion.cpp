@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/conventions.h"
+#include "tracker/motion/standing.h"
 
 namespace walktrack {
 
@@ -25,10 +26,12 @@ double rest_of(Extra extra, const MarkovStep& step, const WalkerParticle& partic
 
 void predict_extras(const MotionContext& context, WalkerParticle& particle) {
   const ExtraRange free = free_extras(context.model);
+  const MarkovSteps& steps =
+      particle.regime == Regime::kStanding ? context.standing->markov : context.markov;
   for (int k = free.first; k < free.end; ++k) {
     const auto extra = static_cast<Extra>(k);
     const size_t i = static_cast<size_t>(k);
-    const MarkovStep& step = context.markov[i];
+    const MarkovStep& step = steps[i];
     const double now = particle.extra[i];
     const double next = now + step.momentum * (now - particle.extra_before[i]) +
                         step.pull * (rest_of(extra, step, particle) - now);
@@ -80,17 +83,28 @@ bool predict(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
 
 }  // namespace
 
+MarkovStep markov_step(Extra extra, const MarkovConstants& c, double dt) {
+  const double r = std::exp(-dt / c.time);
+  if (extra == kHeading) return {r, 0, 0, c.lowest, c.highest};
+  const double swing = 1 - std::cos(2 * kPi * dt / c.period);
+  return {r * r, (1 - r) * (1 - r) + 2 * r * swing, c.rest, c.lowest, c.highest};
+}
+
 MarkovSteps markov_steps(const MotionModel& moves, const MotionConfig& config, double dt) {
   MarkovSteps steps;
   for (int k = 0; k < kExtraCount; ++k) {
-    const MarkovConstants c = moves.constants(config, static_cast<Extra>(k));
-    const double r = std::exp(-dt / c.time);
-    const double swing = 1 - std::cos(2 * kPi * dt / c.period);
-    MarkovStep& step = steps[static_cast<size_t>(k)];
-    step = {r * r, (1 - r) * (1 - r) + 2 * r * swing, c.rest, c.lowest, c.highest};
-    if (k == kHeading) step = {r, 0, 0, c.lowest, c.highest};
+    const auto extra = static_cast<Extra>(k);
+    steps[static_cast<size_t>(k)] = markov_step(extra, moves.constants(config, extra), dt);
   }
   return steps;
+}
+
+double frame_noise(const MotionConfig& config, Extra extra, const MarkovConstants& c, double dt) {
+  const double r = std::exp(-dt / c.time), rr = r * r;
+  const double sine = std::sin(2 * kPi * dt / c.period);
+  return extra == kHeading ? config.turning * dt * std::sqrt(1 - rr)
+                           : c.spread * std::sqrt(((1 - rr) * (1 - rr) + 4 * rr * sine * sine) *
+                                                  (1 - rr) / (1 + rr));
 }
 
 MotionConfig to_scale(const MotionConfig& config, double height) {
@@ -123,13 +137,9 @@ NoiseScale noise_scale(const MotionModel& moves, const MotionConfig& config, con
   for (size_t k = 0; k < 5; ++k) scale.impulse[k] = shares[k] * unit * root;
   scale.elapsed = dt;
   for (int k = 0; k < kExtraCount; ++k) {
-    const MarkovConstants c = moves.constants(config, static_cast<Extra>(k));
-    const double r = std::exp(-dt / c.time), rr = r * r;
-    const double sine = std::sin(2 * kPi * dt / c.period);
+    const auto extra = static_cast<Extra>(k);
     scale.extra[static_cast<size_t>(k)] =
-        k == kHeading ? config.turning * dt * std::sqrt(1 - rr)
-                      : c.spread * std::sqrt(((1 - rr) * (1 - rr) + 4 * rr * sine * sine) *
-                                             (1 - rr) / (1 + rr));
+        frame_noise(config, extra, moves.constants(config, extra), dt);
   }
   return scale;
 }

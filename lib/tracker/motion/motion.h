@@ -45,7 +45,8 @@ struct MotionConfig {
   double aim_drift = 0.06;      // relative, per step, of the speed and the step length aimed at
   double rephasing = 30;  // 1/s: how often a particle reads its pose anew (tracker/moves/rephase.h)
   double torque_noise_scale = 0.15;  // multiplies all five torques
-  double unrest = 1.5;  // multiplies the noise of model kMarkov; tuned on the demo, 1 = as fitted
+  bool standing = true;  // people may stand, set off and stop (tracker/motion/standing.h)
+  double unrest = 1.5;   // multiplies the noise of model kMarkov; tuned on the demo, 1 = as fitted
 };
 
 // The same for somebody larger or smaller, who walks to scale: lengths grow in proportion to the
@@ -59,10 +60,17 @@ struct MarkovStep {
   double rest = 0, lowest = 0, highest = 0;  // rad
 };
 using MarkovSteps = std::array<MarkovStep, kExtraCount>;
+MarkovStep markov_step(Extra extra, const MarkovConstants& constants, double dt);
 MarkovSteps markov_steps(const MotionModel& moves, const MotionConfig& config, double dt);
+
+// Standard deviation of a frame's noise in an extra coordinate.
+double frame_noise(const MotionConfig& config, Extra extra, const MarkovConstants& constants,
+                   double dt);
 
 NoiseScale noise_scale(const MotionModel& moves, const MotionConfig& config, const BodyModel& model,
                        double dt);
+
+struct StandingProcess;  // tracker/motion/standing.h
 
 struct MotionContext {
   const BodyModel& model;
@@ -71,7 +79,8 @@ struct MotionContext {
   MotionConfig config;
   NoiseScale scale;
   MarkovSteps markov;
-  double dt;  // s
+  double dt;                                  // s
+  const StandingProcess* standing = nullptr;  // where people may stand
 };
 
 // The prior's gait that a particle aims at, on the slope that it meets.

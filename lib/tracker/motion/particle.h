@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -55,6 +56,9 @@ using Extras = std::array<double, kExtraCount>;  // rad
 //             walk from the side
 enum class Path { kSpatial, kSagittal };
 
+// What a particle does (tracker/motion/standing.h).
+enum class Regime : uint8_t { kWalking, kStanding };
+
 // Where the noise of a frame acts.
 enum NoiseIndex {
   kTorqueNoise,                   // 5: torso, hip, stance knee, swing knee, stance ankle
@@ -98,6 +102,7 @@ struct WalkerParticle {
   // How the root has moved in about the last step, forward and to the left, m/s.
   Eigen::Vector2d way = Eigen::Vector2d::Zero();
   bool arriving = false;  // the first frame: there is no frame before, extras start at rest
+  Regime regime = Regime::kWalking;
 
   KneedControls controls;
   StepAim aim;

@@ -70,6 +70,12 @@ void gather(const MotionContext& context, std::span<WalkerParticle> particles, s
             Group& group) {
   for (size_t i = 0; i < particles.size(); ++i) {
     WalkerParticle& p = particles[i];
+    if (p.regime == Regime::kStanding) {
+      group.states.push_back(p.walker);
+      group.controls.push_back(p.controls);
+      group.left.push_back(0);
+      continue;
+    }
     settle_knee_stops(in_plane(context.model, p.extra[kHeading]), p.controls, Vector5::Zero(),
                       p.walker);
     group.states.push_back(p.walker);

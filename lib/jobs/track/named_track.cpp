@@ -1,0 +1,34 @@
+#include "jobs/track/named_track.h"
+
+#include <algorithm>
+
+#include "tracker/moves/exchange.h"
+#include "tracker/smooth/leg_labels.h"
+
+namespace walktrack {
+
+bool says_names(const TrackedFrames& frames) {
+  for (const FrameRecord& record : frames.records)
+    if (record.names != 0) return true;
+  return false;
+}
+
+TrackedFrames named(const TrackedFrames& frames, const Body& body,
+                    const std::filesystem::path& file) {
+  std::vector<NamedFrame> seen;
+  for (const FrameRecord& record : frames.records)
+    seen.push_back({record.tracked, record.names, record.modes.exchanged});
+  const std::vector<double> swapped = swapped_probabilities(seen, 1 / frames.frame_rate);
+  TrackedFrames out{frames.frame_rate, FrameFile(file)};
+  std::filesystem::remove(file);  // what is open can still be read, and leaves nothing behind
+  auto probability = swapped.begin();
+  for (FrameRecord record : frames.records) {
+    const double p = *probability++;
+    if (p > 0.5) exchange_legs(body, record);
+    if (record.tracked) record.modes.exchanged = std::min(p, 1 - p);
+    out.records.append(record);
+  }
+  return out;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,114 @@
+#include "tracker/motion/standing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracker/motion/kneed_motion.h"
+
+namespace walktrack {
+
+namespace {
+
+// How often those who stand are tried as setting off and those who walk as stopping, 1/s. By hand:
+// they say how many particles look out for a change. Halved or doubled, the clips with people who
+// stand begin and end their walks at the same frames give or take two.
+constexpr double kSetsOff = 1, kStops = 0.5;
+
+// Those who set off aim at a usual walk, m/s for an adult, and are slower in the first half second.
+constexpr double kSlowestAim = 0.6, kFastestAim = 1.3;
+constexpr double kSlower = -0.25, kSlower_sd = 0.12;  // of kPace, a logarithm
+// Moments of a step at which they may be: before the legs have passed each other.
+constexpr double kLatest = 0.6;
+
+// A standing person sways and shifts weight in seconds, where a walker's strays change in a tenth.
+double standing_time(Extra extra, double walking) {
+  switch (extra) {
+    case kThigh:
+    case kThighRight:
+    case kShank:
+    case kShankRight:
+      return 0.4;
+    case kList:
+    case kAbduction:
+    case kAbductionRight:
+    case kRotation:
+    case kRotationRight:
+    case kAnkle:
+    case kAnkleRight:
+      return 0.6;
+    default:
+      return walking;
+  }
+}
+
+bool sets_off(const MotionContext& context, const StepBook& steps, WalkerParticle& particle,
+              Rng& rng) {
+  const double unit = std::sqrt(context.model.body.subject.height / kAdultHeight);
+  const double leg = leg_length(context.model.body.lengths);
+  const double speed = unit * (kSlowestAim + (kFastestAim - kSlowestAim) * rng.uniform());
+  const double pace = std::sqrt(context.model.walker.parameters.gravity * leg);
+  const StepAim aim{speed, leg * preferred_step_length(speed / pace)};
+  const BookedStep* step = steps.near(aim, particle.extra[kHeading], rng);
+  if (step == nullptr) return false;
+  WalkerParticle reading = particle;
+  reading.regime = Regime::kWalking;
+  reading.aim = step->aim;
+  reading.controls = step->controls;
+  reading.walker =
+      step->moments[static_cast<size_t>(rng.uniform() * kLatest * double{BookedStep::kMoments})];
+  if (rng.uniform() < 0.5) reading.stance = other(particle.stance);
+  stray_to(particle.pose, reading);
+  if (!std::isfinite(strays_improbability(context, reading.extra))) return false;
+  draw_strays_before(context, reading, rng);
+  const MarkovConstants c = markov_constants(kPace);
+  reading.extra[kPace] =
+      std::clamp(kSlower + kSlower_sd * rng.truncated_normal(3), c.lowest, c.highest);
+  reading.extra_before[kPace] = reading.extra[kPace];
+  stand_under(context.model, particle.pose, reading);
+  particle = reading;
+  return true;
+}
+
+bool stops(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+  WalkerParticle reading = particle;
+  stand(reading);
+  stray_to(particle.pose, reading);
+  // As in rephasing, a walker whose pose is that of a walk goes on walking.
+  const double gain =
+      strays_improbability(context, particle.extra) - strays_improbability(context, reading.extra);
+  if (!(std::log(rng.uniform()) < gain)) return false;
+  draw_strays_before(context, reading, rng);
+  stand_under(context.model, particle.pose, reading);
+  particle = reading;
+  return true;
+}
+
+}  // namespace
+
+StandingProcess standing_process(const MotionModel& moves, const MotionConfig& config, double dt) {
+  StandingProcess out;
+  for (int k = 0; k < kExtraCount; ++k) {
+    const auto extra = static_cast<Extra>(k);
+    MarkovConstants c = moves.constants(config, extra);
+    c.time = standing_time(extra, c.time);
+    out.markov[static_cast<size_t>(k)] = markov_step(extra, c, dt);
+    out.scale.extra[static_cast<size_t>(k)] = frame_noise(config, extra, c, dt);
+  }
+  out.scale.elapsed = dt;
+  return out;
+}
+
+void stand(WalkerParticle& particle) {
+  particle.regime = Regime::kStanding;
+  particle.walker = {};
+  particle.walker.stance_stop = particle.walker.swing_stop = true;
+}
+
+bool change_regime(const MotionContext& context, const StepBook& steps, WalkerParticle& particle,
+                   Rng& rng) {
+  if (particle.regime == Regime::kStanding)
+    return rng.uniform() < kSetsOff * context.dt && sets_off(context, steps, particle, rng);
+  return rng.uniform() < kStops * context.dt && stops(context, particle, rng);
+}
+
+}  // namespace walktrack

@@ -1,0 +1,30 @@
+// Standing: a person who stays on both feet, as a regime of the particle beside walking
+// (interacting multiple models, Blom & Bar-Shalom 1988). In every frame a standing particle may set
+// off into a step, and a walking one stop; which of them live is for the images to say.
+//
+// Who stands is a walker at rest on straight legs whose feet and trunk stray from there slowly: no
+// clock, no steps, no torques. Whoever sets off reads the pose as an early moment of a step of
+// either leg, slower at first than the step will be; whoever stops reads it as standing, with
+// strays that take the swinging leg in. Both keep the pose as it is (tracker/motion/strays.h).
+#pragma once
+
+#include "tracker/motion/step_book.h"
+#include "tracker/motion/strays.h"
+
+namespace walktrack {
+
+// Of the extras of those who stand.
+struct StandingProcess {
+  NoiseScale scale;
+  MarkovSteps markov;
+};
+StandingProcess standing_process(const MotionModel& moves, const MotionConfig& config, double dt);
+
+// Makes a particle whose stance and extras are set stand, upright and at rest.
+void stand(WalkerParticle& particle);
+
+// One frame's chance to set off or to stop; whether it was taken. `context.standing` is there.
+bool change_regime(const MotionContext& context, const StepBook& steps, WalkerParticle& particle,
+                   Rng& rng);
+
+}  // namespace walktrack

@@ -1,0 +1,76 @@
+#include "tracker/motion/strays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tracker/motion/kneed_motion.h"
+
+namespace walktrack {
+
+namespace {
+
+// Angles in the walker's plane in the order of the strays, rad.
+using PlanarAngles = Eigen::Array<double, kStrayCount, 1>;
+
+PlanarAngles planar_angles(const Pose& pose) {
+  PlanarAngles out;
+  out[0] = pose.tilt;
+  for (int i = 0; i < 2; ++i) {
+    const LegPose& leg = pose.legs[static_cast<size_t>(i)];
+    out[1 + i] = pose.tilt - leg.hip_flexion;
+    out[3 + i] = out[1 + i] + leg.knee_flexion;
+  }
+  return out;
+}
+
+PlanarAngles planar_angles(const Vector5& q, Side stance) {
+  const int standing = static_cast<int>(stance), swinging = 1 - standing;
+  PlanarAngles out;
+  out[0] = q[kTorso];
+  out[1 + standing] = q[kStanceThigh];
+  out[1 + swinging] = q[kSwingThigh];
+  out[3 + standing] = q[kStanceShank];
+  out[3 + swinging] = q[kSwingShank];
+  return out;
+}
+
+}  // namespace
+
+double strays_improbability(const MotionContext& context, const Extras& extra) {
+  double sum = 0;
+  for (size_t k = kTilt; k < kTilt + kStrayCount; ++k) {
+    const MarkovConstants c = markov_constants(static_cast<Extra>(k));
+    if (extra[k] < c.lowest || extra[k] > c.highest) return std::numeric_limits<double>::infinity();
+    const double off = extra[k] / (context.config.misfit * c.spread);
+    sum += 0.5 * off * off;
+  }
+  return sum;
+}
+
+void stray_to(const Pose& pose, WalkerParticle& reading) {
+  Extras& extra = reading.extra;
+  std::fill_n(extra.begin() + kTilt, kStrayCount, 0.0);
+  const KneedState shown = shown_state(reading.walker, reading.stance, reading.aim, extra);
+  const PlanarAngles stray = planar_angles(pose) - planar_angles(shown.q, reading.stance);
+  for (size_t k = 0; k < kStrayCount; ++k) extra[kTilt + k] = stray[static_cast<Eigen::Index>(k)];
+}
+
+// The process of tracker/motion/motion.h is autoregressive with the double root r.
+void draw_strays_before(const MotionContext& context, WalkerParticle& reading, Rng& rng) {
+  for (size_t k = kTilt; k < kTilt + kStrayCount; ++k) {
+    const MarkovConstants c = markov_constants(static_cast<Extra>(k));
+    const double rr = std::exp(-2 * context.dt / c.time);
+    const double correlation = 2 * std::sqrt(rr) / (1 + rr), rest = (1 - rr) / (1 + rr);
+    reading.extra_before[k] = correlation * reading.extra[k] +
+                              rest * context.config.misfit * c.spread * rng.truncated_normal(4);
+  }
+}
+
+void stand_under(const BodyModel& model, const Pose& pose, WalkerParticle& reading) {
+  const Pose unplaced = pose_of(model, reading.walker, reading.stance, reading.aim,
+                                Eigen::Vector2d::Zero(), reading.extra);
+  reading.ball = (pose.root - unplaced.root).head<2>();
+}
+
+}  // namespace walktrack
