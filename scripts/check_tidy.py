@@ -45,18 +45,28 @@ def object_of(entry):
     return words[words.index("-o") + 1]
 
 
+def without_precompiled(entry):
+    """As clang reads it: without what GCC alone can read."""
+    words = shlex.split(entry["command"])
+    while "-include" in words:
+        at = words.index("-include")
+        del words[at:at + 2]
+    words = [word for word in words if word != "-Winvalid-pch"]
+    return {**entry, "command": shlex.join(words)}
+
+
 def key_of(entry, headers, common):
     """Changes when the outcome may change. Files of the system count by name only."""
     digest = hashlib.sha256((common + entry["command"]).encode())
     for path in sorted(headers[object_of(entry)]):
         digest.update(str(path).encode())
-        if path.is_relative_to(ROOT) and path.is_file():
+        if path.suffix != ".gch" and path.is_relative_to(ROOT) and path.is_file():
             digest.update(path.read_bytes())
     return digest.hexdigest()
 
 
-def look_at(entry, build, options, stamp):
-    done = subprocess.run(["clang-tidy", "-p", str(build), *options, entry["file"]],
+def look_at(entry, stamps, options, stamp):
+    done = subprocess.run(["clang-tidy", "-p", str(stamps), *options, entry["file"]],
                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     if done.returncode == 0:
         stamp.touch()
@@ -73,7 +83,10 @@ def main():
     common = output_of("clang-tidy", "--version") + (ROOT / ".clang-tidy").read_text() + str(options)
     headers = headers_of_objects(build)
     due = {}
-    for entry in json.loads((build / "compile_commands.json").read_text()):
+    commands = json.loads((build / "compile_commands.json").read_text())
+    entries = [without_precompiled(entry) for entry in commands]
+    (stamps / "compile_commands.json").write_text(json.dumps(entries))
+    for entry in entries:
         path = pathlib.Path(entry["file"])
         if not any(path.is_relative_to(ROOT / folder) for folder in ("lib", "apps")):
             continue
@@ -84,7 +97,7 @@ def main():
             due[stamp] = entry
     found, begin = 0, time.monotonic()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        looks = {pool.submit(look_at, entry, build, options, stamp): entry for stamp, entry in due.items()}
+        looks = {pool.submit(look_at, entry, stamps, options, stamp): entry for stamp, entry in due.items()}
         for look in concurrent.futures.as_completed(looks):
             code, text = look.result()
             if code:
