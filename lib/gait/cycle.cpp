@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <functional>
 
 #include "gait/newton.h"
 #include "gait/walker_units.h"

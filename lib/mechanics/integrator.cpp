@@ -1,5 +1,6 @@
 #include "mechanics/integrator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -1,5 +1,6 @@
 #include "observation/camera_fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

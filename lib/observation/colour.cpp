@@ -1,5 +1,6 @@
 #include "observation/colour.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <opencv2/core.hpp>

@@ -3,6 +3,7 @@
 //   push >= 0,  gain = free + W push >= 0,  push . gain = 0
 // over the knees at their stops. The solution is unique, so trying every set of pushing stops,
 // fewest first, finds it.
+#include <algorithm>
 #include <array>
 #include <cmath>
 

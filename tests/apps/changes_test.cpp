@@ -1,6 +1,7 @@
 // Run again with another configuration or other inputs, nothing of the old is taken for the new:
 // what differs is named, and -y makes it again.
 #include <filesystem>
+#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

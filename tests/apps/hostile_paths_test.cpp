@@ -2,6 +2,7 @@
 // output folder, and what names hold is data wherever it is printed.
 #include <filesystem>
 #include <map>
+#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 #include "body/motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,7 @@
 #include "camera/inspection.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/conventions.h"

@@ -1,5 +1,9 @@
 #include "gait/gait_prior.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "gait/build_prior.h"

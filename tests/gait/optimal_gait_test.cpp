@@ -1,5 +1,7 @@
 #include "gait/optimal_gait.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "gait/gait_prior.h"

@@ -1,4 +1,5 @@
 // Calibration files of other people's tools: small ones of the same form, and real ones.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 

@@ -1,5 +1,7 @@
 #include "io/keypoints/keypoint_file.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

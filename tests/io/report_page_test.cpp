@@ -1,6 +1,7 @@
 #include "io/drawing/report_page.h"
 
 #include <random>
+#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // Small input files for tests, written where a test wants them.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 #include "tests/run_program.h"

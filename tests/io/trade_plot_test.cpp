@@ -1,6 +1,7 @@
 #include "io/drawing/trade_plot.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

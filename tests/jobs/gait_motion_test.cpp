@@ -1,5 +1,6 @@
 #include "jobs/render/gait_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,7 @@
 #include "jobs/track/person_finder.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace walktrack {

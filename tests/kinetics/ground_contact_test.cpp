@@ -1,5 +1,7 @@
 #include "kinetics/ground_contact.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 

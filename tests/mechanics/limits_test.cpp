@@ -1,5 +1,6 @@
 #include "mechanics/limits.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 

@@ -1,5 +1,7 @@
 #include "mechanics/quaternion.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 

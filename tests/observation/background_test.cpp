@@ -1,5 +1,6 @@
 #include "observation/background_sampler.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

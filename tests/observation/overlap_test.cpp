@@ -1,5 +1,6 @@
 #include "observation/overlap.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 #include "observation/part_discs.h"
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 

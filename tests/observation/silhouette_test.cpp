@@ -1,5 +1,6 @@
 #include "observation/silhouette.h"
 
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>

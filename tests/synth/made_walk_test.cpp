@@ -1,5 +1,6 @@
 #include "synth/made_walk.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,8 @@
 #include "walker/kneed_advance.h"
 
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "core/rng.h"

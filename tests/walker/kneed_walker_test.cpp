@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <array>
+#include <cmath>
 
 #include "core/rng.h"
 #include "tests/walker/kneed_files.h"

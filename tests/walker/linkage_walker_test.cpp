@@ -1,5 +1,6 @@
 #include "walker/linkage_walker.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

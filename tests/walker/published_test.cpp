@@ -1,7 +1,9 @@
 // Published walkers, row by row: fixed points, periods, speeds and Floquet multipliers. The tables
 // count angles counter-clockwise with forward to the right, so every angle and rate changes sign.
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 

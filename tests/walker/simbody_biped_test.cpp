@@ -1,5 +1,7 @@
 // The kneed walker as a linkage against Simbody, where that is installed: five links on a foot that
 // rolls without slip.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "core/conventions.h"

@@ -1,5 +1,6 @@
 #include "walker/simulate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 

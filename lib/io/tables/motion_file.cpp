@@ -1,5 +1,6 @@
 #include "io/tables/motion_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,6 @@
 #include "jobs/render/render.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

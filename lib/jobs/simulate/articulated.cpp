@@ -1,5 +1,6 @@
 #include "jobs/simulate/articulated.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
