@@ -74,14 +74,14 @@ int run_batch(const Arguments& arguments) {
   std::string folder, scene_template, shard = "1/1";
   bool list_only = false, dry_run = false, report_only = false, resume = false;
   bool ignore_checks = false;
-  CommandLine line({.name = "batch",
-                    .operands = "FOLDER",
-                    .about =
-                        "Tracks every scene below FOLDER, each in a process of its own; goes "
-                        "on after failures.\nRun again, it does what is not complete, from where "
-                        "it was killed (--resume,\nthe default); with -y also what is of other settings or "
-                        "inputs. Several machines\nmay share one output folder.",
-                    .example = "walktrack batch data -o out/batch --jobs 2"});
+  CommandLine line(
+      {.name = "batch",
+       .operands = "FOLDER",
+       .about = "Tracks every scene below FOLDER, each in a process of its own; goes "
+                "on after failures.\nRun again, it does what is not complete, from where "
+                "it was killed (--resume,\nthe default); with -y also what is of other settings or "
+                "inputs. Several machines\nmay share one output folder.",
+       .example = "walktrack batch data -o out/batch --jobs 2"});
   line.options().add_options()("scene", po::value(&scene_template)->value_name("FILE"),
                                "take every video below FOLDER in the place of this scene\'s video")(
       "jobs,j", po::value(&job.jobs)->default_value(1)->value_name("N"), "sequences at a time")(

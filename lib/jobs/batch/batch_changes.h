@@ -1,5 +1,5 @@
-// Which sequences a batch has to do: what is not complete, and which results of an earlier batch were
-// made otherwise than this one would make them.
+// Which sequences a batch has to do: what is not complete, and which results of an earlier batch
+// were made otherwise than this one would make them.
 #pragma once
 
 #include <string>
