@@ -7,6 +7,7 @@
 #include "core/errors.h"
 #include "core/parallel_for.h"
 #include "jobs/batch/batch.h"
+#include "jobs/batch/batch_changes.h"
 #include "terminal.h"
 
 namespace walktrack {
@@ -50,7 +51,7 @@ int list(const BatchJob& job) {
 }
 
 int list_work(const BatchJob& job) {
-  for (const Sequence& sequence : sequences_to_do(job)) fmt::print("{}\n", sequence.name);
+  for (const Sequence& sequence : work_of(job).to_do) fmt::print("{}\n", sequence.name);
   return kDone;
 }
 
@@ -73,14 +74,14 @@ int run_batch(const Arguments& arguments) {
   std::string folder, scene_template, shard = "1/1";
   bool list_only = false, dry_run = false, report_only = false, resume = false;
   bool ignore_checks = false;
-  CommandLine line({.name = "batch",
-                    .operands = "FOLDER",
-                    .about =
-                        "Tracks every scene below FOLDER, each in a process of its own; goes "
-                        "on after failures.\nRun again, it does what is not complete, from where "
-                        "it was killed (--resume,\nthe default). Several machines may share one "
-                        "output folder.",
-                    .example = "walktrack batch data -o out/batch --jobs 2"});
+  CommandLine line(
+      {.name = "batch",
+       .operands = "FOLDER",
+       .about = "Tracks every scene below FOLDER, each in a process of its own; goes "
+                "on after failures.\nRun again, it does what is not complete, from where "
+                "it was killed (--resume,\nthe default); with -y also what is of other settings or "
+                "inputs. Several machines\nmay share one output folder.",
+       .example = "walktrack batch data -o out/batch --jobs 2"});
   line.options().add_options()("scene", po::value(&scene_template)->value_name("FILE"),
                                "take every video below FOLDER in the place of this scene\'s video")(
       "jobs,j", po::value(&job.jobs)->default_value(1)->value_name("N"), "sequences at a time")(
@@ -101,7 +102,7 @@ int run_batch(const Arguments& arguments) {
   if (job.jobs < 1) throw UsageError("--jobs: found less than 1, allowed: from 1");
   if (resume && line.common().overwrite) {
     throw UsageError(
-        "--resume and --yes exclude each other: what is complete is passed over or done again");
+        "--resume and --yes exclude each other: what has changed is left as it is or done again");
   }
   parse_shard(shard, job);
   job.folder = folder;
@@ -109,9 +110,9 @@ int run_batch(const Arguments& arguments) {
   job.output = line.required_output();
   job.overwrite = line.common().overwrite;
   if (list_only) return list(job);
-  if (dry_run) return list_work(job);
   if (report_only) return report(job);
   job.config = line.config();  // a mistake in it would fail every sequence
+  if (dry_run) return list_work(job);
   job.command = track_command(line.common(), job.jobs, ignore_checks);
   Terminal terminal(line.common());
   const JobControl control = terminal.control();
@@ -122,8 +123,8 @@ int run_batch(const Arguments& arguments) {
   if (outcome.interrupted) return kInterrupted;
   if (outcome.changed > 0) {
     throw UsageError(fmt::format(
-        "{} sequences are left as they are, for they are of other settings or inputs; -y does all "
-        "sequences again{}",
+        "{} sequences are left as they are, for they are of other settings or inputs; -y does them "
+        "again{}",
         outcome.changed, outcome.changes));
   }
   if (outcome.failed + outcome.waiting > 0) return kFailed;

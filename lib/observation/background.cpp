@@ -156,6 +156,7 @@ double light_gain(const BackgroundModel& model, const cv::Mat& bgr) {
 void background_log_density(const BackgroundModel& model, const BackgroundConfig& config,
                             const ColourPatch& patch, const PixelRect& area, int y, double gain,
                             std::span<float> out) {
+  if (area.width() == 0) return;  // of somebody outside the picture there is nothing to fill
   const Weights w(config);
   const PixelRect image{0, 0, model.width, model.height};
   const PixelRows rows{rows_of(patch.luma, patch.area, area.x0, y),

@@ -107,12 +107,24 @@ TEST_F(Changes, ABatchKeepsNamesAndDoesTheRest) {
   EXPECT_EQ(preset.exit_code, 2);
   EXPECT_THAT(preset.err, AllOf(HasSubstr("3 complete, 0 degraded, 0 failed, 0 left"),
                                 HasSubstr("2 sequences are left as they are"),
-                                HasSubstr("\n  seed 1 -> 2: a, b\n"), HasSubstr("-y does all")));
+                                HasSubstr("\n  seed 1 -> 2: a, b\n"), HasSubstr("-y does them")));
   EXPECT_EQ(record("out/a"), a);
   EXPECT_THAT(record("out/c"), HasSubstr("\"seed\": 2"));
   EXPECT_EQ(batch({"--seed", "2", "-y"}).exit_code, 0);
   EXPECT_NE(record("out/a"), a);
   EXPECT_EQ(batch({"--seed", "2"}).exit_code, 0);
+}
+
+TEST_F(Changes, ABatchDoesAgainWhatHasChangedAndNothingElse) {
+  ASSERT_EQ(batch().exit_code, 0);
+  const std::string a = record("out/a"), b = record("out/b");
+  const auto made = fs::last_write_time(folder_.path() / "out/b/run.json");
+  film("in/a", 3);
+  EXPECT_EQ(batch({"-y", "--dry-run"}).out, "a\n");
+  EXPECT_EQ(batch({"-y"}).exit_code, 0);
+  EXPECT_NE(record("out/a"), a);
+  EXPECT_EQ(record("out/b"), b);
+  EXPECT_EQ(fs::last_write_time(folder_.path() / "out/b/run.json"), made);
 }
 
 TEST_F(Changes, ABatchSeesAnotherVideoAndAnotherCalibration) {

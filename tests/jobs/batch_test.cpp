@@ -124,8 +124,23 @@ TEST_F(BatchTest, RunAgainItDoesOnlyWhatIsNotComplete) {
   EXPECT_EQ(runs("fail"), 2u);
   EXPECT_EQ(read_file(job_.output / "failures.txt"), "");
   job_.overwrite = true;
+  EXPECT_TRUE(work_of(job_).to_do.empty());
+}
+
+// A result that was to be made again and could not is done again, beside what there was before.
+TEST_F(BatchTest, DoesAgainWhatFailedBesideAnOldResult) {
+  for (const char* name : {"kept", "lost"}) add(name, "ok");
   run_batch(job_, {});
-  EXPECT_EQ(runs("ok"), 2u);
+  folder_.write("out/lost/failure.txt", "killed\n");
+  for (const bool retry : {false, true}) {
+    BatchJob job = job_;
+    (retry ? job.retry_failed : job.overwrite) = true;
+    const size_t before = runs("lost");
+    EXPECT_EQ(run_batch(job, {}).complete, 2);
+    EXPECT_EQ(runs("lost"), before + 1);
+    EXPECT_EQ(runs("kept"), 1u);
+    folder_.write("out/lost/failure.txt", "killed\n");
+  }
 }
 
 TEST_F(BatchTest, RetriesNoneButThoseThatFailed) {
@@ -134,15 +149,15 @@ TEST_F(BatchTest, RetriesNoneButThoseThatFailed) {
   add("new", "ok");
   add("fail", "ok");  // repaired
   job_.retry_failed = true;
-  ASSERT_EQ(sequences_to_do(job_).size(), 1u);
-  EXPECT_EQ(sequences_to_do(job_)[0].name, "fail");
+  ASSERT_EQ(work_of(job_).to_do.size(), 1u);
+  EXPECT_EQ(work_of(job_).to_do[0].name, "fail");
   const BatchOutcome outcome = run_batch(job_, {});
   EXPECT_EQ(outcome.complete, 2);
   EXPECT_EQ(outcome.waiting, 1);
   EXPECT_EQ(runs("fail"), 2u);
   EXPECT_EQ(runs("ok"), 1u);
   EXPECT_FALSE(fs::exists(job_.output / "new"));
-  EXPECT_TRUE(sequences_to_do(job_).empty());
+  EXPECT_TRUE(work_of(job_).to_do.empty());
 }
 
 TEST_F(BatchTest, ClearsWhatAWorkerLeftThatWasKilledOverTheSummary) {

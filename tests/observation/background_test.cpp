@@ -1,7 +1,9 @@
 #include "observation/background_sampler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -275,6 +277,21 @@ TEST(Background, DensityIsThatOfTheHeader) {
                   reference(model, config, patch, x, y), 2e-3)
           << x << ", " << y;
     }
+  }
+}
+
+// Who has walked out of the picture leaves an area without columns at its edge.
+TEST(Background, AnAreaWithoutColumnsWritesNothing) {
+  Rng rng(11, Purpose::kTest);
+  const cv::Mat frame = scene(rng, 4);
+  const BackgroundModel model = model_of({frame});
+  for (const int edge : {0, kWidth}) {
+    const PixelRect none{edge, 0, edge, kHeight};
+    ColourPatch patch;
+    read_colours(frame, {std::max(0, edge - 1), 0, std::min(edge + 1, kWidth), kHeight}, patch);
+    std::array<float, 3> memory{7, 7, 7};
+    background_log_density(model, {}, patch, none, 1, 1, std::span(memory).subspan(1, 0));
+    EXPECT_EQ(memory, (std::array<float, 3>{7, 7, 7})) << "edge " << edge;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <deque>
 #include <list>
+#include <map>
 #include <optional>
 #include <thread>
 
@@ -76,33 +77,44 @@ Outputs outputs_of(const Sequence& sequence) {
   return {sequence.output, "batch", {kLogFile, kFailureFile, "scene.yaml"}, {sequence.video}, ""};
 }
 
-// When the sequence failed; nullopt if it has not.
-std::optional<fs::file_time_type> failure_time(const Sequence& sequence) {
+// When the file was written; nullopt if there is none.
+std::optional<fs::file_time_type> time_of(const fs::path& file) {
   std::error_code none;
-  const auto time = fs::last_write_time(sequence.output / kFailureFile, none);
+  const auto time = fs::last_write_time(file, none);
   return none ? std::nullopt : std::optional(time);
+}
+
+// When an end of the sequence was noted last, with or without success; nullopt: never.
+struct LastEnd {
+  std::optional<fs::file_time_type> completed, failed;
+};
+
+LastEnd last_end(const Sequence& sequence) {
+  const bool complete = is_complete_result(sequence.output);
+  return {complete ? time_of(sequence.output / "run.json") : std::nullopt,
+          time_of(sequence.output / kFailureFile)};
 }
 
 // A sequence that is to be done, and how it stood when this worker began.
 struct Waiting {
   Sequence sequence;
-  std::optional<fs::file_time_type> failed;
+  LastEnd before;
 
-  // Whether another worker has done it since, with or without success.
-  bool done_by_another(const BatchJob& job) const {
-    return (!job.overwrite && is_complete_result(sequence.output)) ||
-           failure_time(sequence) > failed;
+  // Whether another worker has done it since.
+  bool done_by_another() const {
+    const LastEnd now = last_end(sequence);
+    return now.completed > before.completed || now.failed > before.failed;
   }
 };
 
 // If it is still to be done and nobody else is at it: clears why an earlier try failed, and starts.
 std::optional<Running> start(const BatchJob& job, const Waiting& waiting) {
   const Sequence& sequence = waiting.sequence;
-  if (waiting.done_by_another(job)) return std::nullopt;
+  if (waiting.done_by_another()) return std::nullopt;
   fs::create_directories(sequence.output);
   std::optional<Claim> claim = Claim::try_take(sequence.output);
   // Another worker may have done it between the look and the claim.
-  if (!claim || waiting.done_by_another(job)) return std::nullopt;
+  if (!claim || waiting.done_by_another()) return std::nullopt;
   const ResultFolder folder(outputs_of(sequence), true);
   if (!sequence.video.empty())
     folder.write("scene.yaml", scene_for_video(job.scene_template, sequence.video));
@@ -130,22 +142,22 @@ void note_end(const BatchJob& job, const Running& running, const ChildEnd& end, 
   write_file_atomically(folder / kFailureFile, failure_reason(job, end, folder / kLogFile) + "\n");
 }
 
-std::vector<Sequence> without(std::vector<Sequence> sequences,
-                              const std::vector<ChangedSequence>& changed) {
-  std::erase_if(sequences, [&](const Sequence& sequence) {
-    return std::ranges::any_of(changed,
-                               [&](const auto& each) { return each.name == sequence.name; });
-  });
-  return sequences;
+// How the sequences stand, by name.
+std::map<std::string, LastEnd> last_ends(const std::vector<Sequence>& sequences) {
+  std::map<std::string, LastEnd> out;
+  for (const Sequence& sequence : sequences) out[sequence.name] = last_end(sequence);
+  return out;
 }
 
 class Runner {
  public:
-  Runner(const BatchJob& job, const JobControl& control, const std::vector<Sequence>& sequences)
+  // `before`: how the sequences stood, by name, before it was asked which are to be done.
+  Runner(const BatchJob& job, const JobControl& control, const std::vector<Sequence>& sequences,
+         const std::map<std::string, LastEnd>& before)
       : job_(job), control_(control), total_(sequences.size()) {
     for (const Sequence& sequence : sequences) {
       refuse_what_is_not_ours(outputs_of(sequence));
-      waiting_.push_back({sequence, failure_time(sequence)});
+      waiting_.push_back({sequence, before.at(sequence.name)});
     }
   }
 
@@ -218,15 +230,15 @@ BatchOutcome run_batch(const BatchJob& job, const JobControl& control) {
   refuse_what_is_not_ours(batch_outputs(job));
   const std::vector<Sequence> own = shard_of(all, job.shard, job.shards);
   refuse_links(job, own);
-  const std::vector<ChangedSequence> changed =
-      changed_sequences(job, job.retry_failed ? sequences_to_do(job) : own);
-  Runner runner(job, control, without(sequences_to_do(job), changed));
+  const std::map<std::string, LastEnd> before = last_ends(own);
+  const BatchWork work = work_of(job);
+  Runner runner(job, control, work.to_do, before);
   fs::create_directories(job.output);
   clear_dead_claims(own);
   runner.run();
   write_batch_reports(all, batch_outputs(job));
-  BatchOutcome outcome{.changed = static_cast<int>(changed.size()),
-                       .changes = changes_text(changed),
+  BatchOutcome outcome{.changed = static_cast<int>(work.left.size()),
+                       .changes = changes_text(work.left),
                        .interrupted = runner.interrupted()};
   for (const Sequence& sequence : own) {
     const SequenceState state = result_of(sequence).state;

@@ -4,7 +4,8 @@
 // OUT/<sequence>/ is the result folder of one sequence (see io/archive/result_folder.h) with
 // log.txt, what its process said, and failure.txt, why there is no result. Run again, complete
 // sequences are passed over and all others done, from their checkpoints where they have left any;
-// those whose result or checkpoint is of other settings or inputs are left as they are and named.
+// those whose result or checkpoint is of other settings or inputs are left as they are and named,
+// or done again if that is wanted; see batch_changes.h.
 // Several workers may share OUT: each claims a sequence before it does it. summary.csv,
 // failures.txt and batch.html are made from the folders as they stand.
 #pragma once
@@ -48,10 +49,10 @@ struct BatchJob {
   int jobs = 1;  // processes at a time
   int shard = 1,
       shards = 1;          // this worker does every shards-th sequence, beginning with the shard-th
-  bool overwrite = false;  // do complete ones again
+  bool overwrite = false;  // do again what has changed or failed
   bool retry_failed = false;               // do none but those that failed
   ChildLimits limits;                      // of each sequence
-  std::optional<ConfigWithOrigin> config;  // that the command tracks with; see batch_changes.h
+  std::optional<ConfigWithOrigin> config;  // that the command tracks with
 };
 
 struct BatchOutcome {
@@ -79,9 +80,6 @@ std::vector<Sequence> shard_of(const std::vector<Sequence>& sequences, int shard
 
 // What OUT/<sequence>/ says.
 SequenceResult result_of(const Sequence& sequence);
-
-// Those of this worker's shard that a run would do now, if their inputs have not changed.
-std::vector<Sequence> sequences_to_do(const BatchJob& job);
 
 // UsageError for a folder without sequences.
 BatchOutcome run_batch(const BatchJob& job, const JobControl& control);

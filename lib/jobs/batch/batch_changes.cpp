@@ -41,13 +41,19 @@ std::string changes_of(const BatchJob& job, const Sequence& sequence) {
 
 }  // namespace
 
-std::vector<ChangedSequence> changed_sequences(const BatchJob& job,
-                                               const std::vector<Sequence>& sequences) {
-  std::vector<ChangedSequence> out;
-  if (!job.config || job.overwrite) return out;
-  for (const Sequence& sequence : sequences) {
-    std::string changes = changes_of(job, sequence);
-    if (!changes.empty()) out.push_back({sequence.name, std::move(changes)});
+BatchWork work_of(const BatchJob& job) {
+  BatchWork out;
+  for (const Sequence& sequence : shard_of(sequences_of(job), job.shard, job.shards)) {
+    // A failure may stand beside a complete result: then the last try to make it again failed.
+    const bool failed = result_of(sequence).state == SequenceState::kFailed;
+    if (job.retry_failed && !failed) continue;
+    std::string changes = job.config ? changes_of(job, sequence) : "";
+    if (!changes.empty() && !job.overwrite) {
+      out.left.push_back({sequence.name, std::move(changes)});
+      continue;
+    }
+    const bool again = job.retry_failed || (job.overwrite && (failed || !changes.empty()));
+    if (again || !is_complete_result(sequence.output)) out.to_do.push_back(sequence);
   }
   return out;
 }

@@ -134,16 +134,6 @@ std::vector<Sequence> shard_of(const std::vector<Sequence>& sequences, int shard
   return own;
 }
 
-std::vector<Sequence> sequences_to_do(const BatchJob& job) {
-  std::vector<Sequence> own = shard_of(sequences_of(job), job.shard, job.shards);
-  std::erase_if(own, [&](const Sequence& sequence) {
-    const SequenceState state = result_of(sequence).state;
-    if (job.retry_failed) return state != SequenceState::kFailed;
-    return !job.overwrite && is_complete_result(sequence.output);
-  });
-  return own;
-}
-
 SequenceResult result_of(const Sequence& sequence) {
   // A failure is of the last attempt: it stands beside a complete result that was to be made again.
   const fs::path failure = sequence.output / kFailureFile;

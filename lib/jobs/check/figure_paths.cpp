@@ -27,10 +27,11 @@ struct SmallVideo {
   std::vector<cv::Mat> frames;
 
   void add(const cv::Mat& frame) {
-    cv::Mat small;
+    cv::Mat grey;
+    cv::cvtColor(frame, grey, cv::COLOR_BGR2GRAY);
     const cv::Size size(frame.cols / factor, frame.rows / factor);
-    cv::resize(frame({{0, 0}, size * factor}), small, size, 0, 0, cv::INTER_AREA);
-    cv::cvtColor(small, frames.emplace_back(), cv::COLOR_BGR2GRAY);
+    if (factor > 1) cv::resize(grey({{0, 0}, size * factor}), grey, size, 0, 0, cv::INTER_AREA);
+    frames.push_back(grey);
   }
 };
 
@@ -55,6 +56,14 @@ std::vector<SmallVideo> small_videos(const Scene& scene, SceneVideo& video,
   return out;
 }
 
+void put_smaller_first(uchar* a, uchar* b, size_t width) {
+  for (size_t x = 0; x < width; ++x) {
+    const uchar low = std::min(a[x], b[x]), high = std::max(a[x], b[x]);
+    a[x] = low;
+    b[x] = high;
+  }
+}
+
 cv::Mat median_frame(const std::vector<cv::Mat>& all) {
   std::vector<const cv::Mat*> frames;
   for (const cv::Mat& frame : all)
@@ -62,40 +71,38 @@ cv::Mat median_frame(const std::vector<cv::Mat>& all) {
   if (frames.empty()) return {};
   cv::Mat median = frames.front()->clone();
   const size_t count = std::min<size_t>(kBackgroundFrames, frames.size());
-  std::vector<uchar> values(count);
+  const auto width = static_cast<size_t>(median.cols);
+  std::vector<uchar> rows(count * width);
   for (int y = 0; y < median.rows; ++y) {
-    for (int x = 0; x < median.cols; ++x) {
-      for (size_t k = 0; k < count; ++k)
-        values[k] = frames[k * frames.size() / count]->at<uchar>(y, x);
-      std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(count / 2), values.end());
-      median.at<uchar>(y, x) = values[count / 2];
-    }
+    for (size_t k = 0; k < count; ++k)
+      std::copy_n(frames[k * frames.size() / count]->ptr<uchar>(y), width, &rows[k * width]);
+    // Pixels side by side, so that a vector of them is compared at once.
+    for (size_t i = 0; i <= count / 2; ++i)
+      for (size_t k = i + 1; k < count; ++k)
+        put_smaller_first(&rows[i * width], &rows[k * width], width);
+    std::copy_n(&rows[count / 2 * width], width, median.ptr<uchar>(y));
   }
   return median;
 }
 
-// The blob's outermost pixels, column by column, px of the shrunk image.
-void add_ends(const cv::Mat& labels, int blob, const cv::Rect& box, Figure& figure) {
-  for (int x = box.x; x < box.x + box.width; ++x) {
-    int top = -1, bottom = -1;
-    for (int y = box.y; y < box.y + box.height; ++y) {
-      if (labels.at<int>(y, x) != blob) continue;
-      if (top < 0) top = y;
-      bottom = y;
-    }
-    if (top < 0) continue;
-    if (box.y > 0) figure.tops.emplace_back(x, top - 0.5);
-    if (box.y + box.height < labels.rows) figure.bottoms.emplace_back(x, bottom + 0.5);
-  }
+// Where anything moves, and so much around it that closing gaps there is as in the whole image.
+cv::Rect moving_part(const cv::Mat& moving) {
+  constexpr int kAround = 4;
+  const cv::Rect found = cv::boundingRect(moving);
+  if (found.empty()) return {};
+  const cv::Rect whole({}, moving.size());
+  return (found - cv::Point(kAround, kAround) + cv::Size(2 * kAround, 2 * kAround)) & whole;
 }
 
-// The largest moving blob, px of the shrunk image; its middle is that of the upper part, for its
-// shadow lies below. None if it touches the image's side.
-std::optional<Figure> figure_in(const cv::Mat& frame, const cv::Mat& background) {
-  cv::Mat difference, labels, statistics, centres;
-  cv::absdiff(frame, background, difference);
-  cv::Mat moving = difference > kDifference;
-  cv::morphologyEx(moving, moving, cv::MORPH_CLOSE, cv::Mat::ones(5, 3, CV_8U));
+// The largest of the blobs: 255 where it is, and the box around it. Of a black image: nothing.
+struct Blob {
+  cv::Mat mask;  // of the image's part `around`
+  cv::Rect around;
+  int area = 0;
+};
+
+Blob largest_blob(const cv::Mat& moving) {
+  cv::Mat labels, statistics, centres;
   const int count = cv::connectedComponentsWithStats(moving, labels, statistics, centres);
   int best = 0, area = 0;
   for (int i = 1; i < count; ++i) {
@@ -103,17 +110,51 @@ std::optional<Figure> figure_in(const cv::Mat& frame, const cv::Mat& background)
     area = statistics.at<int>(i, cv::CC_STAT_AREA);
     best = i;
   }
-  const double share = area / static_cast<double>(frame.total());
-  if (share < kSmallestFigure || share > kLargestFigure) return std::nullopt;
+  if (area == 0) return {};
   const cv::Rect box(
       statistics.at<int>(best, cv::CC_STAT_LEFT), statistics.at<int>(best, cv::CC_STAT_TOP),
       statistics.at<int>(best, cv::CC_STAT_WIDTH), statistics.at<int>(best, cv::CC_STAT_HEIGHT));
+  return {labels(box) == best, box, area};
+}
+
+// The blob's outermost pixels, column by column, px of the shrunk image.
+void add_ends(const Blob& blob, int image_rows, Figure& figure) {
+  const cv::Rect& box = blob.around;
+  for (int x = 0; x < box.width; ++x) {
+    int top = -1, bottom = -1;
+    for (int y = 0; y < box.height; ++y) {
+      if (blob.mask.at<uchar>(y, x) == 0) continue;
+      if (top < 0) top = y;
+      bottom = y;
+    }
+    if (top < 0) continue;
+    if (box.y > 0) figure.tops.emplace_back(box.x + x, box.y + top - 0.5);
+    if (box.y + box.height < image_rows)
+      figure.bottoms.emplace_back(box.x + x, box.y + bottom + 0.5);
+  }
+}
+
+// The largest moving blob, px of the shrunk image; its middle is that of the upper part, for its
+// shadow lies below. None if it touches the image's side.
+std::optional<Figure> figure_in(const cv::Mat& frame, const cv::Mat& background) {
+  cv::Mat difference;
+  cv::absdiff(frame, background, difference);
+  const cv::Mat everywhere = difference > kDifference;
+  // Looking for blobs is most of what this costs, so it is done where there are any.
+  const cv::Rect part = moving_part(everywhere);
+  if (part.empty()) return std::nullopt;
+  cv::Mat moving;
+  cv::morphologyEx(everywhere(part), moving, cv::MORPH_CLOSE, cv::Mat::ones(5, 3, CV_8U));
+  Blob blob = largest_blob(moving);
+  blob.around += part.tl();
+  const double share = blob.area / static_cast<double>(frame.total());
+  if (share < kSmallestFigure || share > kLargestFigure) return std::nullopt;
+  const cv::Rect& box = blob.around;
   if (box.x < 2 || box.x + box.width > frame.cols - 2) return std::nullopt;
-  cv::Rect upper = box;
-  upper.height = static_cast<int>(std::ceil(kUpperPart * box.height));
-  const cv::Moments moments = cv::moments(labels(upper) == best, true);
+  const int upper = static_cast<int>(std::ceil(kUpperPart * box.height));
+  const cv::Moments moments = cv::moments(blob.mask.rowRange(0, upper), true);
   Figure figure{{box.x + moments.m10 / moments.m00, box.y + moments.m01 / moments.m00}, {}, {}};
-  add_ends(labels, best, box, figure);
+  add_ends(blob, frame.rows, figure);
   return figure;
 }
 

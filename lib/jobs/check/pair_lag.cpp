@@ -24,7 +24,8 @@ constexpr double kNearLine = 0.15;      // sine of the angle to the cameras' lin
 constexpr double kTrembling = 0.01;     // m, of an outline's end
 constexpr double kMostBias = 0.02;      // m, by which one camera sees ends higher
 constexpr double kAgreement = 0.3;      // share of the frames in which cameras in step agree
-constexpr double kTelling = 0.1;        // and by how much more than out of step
+constexpr double kTelling = 0.1;        // and by how much more than out of step,
+constexpr double kPeak = 0.1;           // s, which begins here
 constexpr size_t kFewest = 20;          // frames
 constexpr int kLeastLag = 2;            // frames
 constexpr double kClear = 3;            // standard errors
@@ -130,12 +131,19 @@ double mean(const Agreement& values) {
 // The agreement of one end at all lags, from -longest to longest.
 using ByLag = std::vector<Agreement>;
 
-// Whether an end tells anything: it agrees at some lag, and better than at most others.
-bool tells(const ByLag& end) {
+// Whether an end tells anything: it agrees at some lag, better than at most others, and better than
+// a little before and after it. Where a shadow takes the place of the feet, or a camera misses the
+// head, ends that are not the same agree now and then over a wide range of lags.
+bool tells(const ByLag& end, size_t little) {
   std::vector<double> means;
   for (const Agreement& each : end) means.push_back(mean(each));
-  const double best = *std::max_element(means.begin(), means.end());
-  return best >= kAgreement && best - median(std::move(means)) >= kTelling;
+  const auto found = std::max_element(means.begin(), means.end());
+  const auto place = static_cast<size_t>(found - means.begin());
+  const double best = *found;
+  double beside = place >= little ? means[place - little] : 0;
+  if (place + little < means.size()) beside = std::max(beside, means[place + little]);
+  return best >= kAgreement && best - beside >= kTelling &&
+         best - median(std::move(means)) >= kTelling;
 }
 
 // Both ends of a frame as one number each: 0 where neither is known or tells anything.
@@ -244,9 +252,9 @@ size_t best_lag(const std::vector<Sums>& lags) {
 
 bool is_clear(const Gain& gain) { return gain.mean >= kWorth && gain.clear >= kClear; }
 
-// All lags from -longest to longest; empty if neither end tells anything.
+// All lags from -longest to longest; empty if neither end tells anything. `little`: see tells().
 std::vector<Sums> lags_tried(const std::vector<Camera>& cameras,
-                             const std::vector<FigurePath>& paths, int longest) {
+                             const std::vector<FigurePath>& paths, int longest, int little) {
   const auto pencil = pencil_of(cameras[0], cameras[1]);
   if (!pencil) return {};
   const Heights first = heights_of(cameras[0], *pencil, paths[0]),
@@ -257,7 +265,7 @@ std::vector<Sums> lags_tried(const std::vector<Camera>& cameras,
     ByLag lags;
     for (int lag = -longest; lag <= longest; ++lag)
       lags.push_back(agreement(first[end], second[end], lag, distance));
-    if (tells(lags)) ends.push_back(std::move(lags));
+    if (tells(lags, static_cast<size_t>(little))) ends.push_back(std::move(lags));
   }
   std::vector<Sums> out;
   for (size_t l = 0; !ends.empty() && l < ends[0].size(); ++l)
@@ -273,7 +281,7 @@ std::optional<PairLag> find_pair_lag(const std::vector<Camera>& cameras,
     return static_cast<int>(std::max(2L, std::lround(seconds * frame_rate)));
   };
   const int longest = frames_in(kLongestLag);
-  const std::vector<Sums> lags = lags_tried(cameras, paths, longest);
+  const std::vector<Sums> lags = lags_tried(cameras, paths, longest, frames_in(kPeak));
   if (lags.empty()) return std::nullopt;
   const auto lag_of = [&](size_t place) { return static_cast<int>(place) - longest; };
   const auto apart = [&](size_t a, size_t b) {

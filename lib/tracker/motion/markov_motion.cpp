@@ -110,10 +110,11 @@ MarkovConstants MarkovMotion::constants(const MotionConfig& config, Extra extra)
   return {leg_ * c.rest, c.time, leg_ * c.spread, leg_ * c.lowest, leg_ * c.highest, c.period};
 }
 
-// The root's height takes the place of an angle: it is in metres.
+// The root's height takes the place of an angle: it is in metres. It begins further off than it
+// wanders later, for the first figure is the gait's and not yet the subject's.
 double MarkovMotion::start_spread(const MotionConfig& config, Extra extra) const {
-  return extra == kRootHeight ? constants(config, extra).spread
-                              : MotionModel::start_spread(config, extra);
+  constexpr double kHeight = 0.058;  // of the leg's length
+  return extra == kRootHeight ? kHeight * leg_ : MotionModel::start_spread(config, extra);
 }
 
 void MarkovMotion::enter(const MotionContext& context, std::span<const double> phases,
