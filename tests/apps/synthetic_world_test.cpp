@@ -1,5 +1,7 @@
 // Synthetic worlds from outside: what `render` makes, `evaluate` measures.
 #include <filesystem>
+#include <sstream>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,9 +18,15 @@ constexpr const char* kSmall =
     "duration: 1\nframe_rate: 15\nsetting: studio\nbackground_frames: 2\n"
     "cameras: [{name: side, size: [160, 120]}]\n";
 
+std::string small_gait() {
+  std::ostringstream text;
+  text << "gait: {speed: 1.2}\n" << kSmall;
+  return text.str();
+}
+
 TEST(RenderCommand, TakesAGaitOrAResultFolderOrSaysWhatIsMissing) {
   const TemporaryFolder folder;
-  const std::string gait = folder.write("gait.yaml", std::string("gait: {speed: 1.2}\n") + kSmall);
+  const std::string gait = folder.write("gait.yaml", small_gait());
   const std::string plain = folder.write("plain.yaml", kSmall);
   EXPECT_EQ(run_walktrack({"render", "--options", gait, "-o", folder / "scene"}).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "scene/kinetics.csv"));
@@ -37,8 +45,7 @@ TEST(RenderCommand, TakesAGaitOrAResultFolderOrSaysWhatIsMissing) {
 
 TEST(EvaluateCommand, PrintsATableOrJsonAndDrawsAPlot) {
   const TemporaryFolder folder;
-  const std::string options =
-      folder.write("gait.yaml", std::string("gait: {speed: 1.2}\n") + kSmall);
+  const std::string options = folder.write("gait.yaml", small_gait());
   ASSERT_EQ(run_walktrack({"render", "--options", options, "-o", folder / "scene"}).exit_code, 0);
   const std::string truth = folder / "scene/truth.csv", plot = folder / "errors.svg";
   const ProgramResult table = run_walktrack({"evaluate", truth, truth, "--plot", plot});

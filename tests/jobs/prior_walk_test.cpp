@@ -81,8 +81,7 @@ TEST(PriorWalk, SpeedsThatTheTableDoesNotHoldAreErrors) {
 
 SimulateJob adult_legs(double slope = 0) {
   SimulateJob job;
-  const std::string name =
-      std::string(WALKTRACK_SOURCE_DIR) + "/configs/models/anthropomorphic_adult.yaml";
+  const std::string name = WALKTRACK_SOURCE_DIR "/configs/models/anthropomorphic_adult.yaml";
   job.model = read_model("", name, {});
   job.model.anthropomorphic.slope = slope;
   job.simulation.max_step = 4e-3;

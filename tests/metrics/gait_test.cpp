@@ -87,6 +87,27 @@ TEST(Gait, StandingAndSwayingIsNoGait) {
   EXPECT_TRUE(gait.steps.empty());
 }
 
+// Two seconds of standing before the walk and two after it change neither its speed nor its steps.
+TEST(Gait, StandingBeforeAndAfterIsNoPartOfTheWalk) {
+  constexpr double kStands = 2;  // s
+  const Motion walk = walk_motion({});
+  const double dt = sample_period(walk);
+  const auto rows = static_cast<size_t>(kStands / dt);
+  Motion motion;
+  motion.joints.assign(rows, walk.joints.front());
+  motion.joints.insert(motion.joints.end(), walk.joints.begin(), walk.joints.end());
+  motion.joints.insert(motion.joints.end(), rows, walk.joints.back());
+  for (size_t i = 0; i < motion.joints.size(); ++i) motion.time.push_back(dt * double(i));
+  const Gait alone = gait_from_motion(walk), whole = gait_from_motion(motion);
+  EXPECT_NEAR(whole.speed, alone.speed, 0.15 * alone.speed);  // the path is smoothed over the ends
+  EXPECT_NEAR(whole.mean_step_length, alone.mean_step_length, 0.02);
+  EXPECT_NEAR(whole.mean_step_time, alone.mean_step_time, 0.02);
+  for (const GaitEvent& event : whole.events) {
+    EXPECT_GT(event.time, kStands - 0.5);
+    EXPECT_LT(event.time, motion.time.back() - kStands + 0.5);
+  }
+}
+
 TEST(Gait, AnEmptyOrUnknownMotionHasNone) {
   EXPECT_EQ(gait_from_motion({}).speed, 0);
   const Motion lost =

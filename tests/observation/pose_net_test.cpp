@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string shipped() {
-  return read_file(std::string(WALKTRACK_SOURCE_DIR) + "/data/pose_net/movenet_lightning.onnx");
+  return read_file(WALKTRACK_SOURCE_DIR "/data/pose_net/movenet_lightning.onnx");
 }
 
 // OpenCV on so many threads, for the length of a test.

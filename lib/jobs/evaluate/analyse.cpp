@@ -44,9 +44,9 @@ RunRecord record_of(const AnalyseJob& job, const fs::path& file, const AnalysedM
   record.config = job.config;
   record.status = "analysed";
   if (!job.mass)
-    record.notes.push_back("the subject's mass is not known: forces are those of 70 kg");
+    record.notes.emplace_back("the subject's mass is not known: forces are those of 70 kg");
   if (was_tracked(file))
-    record.notes.push_back(
+    record.notes.emplace_back(
         "a tracked motion: forces are smoothed below kinetics.tracked_cutoff_hz");
   record.numbers = {{"frames", static_cast<double>(analysed.motion.time.size())},
                     {"tracked_frames", static_cast<double>(whole_frames(analysed.motion))},

@@ -62,7 +62,7 @@ TrialResult try_slope(double slope_deg, const fs::path& folder) {
 // Fewer seconds of it, which nobody need make a step in.
 void cut(Film& film, double seconds) {
   film.options.duration = seconds;
-  film.settings.push_back("gates.least_steps=0");
+  film.settings.emplace_back("gates.least_steps=0");
 }
 
 // Where the camera differs from that of the other films.

@@ -87,6 +87,9 @@ FigureError figure_error_of(const Motion& motion, const Scene& scene) {
   return out;
 }
 
+// Whether the walker's support says anything: who stands does so on both feet.
+bool walks(const FrameRecord& record) { return record.tracked && record.modes.standing < 0.5; }
+
 }  // namespace
 
 TrackedFrames smoothed(const TrackedFrames& frames, const SmoothingConfig& config,
@@ -162,7 +165,7 @@ std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames) {
   std::vector<Support> support;
   for (const FrameRecord& record : frames.records)
     support.push_back(
-        {record.tracked, record.estimate.left_stance > 0.5, record.estimate.since_transfer});
+        {walks(record), record.estimate.left_stance > 0.5, record.estimate.since_transfer});
   std::vector<SupportTransfer> out;
   for (size_t i = 1; i < support.size(); ++i) {
     if (!support[i].tracked || !support[i - 1].tracked) continue;
@@ -261,8 +264,8 @@ int foot_changes(const TrackedFrames& frames) {
   bool before_left = false, known_before = false;
   for (const FrameRecord& record : frames.records) {
     const bool left = record.estimate.left_stance > 0.5;
-    if (record.tracked && known_before && left != before_left) ++changes;
-    known_before = record.tracked;
+    if (walks(record) && known_before && left != before_left) ++changes;
+    known_before = walks(record);
     before_left = left;
   }
   return changes;

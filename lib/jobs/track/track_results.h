@@ -57,7 +57,7 @@ WrittenTables write_tables(const AnalysedMotion& analysed, const JointUncertaint
 std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames& frames,
                                        const ResultFolder& folder, const JobControl& control);
 
-// Feet that took over from each other: how often the likelier stance side changed.
+// Feet that took over from each other: how often the likelier stance side changed while walking.
 int foot_changes(const TrackedFrames& frames);
 
 }  // namespace walktrack
