@@ -48,7 +48,7 @@ enum class KeypointSwitch { kAuto, kOn, kOff };
 // has none.
 struct KeypointConfig {
   KeypointSwitch enabled = KeypointSwitch::kAuto;  // decided before anything is tracked
-  int every = 1;                                   // frames, of which the network looks at one
+  int every = 3;                                   // frames, of which the network looks at one
   std::string model = "movenet_lightning";  // the shipped network, or a file of the same family
   // Of one point: a network's points err together from joint to joint and for several frames.
   double weight = .2;

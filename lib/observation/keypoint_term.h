@@ -115,7 +115,7 @@ void KeypointTerm::describe(Groups& groups) {
        {"true", KeypointSwitch::kOn},
        {"false", KeypointSwitch::kOff}},
       "on: from the scene's files, from the built-in network where a camera has none; auto: where "
-      "every camera has a file");
+      "every camera has a file, and the network for one camera alone");
   k.integer("every", &K::every, 1, 1000, "frames, of which the network looks at one");
   k.text("model", &K::model, "the shipped network, or the ONNX file of one of the same family");
   k.number("weight", &K::weight, 0, 10,

@@ -20,6 +20,18 @@ std::string person_json() {
   return R"({"people": [{"pose_keypoints_2d": [)" + numbers + "]}]}";
 }
 
+// Looks along +x from 1.2 m above the origin.
+Camera level_camera(double focal_px) {
+  Camera camera;
+  camera.width_px = 640;
+  camera.height_px = 480;
+  camera.focal_px = {focal_px, focal_px};
+  camera.centre_px = {320, 240};
+  camera.rotation << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  camera.translation = {0, 1.2, 0};
+  return camera;
+}
+
 class DetectionsTest : public testing::Test {
  protected:
   DetectionsTest() {
@@ -51,16 +63,23 @@ TEST_F(DetectionsTest, FilesAreAskedByTheVideosOwnNumber) {
                                    "with frame 8"));
 }
 
-TEST_F(DetectionsTest, AutoIsForFiles) {
-  KeypointConfig config;
+TEST_F(DetectionsTest, AutoIsForFilesAndForOneCameraThatSeesEnough) {
+  Config config;
+  KeypointConfig& keypoints = config.observation.keypoints;
   EXPECT_TRUE(keypoints_wanted(with_files(), config));
   const std::string camera = "  - {name: NAME, video: a.mp4, calibration: a.yaml}\n";
+  Scene alone = scene(replaced(camera, "NAME", "a"));
+  alone.initial.emplace().position = {5, 0};
+  alone.cameras[0].camera = level_camera(480);  // 168 px
+  EXPECT_EQ(keypoints_wanted(alone, config), has_pose_net());
+  alone.cameras[0].camera = level_camera(120);
+  EXPECT_FALSE(keypoints_wanted(alone, config));
   std::string cameras;
   for (const char* name : {"a", "b", "c"}) cameras += replaced(camera, "NAME", name);
   EXPECT_FALSE(keypoints_wanted(scene(cameras), config));
-  config.enabled = KeypointSwitch::kOff;
+  keypoints.enabled = KeypointSwitch::kOff;
   EXPECT_FALSE(keypoints_wanted(with_files(), config));
-  config.enabled = KeypointSwitch::kOn;
+  keypoints.enabled = KeypointSwitch::kOn;
   EXPECT_TRUE(keypoints_wanted(scene(cameras), config));
 }
 

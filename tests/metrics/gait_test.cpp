@@ -101,7 +101,8 @@ TEST(Gait, StandingBeforeAndAfterIsNoPartOfTheWalk) {
   const Gait alone = gait_from_motion(walk), whole = gait_from_motion(motion);
   EXPECT_NEAR(whole.speed, alone.speed, 0.15 * alone.speed);  // the path is smoothed over the ends
   EXPECT_NEAR(whole.mean_step_length, alone.mean_step_length, 0.02);
-  EXPECT_NEAR(whole.mean_step_time, alone.mean_step_time, 0.02);
+  EXPECT_NEAR(whole.mean_step_time, alone.mean_step_time,
+              0.05);  // frozen in mid-step at either end
   for (const GaitEvent& event : whole.events) {
     EXPECT_GT(event.time, kStands - 0.5);
     EXPECT_LT(event.time, motion.time.back() - kStands + 0.5);

@@ -7,6 +7,7 @@
 #include "core/errors.h"
 #include "io/archive/files.h"
 #include "jobs/track/pose_model.h"
+#include "jobs/track/track_setup.h"
 
 namespace walktrack {
 
@@ -37,14 +38,21 @@ KeypointFrames checked_keypoints(const SceneCamera& camera) {
 
 }  // namespace
 
-bool keypoints_wanted(const Scene& scene, const KeypointConfig& config) {
-  return config.enabled == KeypointSwitch::kOn ||
-         (config.enabled == KeypointSwitch::kAuto && all_have_files(scene));
+bool keypoints_wanted(const Scene& scene, const Config& config) {
+  const KeypointConfig& keypoints = config.observation.keypoints;
+  if (keypoints.enabled != KeypointSwitch::kAuto) return keypoints.enabled == KeypointSwitch::kOn;
+  if (all_have_files(scene)) return true;
+  const bool network = has_pose_net() && pose_model_file(keypoints.model);
+  return network && scene.cameras.size() <= kCamerasInDoubt &&
+         std::all_of(scene.cameras.begin(), scene.cameras.end(), [&](const SceneCamera& camera) {
+           return wants_network(camera) &&
+                  working_scale(scene, camera.camera, config).person_px >= kLeastPerson_px;
+         });
 }
 
 KeypointConfig decided_keypoints(const Scene& scene, const Config& config) {
   KeypointConfig out = config.observation.keypoints;
-  out.enabled = keypoints_wanted(scene, out) ? KeypointSwitch::kOn : KeypointSwitch::kOff;
+  out.enabled = keypoints_wanted(scene, config) ? KeypointSwitch::kOn : KeypointSwitch::kOff;
   return out;
 }
 

@@ -16,16 +16,23 @@
 
 namespace walktrack {
 
-// Cameras up to which left and right may be in doubt without keypoints.
-inline constexpr size_t kCamerasInDoubt = 2;
+// Cameras up to which left and right may be in doubt without keypoints: from two sides silhouettes
+// tell by themselves.
+inline constexpr size_t kCamerasInDoubt = 1;
+// Height of a person in the picture from which on the network is asked unless told otherwise: who
+// is smaller does not fill the 192 px of its input, and of somebody of 70 px in black trousers it
+// took one leg for the other for a whole stride.
+inline constexpr double kLeastPerson_px = 150;
 
 // How large a camera's images are worked on.
 struct WorkingScale {
   double person_px;  // height of the standing subject in the image as it is filmed
   int shrink;        // factor by which images are shrunk
 };
-// Whether keypoints are used: as configured, or `auto`: where every camera has a file.
-bool keypoints_wanted(const Scene& scene, const KeypointConfig& config);
+// Whether keypoints are used: as configured, or `auto`: where every camera has a file, and from the
+// built-in network where there is one camera, with a video that shows people large enough, and the
+// program has the network.
+bool keypoints_wanted(const Scene& scene, const Config& config);
 // The configuration's keypoints with that decided: on or off.
 KeypointConfig decided_keypoints(const Scene& scene, const Config& config);
 

@@ -53,7 +53,7 @@ Origin input_digests(const Scene& scene, const KeypointConfig& keypoints) {
     add(camera.video, true);
     add(camera.background, true);
   }
-  if (!keypoints_wanted(scene, keypoints)) return out;
+  if (!is_on(keypoints)) return out;
   for (const SceneCamera& camera : scene.cameras)
     add_as(name_from(scene, camera.keypoints.path), camera.keypoints.path,
            [&](const fs::path&) { return keypoint_digest(camera.keypoints); });
