@@ -20,7 +20,7 @@ constexpr double kUsualSpeed = 1.25;  // m/s
 // Frames before a walk are kept for so long, s, to follow somebody who stood there first.
 constexpr double kStandingKept = 3;
 // Log-odds at which the pictures agree with the names of the legs, and at which they exchange them:
-// set on 80 made walks, four of which were exchanged rightly and one wrongly (README.md).
+// set on 80 made walks, four of which were exchanged rightly and one wrongly (reports/left_and_right.md).
 constexpr double kAgreed = 1.5, kExchanged = 0.75;
 
 // A probability after evidence against it, nats.

@@ -1,4 +1,4 @@
-// The three motion models on a scene of the suite. What each is worth: lib/tracker/README.md.
+// The three motion models on a scene of the suite. What each is worth: lib/tracker/reports/physics.md.
 #include <string>
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 //                    (tracker/motion/anthropomorphic_motion.h)
 //   markov           no walker: every coordinate is a Markov process
 //   (tracker/motion/markov_motion.h)
-// The other two are there to measure what physics is worth: README.md.
+// The other two are there to measure what physics is worth: reports/physics.md.
 #pragma once
 
 #include <limits>

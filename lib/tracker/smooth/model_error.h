@@ -10,7 +10,7 @@
 //   sum over cameras and ends |J d|^2 / (2 e^2),   J = d pixel / d point, in metres at the person.
 // One camera at distance D thus knows the distance to about e D / (height / sqrt(2)) and the rest
 // to e / sqrt(2): all comes from where the cameras stand. The sizes were measured on walks with
-// truth that are no part of any reported figure; README.md beside this file says how and what
+// truth that are no part of any reported figure; tracker/reports/bands.md says how and what
 // coverage they give.
 #pragma once
 

@@ -7,7 +7,7 @@
 // they say nothing, as while legs are hidden, the walker's word stands. The particles themselves
 // are left alone: what tells left from right, and what comes next, is theirs.
 //
-// README.md beside this file says what it gains, and what else was tried.
+// tracker/reports/reported_pose.md says what it gains, and what else was tried.
 #pragma once
 
 #include "tracker/scene.h"
