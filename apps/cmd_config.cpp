@@ -24,7 +24,7 @@ int run_config(const Arguments& arguments) {
   }
   const std::string text = config_as_yaml(
       line.config(), changed ? ConfigScope::kChanged : ConfigScope::kEverything, true);
-  line.hand_over(text);
+  line.write_or_print(text);
   return kDone;
 }
 

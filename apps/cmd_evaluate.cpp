@@ -55,7 +55,7 @@ int run_evaluate(const Arguments& arguments) {
   const auto results = evaluate(job);
   if (!plot.empty()) write_file_atomically(plot, as_svg(truth, results));
   const std::string text = json ? as_json(truth, results) : as_markdown(truth, results);
-  line.hand_over(text, inputs);
+  line.write_or_print(text, inputs);
   return kDone;
 }
 

@@ -22,7 +22,7 @@ int run_plan(const Arguments& arguments) {
   const ConfigWithOrigin config = line.config();
   const Scene scene = read_scene(file);
   const Plan plan = plan_scene(scene, config);
-  line.hand_over(json ? plan_json(plan) : plan_text(plan), files_of(scene));
+  line.write_or_print(json ? plan_json(plan) : plan_text(plan), files_of(scene));
   return kDone;
 }
 

@@ -29,7 +29,7 @@ void write_extremes(const CommandLine& line) {
   job.threads = thread_count(line.config_of_run().values.threads);
   const std::string& output = line.common().output;
   if (!output.empty()) refuse_existing(output, line.common().overwrite);
-  line.hand_over(stability_csv(job, stability_table(job)));
+  line.write_or_print(stability_csv(job, stability_table(job)));
 }
 
 // The body in 3-D takes the same options as far as they mean something to it.

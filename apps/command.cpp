@@ -181,8 +181,8 @@ std::string CommandLine::required_output() const {
   return common_.output;
 }
 
-void CommandLine::hand_over(const std::string& text,
-                            const std::vector<std::filesystem::path>& inputs) const {
+void CommandLine::write_or_print(const std::string& text,
+                                 const std::vector<std::filesystem::path>& inputs) const {
   if (common_.output.empty()) {
     fmt::print("{}", text);
   } else {

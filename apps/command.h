@@ -83,8 +83,8 @@ class CommandLine {
   std::string required_output() const;
   // Writes a result that is one text to --output, or prints it where that is missing. UsageError
   // where it would overwrite one of the inputs, or --config.
-  void hand_over(const std::string& text,
-                 const std::vector<std::filesystem::path>& inputs = {}) const;
+  void write_or_print(const std::string& text,
+                      const std::vector<std::filesystem::path>& inputs = {}) const;
 
  private:
   struct Operand {

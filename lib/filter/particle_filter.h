@@ -15,7 +15,7 @@
 //   log_likelihood(state)              of this frame's evidence, any finite value: a double, or by
 //                                      stages (StagedLikelihood)
 //   move(state, scale, rng)            proposes a change in place, reversible with respect to the
-//                                      prior of this frame; scale in (0, 1] is its boldness,
+//                                      prior of this frame; scale in (0, 1] is its step_size,
 //                                      adapted from layer to layer towards the acceptance of
 //                                      kWantedAcceptance
 // A dead particle has weight -infinity until resampling replaces it. All dead is reported; the
@@ -72,7 +72,7 @@ struct ParticleSet {
 template <typename State>
 struct FilterState {
   ParticleSet<State> set;
-  double scale = 0;  // boldness of the moves
+  double scale = 0;  // step_size of the moves
 };
 
 struct FilterReport {
@@ -172,7 +172,7 @@ class ParticleFilter {
   // Random-walk proposals in many dimensions explore fastest near this rate (Roberts, Gelman &
   // Gilks 1997 derive .234; blocks of few dimensions do better with more).
   static constexpr double kWantedAcceptance = 0.3;
-  static constexpr double kTimidest = 0.02;
+  static constexpr double kMinStepSize = 0.02;
 
   size_t size() const { return set_.states.size(); }
 
@@ -301,7 +301,7 @@ class ParticleFilter {
   void adapt(long accepted) {
     const long proposed = static_cast<long>(size()) * config_.moves;
     const double share = static_cast<double>(accepted) / static_cast<double>(proposed);
-    scale_ = std::clamp(scale_ * std::exp(share - kWantedAcceptance), kTimidest, 1.0);
+    scale_ = std::clamp(scale_ * std::exp(share - kWantedAcceptance), kMinStepSize, 1.0);
     proposed_ += proposed;
     accepted_ += accepted;
   }
@@ -318,7 +318,7 @@ class ParticleFilter {
   std::vector<double> next_log_likelihoods_;
   std::vector<uint32_t> parents_;
   std::vector<int> accepted_by_;  // moves accepted, by particle
-  double scale_ = 0.4;            // boldness of the moves
+  double scale_ = 0.4;            // step_size of the moves
   long proposed_ = 0, accepted_ = 0;
   mutable std::vector<double> raised_;
 };

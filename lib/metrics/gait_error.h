@@ -7,9 +7,9 @@
 //
 // What cameras leave open of the figure comes from where they stand (tracker/smooth/model_error.h):
 // lengths and speeds share the relative error of its distance, widths part of its error across the
-// way. The other sizes were fitted on walks with truth; lib/tracker/reports/bands.md says on which, how,
-// and what the bands hold since. Means over steps come with sizes of their own, as errors of steps
-// do not average out; where one side's are meant, they are sqrt(2) times as large.
+// way. The other sizes were fitted on walks with truth; lib/tracker/reports/bands.md says on which,
+// how, and what the bands hold since. Means over steps come with sizes of their own, as errors of
+// steps do not average out; where one side's are meant, they are sqrt(2) times as large.
 #pragma once
 
 #include "metrics/gait_table.h"

@@ -80,7 +80,7 @@ double phase_ahead(std::span<const WalkerParticle> particles, std::span<const do
   return whole_turns_off(stride_modes(particles, weights).phase + 0.5 * steps * dt);
 }
 
-bool leapt(double expected, double phase) {
+bool label_switched(double expected, double phase) {
   constexpr double kNear = 0.125;
   const auto legs_pass = [](double at) { return std::abs(std::remainder(at - 0.25, 0.5)) < kNear; };
   return legs_pass(expected) && legs_pass(phase) &&

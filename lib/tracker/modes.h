@@ -43,6 +43,6 @@ double phase_ahead(std::span<const WalkerParticle> particles, std::span<const do
 // Whether a set, while the legs pass each other at about a quarter and three quarters of the
 // stride, is half a stride from where it was expected, each give or take an eighth. Nobody walks
 // so: its particles have taken one leg for the other.
-bool leapt(double expected, double phase);
+bool label_switched(double expected, double phase);
 
 }  // namespace walktrack

@@ -33,13 +33,14 @@ std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior
   return figures;
 }
 
-FigureBook::FigureBook(const BodyModel& model, const GaitPrior& prior) : downhill_(model.downhill) {
+PoseTemplates::PoseTemplates(const BodyModel& model, const GaitPrior& prior)
+    : downhill_(model.downhill) {
   for (const double heading : table_headings(downhill_))
     for (int k = 0; k < kPages; ++k)
       pages_.push_back(walking_figures(model, prior, kSlowestPage + k * kPageStep, heading));
 }
 
-std::span<const Pose> FigureBook::at(double speed, double heading) const {
+std::span<const Pose> PoseTemplates::at(double speed, double heading) const {
   const long page = std::lround((speed - kSlowestPage) / kPageStep);
   const auto of_speed = static_cast<size_t>(std::clamp(page, 0L, long{kPages - 1}));
   return pages_[table_heading(downhill_, heading) * kPages + of_speed];

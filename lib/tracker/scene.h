@@ -8,7 +8,7 @@
 #include "camera/camera.h"
 #include "gait/gait_prior.h"
 #include "observation/observer.h"
-#include "tracker/detect/sighting.h"
+#include "tracker/detect/detector.h"
 #include "tracker/motion/particle.h"
 
 namespace walktrack {
@@ -17,8 +17,8 @@ struct TrackerScene {
   std::vector<Camera> cameras;  // of the images that the evidence is about (Observer::camera)
   BodyModel model;
   ObservationConfig observation;
-  double dt = 1.0 / 30;             // s between frames
-  std::optional<Sighting> initial;  // where the walk starts; without it, it is searched for
+  double dt = 1.0 / 30;                 // s between frames
+  std::optional<DetectedWalk> initial;  // where the walk starts; without it, it is searched for
   int initial_frame = 0;
   std::optional<double> initial_phase;  // of the stride, 0 = left foot strike
   bool size_known = true;               // the model's; otherwise it is estimated
@@ -37,9 +37,9 @@ std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior
                                   double heading);
 
 // The same for all speeds of walking and all headings.
-class FigureBook {
+class PoseTemplates {
  public:
-  FigureBook(const BodyModel& model, const GaitPrior& prior);
+  PoseTemplates(const BodyModel& model, const GaitPrior& prior);
   std::span<const Pose> at(double speed, double heading) const;
 
  private:

@@ -21,10 +21,10 @@ StepAim draw_aim(const MotionContext& context, const StartConfig& config, double
 
 void place(const MotionContext& context, const Eigen::Vector2d& position, WalkerParticle& p) {
   p.predicted_ball.setZero();
-  p.predicted_extra = p.extra;
-  context.moves.realise(context, p);
+  p.predicted_residual = p.residual;
+  context.moves.apply_noise(context, p);
   p.predicted_ball = position - p.pose.root.head<2>();
-  context.moves.realise(context, p);
+  context.moves.apply_noise(context, p);
   p.pose_before = p.pose;
 }
 
@@ -47,7 +47,7 @@ std::vector<PhaseRange> phase_ranges(const StartConfig& config, double stride_ph
 }
 
 std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfig& config,
-                                  const Sighting& sighting, const PhaseRange& range,
+                                  const DetectedWalk& detected, const PhaseRange& range,
                                   uint64_t seed) {
   std::vector<WalkerParticle> out(static_cast<size_t>(config.particles));
   std::vector<Eigen::Vector2d> positions(out.size());
@@ -56,19 +56,19 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
     Rng rng(seed, Purpose::kInitialisation, 0, static_cast<uint32_t>(i));
     WalkerParticle& p = out[i];
     positions[i] =
-        sighting.position + sighting.position_sd * rng.truncated_normal(2.5) * sighting.ray;
+        detected.position + detected.position_sd * rng.truncated_normal(2.5) * detected.ray;
     const Eigen::Vector2d velocity =
-        sighting.velocity + sighting.velocity_sd * rng.truncated_normal(2.5) * sighting.ray;
+        detected.velocity + detected.velocity_sd * rng.truncated_normal(2.5) * detected.ray;
     p.aim = draw_aim(context, config, velocity.norm(), rng);
     p.stance = range.stance;
-    for (int k = 0; k < kExtraCount; ++k)
-      p.extra[static_cast<size_t>(k)] = context.markov[static_cast<size_t>(k)].rest;
-    p.extra[kHeading] = std::atan2(velocity.y(), velocity.x());
-    p.extra_before = p.extra;
+    for (int k = 0; k < kResidualCount; ++k)
+      p.residual[static_cast<size_t>(k)] = context.markov[static_cast<size_t>(k)].rest;
+    p.residual[kHeading] = std::atan2(velocity.y(), velocity.x());
+    p.residual_before = p.residual;
     phases[i] = range.from + (range.to - range.from) * rng.uniform();
   }
-  context.moves.enter(context, phases, out);
-  if (sighting.standing) std::for_each(out.begin(), out.end(), stand);
+  context.moves.initialise(context, phases, out);
+  if (detected.standing) std::for_each(out.begin(), out.end(), stand);
   for (size_t i = 0; i < out.size(); ++i) place(context, positions[i], out[i]);
   return out;
 }
@@ -76,9 +76,10 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
 NoiseScale start_scale(const StartConfig& config, const MotionModel& moves,
                        const MotionConfig& motion, const NoiseScale& frame) {
   NoiseScale scale = frame;
-  for (int k = 0; k < kExtraCount; ++k)
-    scale.extra[static_cast<size_t>(k)] = moves.start_spread(motion, static_cast<Extra>(k));
-  scale.extra[kHeading] = rad_from_deg(config.heading_deg);
+  for (int k = 0; k < kResidualCount; ++k)
+    scale.residual[static_cast<size_t>(k)] =
+        moves.start_spread(motion, static_cast<ResidualAngle>(k));
+  scale.residual[kHeading] = rad_from_deg(config.heading_deg);
   return scale;
 }
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "tracker/detect/sighting.h"
+#include "tracker/detect/detector.h"
 #include "tracker/motion/motion.h"
 
 namespace walktrack {
@@ -28,11 +28,12 @@ std::vector<PhaseRange> phase_ranges(const StartConfig& config);
 // The ranges that hold a stated phase of the stride (0 = left foot strike), give or take a range.
 std::vector<PhaseRange> phase_ranges(const StartConfig& config, double stride_phase);
 
-// Particles drawn around a sighting, realised; their noise is still to be drawn by a first frame.
+// Particles drawn around a detected, realised; their noise is still to be drawn by a first frame.
 std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfig& config,
-                                  const Sighting& sighting, const PhaseRange& range, uint64_t seed);
+                                  const DetectedWalk& detected, const PhaseRange& range,
+                                  uint64_t seed);
 
-// The noise of a first frame: as wide as the sighting is coarse. `motion`: to the body's scale.
+// The noise of a first frame: as wide as the detected is coarse. `motion`: to the body's scale.
 NoiseScale start_scale(const StartConfig& config, const MotionModel& moves,
                        const MotionConfig& motion, const NoiseScale& frame);
 

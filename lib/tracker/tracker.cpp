@@ -7,8 +7,8 @@
 #include "core/conventions.h"
 #include "core/log_weights.h"
 #include "tracker/frame_likelihood.h"
-#include "tracker/leg_names.h"
-#include "tracker/moves/exchange.h"
+#include "tracker/leg_label_evidence.h"
+#include "tracker/moves/mirror_legs.h"
 
 namespace walktrack {
 
@@ -29,8 +29,8 @@ const WalkerParticle& best_particle(const ParticleSet<WalkerParticle>& set) {
 
 }  // namespace
 
-WalkerKit::WalkerKit(const BodyModel& model, const GaitPrior& prior, const MotionConfig& config,
-                     double dt)
+SubjectModel::SubjectModel(const BodyModel& model, const GaitPrior& prior,
+                           const MotionConfig& config, double dt)
     : motion(to_scale(config, model.body.subject.height)),
       moves(make_motion_model(motion.model, model, prior)),
       frame_scale(noise_scale(*moves, motion, model, dt)),
@@ -63,7 +63,7 @@ std::vector<FrameRecord> Tracker::finish() {
   // The window is what is left, and less and less of it.
   while (mode_ == Mode::kSearching && !scene_.initial &&
          static_cast<int>(window_.size()) >= frames_in(kShortestWindow, scene_.dt)) {
-    config_.sighting.window = scene_.dt * double(window_.size());
+    config_.detector.window = scene_.dt * double(window_.size());
     const SceneEvidence newest = std::move(window_.back());
     window_.pop_back();
     candidates_.pop_back();
@@ -77,8 +77,8 @@ std::vector<FrameRecord> Tracker::finish() {
 }
 
 TrackerState Tracker::state() const {
-  return {frame_,        starts_,        filter_.state(), last_seen_, supports_,
-          frames_below_, frames_beaten_, losses_,         doubt_,     stature_};
+  return {frame_,        starts_,        filter_.state(), last_seen_,      log_likelihoods_,
+          frames_below_, frames_beaten_, losses_,         p_legs_swapped_, stature_};
 }
 
 void Tracker::resume(TrackerState state) {
@@ -88,11 +88,11 @@ void Tracker::resume(TrackerState state) {
   starts_ = state.starts;
   filter_.resume(std::move(state.filter));
   last_seen_ = state.last_seen;
-  supports_ = std::move(state.supports);
+  log_likelihoods_ = std::move(state.log_likelihoods);
   frames_below_ = state.frames_below;
   frames_beaten_ = state.frames_beaten;
   losses_ = state.losses;
-  doubt_ = state.doubt;
+  p_legs_swapped_ = state.p_legs_swapped;
   stature_ = state.stature;
   if (stature_) set_height(stature_->height);
 }
@@ -140,49 +140,49 @@ WalkerFilterContext Tracker::context(bool first) const {
           config_.model_error};
 }
 
-void Tracker::begin(const Sighting& sighting, std::optional<double> stride_phase) {
+void Tracker::begin(const DetectedWalk& detected, std::optional<double> stride_phase) {
   const uint64_t seed = seed_ + 0xD1B54A32D192ED03u * ++starts_;  // streams of its own
-  start_is_given_ = sighting.given;
-  contest_.emplace(context(true).motion, config_.start, config_.filter, sighting, stride_phase,
-                   seed, threads_);
+  start_is_given_ = detected.given;
+  hypotheses_.emplace(context(true).motion, config_.start, config_.filter, detected, stride_phase,
+                      seed, threads_);
   mode_ = Mode::kStarting;
 }
 
 void Tracker::compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
-  const bool explained = contest_->step(context(contest_->frames() == 0), evidence, frame_);
-  if (window_.empty()) contested_.push_back(evidence);
+  const bool explained = hypotheses_->step(context(hypotheses_->frames() == 0), evidence, frame_);
+  if (window_.empty()) hypotheses_frames_.push_back(evidence);
   ++frame_;
   if (!explained) {
-    contested_.clear();
-    out.resize(out.size() + static_cast<size_t>(contest_->frames()));  // frames stay untracked
-    contest_.reset();
+    hypotheses_frames_.clear();
+    out.resize(out.size() + static_cast<size_t>(hypotheses_->frames()));  // frames stay untracked
+    hypotheses_.reset();
     mode_ = Mode::kSearching;
     return;
   }
-  if (contest_->decided()) settle(out);
+  if (hypotheses_->decided()) settle(out);
 }
 
 // What is left of the contest becomes one set of particles.
 void Tracker::settle(std::vector<FrameRecord>& out) {
-  filter_.start(contest_->survivors());
-  supports_.clear();
-  for (const FrameRecord& record : contest_->records()) {
-    supports_.push_back(record.support);
+  filter_.start(hypotheses_->resampled());
+  log_likelihoods_.clear();
+  for (const FrameRecord& record : hypotheses_->records()) {
+    log_likelihoods_.push_back(record.mean_log_likelihood);
     out.push_back(record);
-    if (contested_.empty()) continue;
-    refine(contested_.front(), out.back());
-    contested_.pop_front();
+    if (hypotheses_frames_.empty()) continue;
+    refine(hypotheses_frames_.front(), out.back());
+    hypotheses_frames_.pop_front();
   }
-  doubt_ = contest_->records().back().modes.exchanged;
-  mean_pose_ = contest_->records().back().estimate.pose;
-  contest_.reset();
+  p_legs_swapped_ = hypotheses_->records().back().modes.exchanged;
+  mean_pose_ = hypotheses_->records().back().estimate.pose;
+  hypotheses_.reset();
   mode_ = Mode::kTracking;
   frames_below_ = frames_beaten_ = 0;
 }
 
 // Whether a set that takes one leg for the other goes unnoticed: several cameras see it, and only
-// the kneed walker reads poses anew (tracker/moves/rephase.h).
-bool Tracker::may_leap() const {
+// the kneed walker reads poses anew (tracker/moves/phase_jump.h).
+bool Tracker::labels_may_switch() const {
   return scene_.cameras.size() == 1 && config_.motion.model == MotionKind::kKneed;
 }
 
@@ -191,15 +191,15 @@ bool Tracker::may_leap() const {
 FrameRecord Tracker::follow(const SceneEvidence& evidence) {
   const WalkerFilterContext now = context(false);
   std::optional<double> expected;  // place in the stride
-  if (may_leap()) {
+  if (labels_may_switch()) {
     const auto& set = filter_.particles();
     expected = phase_ahead(set.states, normalised_weights(set.log_weights), scene_.dt);
   }
   FrameRecord record = advance(now, evidence, frame_, seed_, false, filter_);
   if (expected && record.tracked && record.modes.standing < 0.5 &&
-      leapt(*expected, record.modes.phase)) {
-    exchange_legs(now.motion, filter_);
-    exchange_legs(body(), record);
+      label_switched(*expected, record.modes.phase)) {
+    mirror_legs(now.motion, filter_);
+    mirror_legs(body(), record);
   }
   return record;
 }
@@ -218,11 +218,12 @@ void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out
   FrameRecord record = follow(evidence);
   ++frame_;
   // Whoever lost the start is not followed any more: nothing can tell what it would say now.
-  record.modes.exchanged += doubt_ * (1 - 2 * record.modes.exchanged);
-  if (record.filter.all_dead || fading(record.support, figure_score(evidence, record.estimate))) {
+  record.modes.exchanged += p_legs_swapped_ * (1 - 2 * record.modes.exchanged);
+  if (record.filter.all_dead ||
+      fading(record.mean_log_likelihood, figure_score(evidence, record.estimate))) {
     record.tracked = false;
     ++losses_;
-    supports_.clear();
+    log_likelihoods_.clear();
     mode_ = Mode::kSearching;
   }
   if (mode_ == Mode::kTracking && frames_below_ == 0) see(record.estimate);
@@ -258,19 +259,19 @@ bool Tracker::within_reach(const Eigen::Vector2d& place, uint32_t frame) const {
 
 // Whether the track is lost: for a while the likelihood has been far below its own recent median,
 // as that of a hidden walker is, or for a shorter while a stiff figure has done better.
-bool Tracker::fading(double support, double figure) {
-  std::vector<double> past(supports_.begin(), supports_.end());
+bool Tracker::fading(double log_likelihood, double figure) {
+  std::vector<double> past(log_likelihoods_.begin(), log_likelihoods_.end());
   std::nth_element(past.begin(), past.begin() + static_cast<long>(past.size() / 2), past.end());
   const double least =
-      std::max(config_.lost_below * past[past.size() / 2], config_.sighting.least_score);
-  const bool beaten = figure > least && support < kFigureShare * figure;
-  const bool below = support < least;
+      std::max(config_.lost_below * past[past.size() / 2], config_.detector.least_score);
+  const bool beaten = figure > least && log_likelihood < kFigureShare * figure;
+  const bool below = log_likelihood < least;
   frames_beaten_ = beaten ? frames_beaten_ + 1 : 0;
   frames_below_ = below || beaten ? frames_below_ + 1 : 0;
   // Bad frames do not become the measure of good ones.
-  if (frames_below_ == 0) supports_.push_back(support);
-  if (static_cast<int>(supports_.size()) > frames_in(config_.recall, scene_.dt))
-    supports_.pop_front();
+  if (frames_below_ == 0) log_likelihoods_.push_back(log_likelihood);
+  if (static_cast<int>(log_likelihoods_.size()) > frames_in(config_.recall, scene_.dt))
+    log_likelihoods_.pop_front();
   return frames_below_ >= frames_in(config_.lost_after, scene_.dt) ||
          frames_beaten_ >= frames_in(config_.beaten_after, scene_.dt);
 }

@@ -1,11 +1,11 @@
 // The tracker: frames of evidence in, poses with their uncertainty out.
 //
-//   searching: look for a walk in a sliding window of frames         (tracker/detect/sighting.h); a
+//   searching: look for a walk in a sliding window of frames         (tracker/detect/detector.h); a
 //   start
 //              that explains the window worse than the straight walk it came from has failed. A
 //              person of unknown size is sized up by the same window  (tracker/detect/stature.h),
 //              once
-//   starting:  hypotheses over phase and side compete for a while    (tracker/contest.h)
+//   starting:  hypotheses over phase and side compete for a while    (tracker/start_hypotheses.h)
 //   tracking:  for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h)
 //   lost:      the likelihood fell far below its own past, or below that of a figure that merely
 //              stands in the same place, whichever way it faces; search again, for a while only
@@ -20,11 +20,11 @@
 #include <optional>
 #include <vector>
 
-#include "tracker/contest.h"
 #include "tracker/detect/standing_start.h"
 #include "tracker/detect/stature.h"
 #include "tracker/motion/standing.h"
 #include "tracker/smooth/refinement.h"
+#include "tracker/start_hypotheses.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
@@ -32,7 +32,7 @@ namespace walktrack {
 struct TrackerConfig {
   MotionConfig motion;
   FilterConfig filter;
-  SightingConfig sighting;
+  DetectorConfig detector;
   StartConfig start;
   double lost_below = 0.35;   // share of the likelihood's own median at which the track is lost
   double lost_after = 1;      // s below it: so long may a walker be hidden
@@ -55,22 +55,23 @@ struct TrackerState {
   uint32_t frame = 0, starts = 0;
   FilterState<WalkerParticle> filter;
   std::optional<LastSeen> last_seen;
-  std::deque<double> supports;
+  std::deque<double> log_likelihoods;
   int frames_below = 0, frames_beaten = 0, losses = 0;
-  double doubt = 0;
+  double p_legs_swapped = 0;
   std::optional<Stature> stature;
 };
 
 // What follows from the body that is tracked.
-struct WalkerKit {
-  WalkerKit(const BodyModel& model, const GaitPrior& prior, const MotionConfig& config, double dt);
+struct SubjectModel {
+  SubjectModel(const BodyModel& model, const GaitPrior& prior, const MotionConfig& config,
+               double dt);
 
   MotionConfig motion;  // to the body's scale
   std::unique_ptr<const MotionModel> moves;
   NoiseScale frame_scale;
   MarkovSteps markov;
   std::optional<StandingProcess> standing;
-  FigureBook figures;
+  PoseTemplates figures;
 };
 
 class Tracker {
@@ -118,48 +119,48 @@ class Tracker {
   void consume(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   void search(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   std::vector<Place> places_in_frame(size_t index, const Body& body,
-                                     const FigureBook& figures) const;
+                                     const PoseTemplates& figures) const;
   const std::vector<Place>& candidates(size_t index);
   bool wants_size() const { return !scene_.size_known && !stature_; }
-  WindowScore window_score(const Body& body, const FigureBook& figures) const;
-  std::vector<Sighting> lines_by_keypoints() const;
-  bool walks_clearly(const Sighting& walk);
-  std::optional<StandingStart> standing_lead(const Sighting& walk) const;
-  bool attempt_standing(const Sighting& walk, std::vector<FrameRecord>& out);
-  bool attempt_found(const Sighting& walk, std::vector<FrameRecord>& out);
+  WindowScore window_score(const Body& body, const PoseTemplates& figures) const;
+  std::vector<DetectedWalk> lines_by_keypoints() const;
+  bool walks_clearly(const DetectedWalk& walk);
+  std::optional<StandingStart> standing_lead(const DetectedWalk& walk) const;
+  bool attempt_standing(const DetectedWalk& walk, std::vector<FrameRecord>& out);
+  bool attempt_found(const DetectedWalk& walk, std::vector<FrameRecord>& out);
   void slide(std::vector<FrameRecord>& out);
-  std::optional<Sighting> look_for_walk(const BodyModel& model) const;
-  Eigen::Vector2d eye() const;
-  SizedWalk sized_up(const Sighting& walk, double height) const;
-  SizedWalk best_size(const Sighting& found) const;
-  bool attempt_unsized(const Sighting& found, std::vector<FrameRecord>& out);
+  std::optional<DetectedWalk> look_for_walk(const BodyModel& model) const;
+  Eigen::Vector2d camera_position() const;
+  SizedWalk sized_up(const DetectedWalk& walk, double height) const;
+  SizedWalk best_size(const DetectedWalk& found) const;
+  bool attempt_unsized(const DetectedWalk& found, std::vector<FrameRecord>& out);
   void take_size(const Stature& stature);
   void set_height(double height);
   void start_as_given(std::vector<FrameRecord>& out);
-  bool attempt(const Sighting& sighting, std::vector<FrameRecord>& out);
+  bool attempt(const DetectedWalk& detected, std::vector<FrameRecord>& out);
   struct Trial;
   void follow_rest(Trial& trial);
   Trial with_legs_exchanged(const Trial& trial);
   Trial with_legs_named(Trial first);
-  void begin(const Sighting& sighting, std::optional<double> stride_phase);
+  void begin(const DetectedWalk& detected, std::optional<double> stride_phase);
   void compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
   void settle(std::vector<FrameRecord>& out);
   void track(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
-  bool may_leap() const;
+  bool labels_may_switch() const;
   FrameRecord follow(const SceneEvidence& evidence);
   void refine(const SceneEvidence& evidence, FrameRecord& record) const;
   WalkerFilterContext context(bool first) const;
   bool within_reach(const Eigen::Vector2d& place, uint32_t frame) const;
   void see(const FrameEstimate& estimate);
   double figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const;
-  bool fading(double support, double figure);
+  bool fading(double log_likelihood, double figure);
 
   TrackerScene scene_;
   const GaitPrior& prior_;
   TrackerConfig config_;
   uint64_t seed_;
   int threads_;
-  WalkerKit kit_;
+  SubjectModel kit_;
 
   Mode mode_ = Mode::kSearching;
   uint32_t frame_ = 0;  // of the next evidence to be worked on
@@ -170,18 +171,18 @@ class Tracker {
   std::deque<SceneEvidence> waiting_;
   size_t slight_walks_ = 0;  // windows in a row that show somebody who may as well stand
   std::deque<std::optional<std::vector<Place>>> candidates_;  // of frames that were asked
-  std::optional<Contest> contest_;
+  std::optional<StartHypotheses> hypotheses_;
   // The contest's frames that are not in the window, to refine what it says of them.
-  std::deque<SceneEvidence> contested_;
+  std::deque<SceneEvidence> hypotheses_frames_;
   uint32_t starts_ = 0;          // how often a search has ended: keys the random streams
   bool start_is_given_ = false;  // the last one
   WalkerFilter filter_;
   Pose mean_pose_;
   std::optional<LastSeen> last_seen_;
-  std::deque<double> supports_;
+  std::deque<double> log_likelihoods_;
   int frames_below_ = 0, frames_beaten_ = 0;
   int losses_ = 0;
-  double doubt_ = 0;  // probability that the start has chosen the wrong leg
+  double p_legs_swapped_ = 0;  // probability that the start has chosen the wrong leg
   std::optional<Stature> stature_;
 };
 

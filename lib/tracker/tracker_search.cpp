@@ -8,8 +8,8 @@
 #include "core/conventions.h"
 #include "core/parallel_for.h"
 #include "tracker/detect/keypoint_lines.h"
-#include "tracker/leg_names.h"
-#include "tracker/moves/exchange.h"
+#include "tracker/leg_label_evidence.h"
+#include "tracker/moves/mirror_legs.h"
 #include "tracker/tracker.h"
 
 namespace walktrack {
@@ -20,7 +20,8 @@ constexpr double kUsualSpeed = 1.25;  // m/s
 // Frames before a walk are kept for so long, s, to follow somebody who stood there first.
 constexpr double kStandingKept = 3;
 // Log-odds at which the pictures agree with the names of the legs, and at which they exchange them:
-// set on 80 made walks, four of which were exchanged rightly and one wrongly (reports/left_and_right.md).
+// set on 80 made walks, four of which were exchanged rightly and one wrongly
+// (reports/left_and_right.md).
 constexpr double kAgreed = 1.5, kExchanged = 0.75;
 
 // A probability after evidence against it, nats.
@@ -28,9 +29,9 @@ double updated(double probability, double against) {
   return probability / (probability + std::exp(against) * (1 - probability));
 }
 
-double total_support(const std::vector<FrameRecord>& records) {
+double total_log_likelihood(const std::vector<FrameRecord>& records) {
   double sum = 0;
-  for (const FrameRecord& record : records) sum += record.support;
+  for (const FrameRecord& record : records) sum += record.mean_log_likelihood;
   return sum;
 }
 
@@ -50,14 +51,14 @@ void Tracker::search(const SceneEvidence& evidence, std::vector<FrameRecord>& ou
   }
   candidates_.emplace_back();
   window_.push_back(evidence);
-  if (static_cast<int>(window_.size()) < frames_in(config_.sighting.window, scene_.dt)) return;
+  if (static_cast<int>(window_.size()) < frames_in(config_.detector.window, scene_.dt)) return;
   if (scene_.initial) return start_as_given(out);
   const WindowEnds ends = window_ends(window_.size());
-  const std::vector<Sighting> lines = lines_by_keypoints();
-  const std::optional<Sighting> sighting =
-      find_walk({window_.size(), candidates(ends.early), candidates(ends.late), lines},
-                window_score(body(), kit_.figures), scene_.dt, eye(), config_.sighting, threads_);
-  if (sighting && within_reach(sighting->position, frame_) && attempt_found(*sighting, out)) return;
+  const std::vector<DetectedWalk> lines = lines_by_keypoints();
+  const std::optional<DetectedWalk> detected = detect_walk(
+      {window_.size(), candidates(ends.early), candidates(ends.late), lines},
+      window_score(body(), kit_.figures), scene_.dt, camera_position(), config_.detector, threads_);
+  if (detected && within_reach(detected->position, frame_) && attempt_found(*detected, out)) return;
   slide(out);
 }
 
@@ -74,7 +75,7 @@ void Tracker::slide(std::vector<FrameRecord>& out) {
   out.emplace_back();
 }
 
-bool Tracker::attempt_found(const Sighting& walk, std::vector<FrameRecord>& out) {
+bool Tracker::attempt_found(const DetectedWalk& walk, std::vector<FrameRecord>& out) {
   if (!walks_clearly(walk)) return false;
   std::vector<FrameRecord> found;
   const bool sized = wants_size();
@@ -89,14 +90,14 @@ bool Tracker::attempt_found(const Sighting& walk, std::vector<FrameRecord>& out)
 
 // Somebody who stands is now and then seen to walk slowly, above all along the viewing ray: such a
 // walk is believed when it has been seen for as long as the window.
-bool Tracker::walks_clearly(const Sighting& walk) {
+bool Tracker::walks_clearly(const DetectedWalk& walk) {
   constexpr double kClearly = 0.15, kSlightly = 0.05;
   if (!kit_.standing || walk.over_standing >= kClearly) return true;
   slight_walks_ = walk.over_standing >= kSlightly ? slight_walks_ + 1 : 0;
   return slight_walks_ >= window_.size();
 }
 
-std::optional<StandingStart> Tracker::standing_lead(const Sighting& walk) const {
+std::optional<StandingStart> Tracker::standing_lead(const DetectedWalk& walk) const {
   const Pose figure = standing_pose(scene_.model);
   const auto score = [&](size_t back, const Eigen::Vector2d& place,
                          double heading) -> std::optional<double> {
@@ -104,11 +105,11 @@ std::optional<StandingStart> Tracker::standing_lead(const Sighting& walk) const 
     return place_score(scene_, waiting_[waiting_.size() - back], body(), {&figure, 1}, place,
                        heading);
   };
-  return standing_before(walk, score, scene_.dt, config_.sighting);
+  return standing_before(walk, score, scene_.dt, config_.detector);
 }
 
 // Tracks from where somebody stands before the walk, if anybody does.
-bool Tracker::attempt_standing(const Sighting& walk, std::vector<FrameRecord>& out) {
+bool Tracker::attempt_standing(const DetectedWalk& walk, std::vector<FrameRecord>& out) {
   if (waiting_.empty()) return false;
   std::optional<StandingStart> lead = standing_lead(walk);
   if (!lead) return false;
@@ -119,8 +120,8 @@ bool Tracker::attempt_standing(const Sighting& walk, std::vector<FrameRecord>& o
     candidates_.emplace_front();
   }
   frame_ -= static_cast<uint32_t>(lead->frames);
-  lead->sighting.score = (walked + lead->score) / double(window_.size());
-  if (attempt(lead->sighting, out)) return true;
+  lead->detected.score = (walked + lead->score) / double(window_.size());
+  if (attempt(lead->detected, out)) return true;
   for (size_t i = 0; i < lead->frames; ++i) {
     waiting_.push_back(std::move(window_.front()));
     window_.pop_front();
@@ -131,24 +132,24 @@ bool Tracker::attempt_standing(const Sighting& walk, std::vector<FrameRecord>& o
 }
 
 // The lines along which keypoints go at a walker's speed.
-std::vector<Sighting> Tracker::lines_by_keypoints() const {
+std::vector<DetectedWalk> Tracker::lines_by_keypoints() const {
   constexpr double kLeastShare = 0.5;  // of the window in which the person was seen
-  std::vector<Sighting> out;
+  std::vector<DetectedWalk> out;
   for (size_t c = 0; c < scene_.cameras.size(); ++c) {
     std::vector<const KeypointEvidence*> frames;
     for (const SceneEvidence& frame : window_) frames.push_back(&frame[c].keypoints);
     for (const KeypointLine& line :
          keypoint_lines(frames, scene_.cameras[c], body().subject.height, scene_.dt,
-                        kLeastShare * config_.sighting.window)) {
+                        kLeastShare * config_.detector.window)) {
       const double speed = line.velocity.norm();
-      if (speed >= config_.sighting.slowest && speed <= config_.sighting.fastest)
+      if (speed >= config_.detector.slowest && speed <= config_.detector.fastest)
         out.push_back({.position = line.position, .velocity = line.velocity});
     }
   }
   return out;
 }
 
-WindowScore Tracker::window_score(const Body& body, const FigureBook& figures) const {
+WindowScore Tracker::window_score(const Body& body, const PoseTemplates& figures) const {
   return [&](size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d& velocity) {
     const double heading = std::atan2(velocity.y(), velocity.x());
     return place_score(scene_, window_[frame], body, figures.at(velocity.norm(), heading), place,
@@ -157,32 +158,34 @@ WindowScore Tracker::window_score(const Body& body, const FigureBook& figures) c
 }
 
 // The walk that figures of another body see in the window.
-std::optional<Sighting> Tracker::look_for_walk(const BodyModel& model) const {
-  const FigureBook figures(model, prior_);
+std::optional<DetectedWalk> Tracker::look_for_walk(const BodyModel& model) const {
+  const PoseTemplates figures(model, prior_);
   const WindowEnds ends = window_ends(window_.size());
   const std::vector<Place> early = places_in_frame(ends.early, model.body, figures),
                            late = places_in_frame(ends.late, model.body, figures);
-  return find_walk({window_.size(), early, late}, window_score(model.body, figures), scene_.dt,
-                   eye(), config_.sighting, threads_);
+  return detect_walk({window_.size(), early, late}, window_score(model.body, figures), scene_.dt,
+                     camera_position(), config_.detector, threads_);
 }
 
 // Where the camera stands that is asked for distances.
-Eigen::Vector2d Tracker::eye() const { return camera_centre(scene_.cameras[0]).head<2>(); }
+Eigen::Vector2d Tracker::camera_position() const {
+  return camera_centre(scene_.cameras[0]).head<2>();
+}
 
-SizedWalk Tracker::sized_up(const Sighting& walk, double height) const {
+SizedWalk Tracker::sized_up(const DetectedWalk& walk, double height) const {
   const auto score = [this](double tried) -> WindowScore {
     const BodyModel model = with_height(scene_.model, tried);
-    return [this, body = model.body, figures = FigureBook(model, prior_)](
+    return [this, body = model.body, figures = PoseTemplates(model, prior_)](
                size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d& velocity) {
       return window_score(body, figures)(frame, place, velocity);
     };
   };
-  return size_up(walk, height, window_.size(), score, scene_.dt, eye());
+  return size_up(walk, height, window_.size(), score, scene_.dt, camera_position());
 }
 
 // The size and line that explain the window best. Figures of a wrong size may lay the line far off,
 // so it is looked for with others, too.
-SizedWalk Tracker::best_size(const Sighting& found) const {
+SizedWalk Tracker::best_size(const DetectedWalk& found) const {
   std::vector<SizedWalk> sizes{{{body().subject.height, 0}, found}};
   for (const double height : {1.3, 1.5, 1.6, 1.9}) {
     const auto other = look_for_walk(with_height(scene_.model, height));
@@ -195,7 +198,7 @@ SizedWalk Tracker::best_size(const Sighting& found) const {
   });
 }
 
-bool Tracker::attempt_unsized(const Sighting& found, std::vector<FrameRecord>& out) {
+bool Tracker::attempt_unsized(const DetectedWalk& found, std::vector<FrameRecord>& out) {
   const double height_before = body().subject.height;
   const SizedWalk sized = best_size(found);
   take_size(sized.stature);
@@ -212,13 +215,13 @@ void Tracker::take_size(const Stature& stature) {
 
 void Tracker::set_height(double height) {
   scene_.model = with_height(scene_.model, height);
-  kit_ = WalkerKit(scene_.model, prior_, config_.motion, scene_.dt);
+  kit_ = SubjectModel(scene_.model, prior_, config_.motion, scene_.dt);
   places_.clear();
 }
 
 // Starts where the scene says, the window's first frame, and tracks the window's frames.
 void Tracker::start_as_given(std::vector<FrameRecord>& out) {
-  const Sighting given = *std::exchange(scene_.initial, std::nullopt);
+  const DetectedWalk given = *std::exchange(scene_.initial, std::nullopt);
   take_size(sized_up(given, body().subject.height).stature);
   const std::deque<SceneEvidence> frames = std::exchange(window_, {});
   candidates_.clear();
@@ -228,7 +231,7 @@ void Tracker::start_as_given(std::vector<FrameRecord>& out) {
 
 // Where somebody may stand in a frame of the window.
 std::vector<Place> Tracker::places_in_frame(size_t index, const Body& body,
-                                            const FigureBook& book) const {
+                                            const PoseTemplates& book) const {
   const auto score = [&](const Eigen::Vector2d& place) {
     if (!within_reach(place, frame_ + static_cast<uint32_t>(index))) return 0.0;
     // Half of the figures, half a step, will do for a first look.
@@ -237,12 +240,12 @@ std::vector<Place> Tracker::places_in_frame(size_t index, const Body& body,
     return place_score(scene_, window_[index], body, figures.first(figures.size() / 2), place,
                        heading);
   };
-  return find_figures(score, places_, config_.sighting, threads_);
+  return find_figures(score, places_, config_.detector, threads_);
 }
 
 const std::vector<Place>& Tracker::candidates(size_t index) {
   if (places_.empty())
-    places_ = standing_places(scene_.cameras, body().subject.height, config_.sighting);
+    places_ = standing_places(scene_.cameras, body().subject.height, config_.detector);
   std::optional<std::vector<Place>>& found = candidates_[index];
   if (!found) found = places_in_frame(index, body(), kit_.figures);
   return *found;
@@ -275,9 +278,9 @@ Tracker::Trial Tracker::with_legs_exchanged(const Trial& trial) {
   other.settled = trial.settled;
   const auto start = trial.records.begin();
   other.records.assign(start, start + static_cast<long>(trial.settled_after));
-  for (FrameRecord& record : other.records) exchange_legs(body(), record);
+  for (FrameRecord& record : other.records) mirror_legs(body(), record);
   for (WalkerParticle& each : other.settled->filter.set.states)
-    exchange_legs(context(false).motion, each);
+    mirror_legs(context(false).motion, each);
   resume(*other.settled);
   follow_rest(other);
   return other;
@@ -286,7 +289,7 @@ Tracker::Trial Tracker::with_legs_exchanged(const Trial& trial) {
 // A start names the legs by outlines, which from the side look the same with the legs exchanged.
 // Where the pictures do not quite agree, both names are tried.
 Tracker::Trial Tracker::with_legs_named(Trial first) {
-  double doubt = first.last->doubt, odds = first.legs;
+  double doubt = first.last->p_legs_swapped, odds = first.legs;
   if (odds < kAgreed) {
     Trial other = with_legs_exchanged(first);
     odds = 0.5 * (first.legs - other.legs);
@@ -296,30 +299,30 @@ Tracker::Trial Tracker::with_legs_named(Trial first) {
       odds = -odds;
     }
   }
-  first.last->doubt = updated(doubt, odds);
+  first.last->p_legs_swapped = updated(doubt, odds);
   resume(*first.last);
-  for (FrameRecord& record : first.records) record.modes.exchanged = first.last->doubt;
+  for (FrameRecord& record : first.records) record.modes.exchanged = first.last->p_legs_swapped;
   return first;
 }
 
-// Tracks the window's frames from a sighting; false, and nothing has happened, if the track
+// Tracks the window's frames from a detected; false, and nothing has happened, if the track
 // explains them worse than the straight walk of mere figures that it came from.
-bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
+bool Tracker::attempt(const DetectedWalk& detected, std::vector<FrameRecord>& out) {
   const uint32_t first_frame = frame_;
   const auto seen_before = last_seen_;
   const int losses_before = losses_;
-  begin(sighting, std::nullopt);
+  begin(detected, std::nullopt);
   Trial trial;
   follow_rest(trial);
   if (trial.legs != 0) trial = with_legs_named(std::move(trial));
-  const double support =
-      total_support(trial.records) + (contest_ ? total_support(contest_->records()) : 0);
-  if (mode_ != Mode::kSearching && support >= sighting.score * double(window_.size())) {
+  const double log_likelihood = total_log_likelihood(trial.records) +
+                                (hypotheses_ ? total_log_likelihood(hypotheses_->records()) : 0);
+  if (mode_ != Mode::kSearching && log_likelihood >= detected.score * double(window_.size())) {
     std::deque<SceneEvidence> frames = std::exchange(window_, {});
     candidates_.clear();
     for (size_t i = 0; i < trial.records.size(); ++i) refine(frames[i], trial.records[i]);
     // A contest that goes on has all of the window's frames before it.
-    if (contest_) contested_ = std::move(frames);
+    if (hypotheses_) hypotheses_frames_ = std::move(frames);
     std::move(trial.records.begin(), trial.records.end(), std::back_inserter(out));
     return true;
   }
@@ -327,8 +330,8 @@ bool Tracker::attempt(const Sighting& sighting, std::vector<FrameRecord>& out) {
   frame_ = first_frame;
   last_seen_ = seen_before;
   losses_ = losses_before;
-  contest_.reset();
-  contested_.clear();
+  hypotheses_.reset();
+  hypotheses_frames_.clear();
   return false;
 }
 

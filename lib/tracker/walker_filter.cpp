@@ -6,7 +6,7 @@
 #include "core/log_weights.h"
 #include "core/scratch.h"
 #include "tracker/frame_likelihood.h"
-#include "tracker/moves/course.h"
+#include "tracker/moves/global_pose.h"
 #include "tracker/smooth/model_error.h"
 
 namespace walktrack {
@@ -41,7 +41,7 @@ void summarise(const WalkerFilterContext& context, const ParticleSet<WalkerParti
                FrameRecord& record) {
   const std::vector<double> weights = normalised_weights(set.log_weights);
   for (size_t i = 0; i < weights.size(); ++i)
-    if (weights[i] > 0) record.support += weights[i] * set.log_likelihoods[i];
+    if (weights[i] > 0) record.mean_log_likelihood += weights[i] * set.log_likelihoods[i];
   record.tracked = true;
   record.estimate =
       estimate_frame(context.scene.model, set.states, weights, context.scene.dt, context.threads);
@@ -77,9 +77,10 @@ FrameRecord advance(const WalkerFilterContext& context, const SceneEvidence& evi
   const CourseSpread course =
       course_spread(filter.particles().states, filter.particles().log_weights);
   const FrameLikelihood likelihood(context.scene, evidence, !first);
-  const auto move = [&](WalkerParticle& particle, double boldness, Rng& rng) {
-    if (rng.uniform() < kCourseMoves) return change_course(motion, course, boldness, particle, rng);
-    perturb(motion, boldness, particle, rng);
+  const auto move = [&](WalkerParticle& particle, double step_size, Rng& rng) {
+    if (rng.uniform() < kCourseMoves)
+      return move_global_pose(motion, course, step_size, particle, rng);
+    perturb(motion, step_size, particle, rng);
   };
   FrameRecord record;
   record.filter = filter.update(frame, likelihood, move);

@@ -19,7 +19,7 @@ struct FrameRecord {
   bool tracked = false;
   FrameEstimate estimate;
   FilterReport filter;
-  double support = 0;                   // mean log-likelihood of the particles, nats
+  double mean_log_likelihood = 0;       // mean log-likelihood of the particles, nats
   std::vector<JointPositions> samples;  // a few particles, to show their spread
   int fallen = 0, diverged = 0;
   StrideModes modes;

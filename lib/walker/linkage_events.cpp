@@ -216,7 +216,7 @@ void LinkageWalker::transfer_support(const WalkerState& state, bool swing, Walke
 }
 
 // The swing leg takes the stance leg's name and place.
-void LinkageWalker::exchange_legs(WalkerState& stance) const {
+void LinkageWalker::mirror_legs(WalkerState& stance) const {
   VectorXd q(n_), qd(n_);
   for (Index i = 0; i < n_; ++i) {
     const Index from = linkage_.exchange[static_cast<size_t>(i)];
@@ -243,7 +243,7 @@ Transition LinkageWalker::strike(const WalkerState& state, bool swing) const {
     transition.advance = centre - state.contacts[1];
     transition.feet_apart = swing_lead(state);
     transition.completes_step = true;
-    exchange_legs(stance);
+    mirror_legs(stance);
   }
   const double rolled = linkage_.foot_radius * stance.q(linkage_.stance_angle);
   stance.contacts = {centre - rolled, swing ? centre : state.contacts[1]};

@@ -76,7 +76,7 @@ class LinkageWalker : public Walker {
   ToeOff toe_off(const Placed& placed, const PlanarPoint& foot, const Eigen::VectorXd& q) const;
   void transfer_support(const WalkerState& state, bool swing, WalkerState& stance,
                         Transition& transition) const;
-  void exchange_legs(WalkerState& stance) const;
+  void mirror_legs(WalkerState& stance) const;
   Transition stopped(const WalkerState& state, size_t limit) const;
 
   Linkage linkage_;

@@ -89,7 +89,7 @@ ParticleScene particle_scene(size_t count) {
                       .particles = {}};
   StartConfig start;
   start.particles = static_cast<int>(count);
-  const Sighting sighting{.position = {0, 0}, .velocity = {kSpeed, 0}};
+  const DetectedWalk sighting{.position = {0, 0}, .velocity = {kSpeed, 0}};
   scene.particles = spawn(scene.context(), start, sighting, {Side::kLeft, 0.0, 1.0}, kSeed);
   return scene;
 }

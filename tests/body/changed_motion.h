@@ -14,7 +14,7 @@ Motion changed(Motion motion, F f) {
   return motion;
 }
 
-inline void exchange_legs(JointPositions& joints) {
+inline void mirror_legs(JointPositions& joints) {
   for (const auto& of : {hip, knee, ankle, toe})
     std::swap(joints[of(Side::kLeft)], joints[of(Side::kRight)]);
 }

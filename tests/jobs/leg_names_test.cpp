@@ -1,5 +1,5 @@
 // Left and right in front of one camera, which silhouettes from the side do not tell.
-#include "tracker/leg_names.h"
+#include "tracker/leg_label_evidence.h"
 
 #include <filesystem>
 
@@ -16,7 +16,7 @@
 #include "synth/stage.h"
 #include "tests/run_program.h"
 #include "tests/synth/filmed.h"
-#include "tracker/moves/exchange.h"
+#include "tracker/moves/mirror_legs.h"
 
 namespace walktrack {
 namespace {
@@ -62,7 +62,7 @@ struct Film {
 
   std::vector<FrameRecord> exchanged() const {
     std::vector<FrameRecord> records = truth;
-    for (FrameRecord& record : records) exchange_legs(scene.model.body, record);
+    for (FrameRecord& record : records) mirror_legs(scene.model.body, record);
     return records;
   }
 

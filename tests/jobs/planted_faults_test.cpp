@@ -103,10 +103,10 @@ TEST(PlantedFaults, EachLeavesABand) {
   const Vector3d start = base.joints[0][Joint::kPelvis];
   using Change = std::function<void(JointPositions&, size_t)>;
   const std::map<std::string, Change> faults{
-      {"legs exchanged", [](JointPositions& j, size_t) { exchange_legs(j); }},
+      {"legs exchanged", [](JointPositions& j, size_t) { mirror_legs(j); }},
       {"legs exchanged for a second",
        [](JointPositions& j, size_t i) {
-         if (i >= 60 && i < 90) exchange_legs(j);
+         if (i >= 60 && i < 90) mirror_legs(j);
        }},
       {"wrong sign of the knees' flexion", [](JointPositions& j, size_t) { flip_knees(j); }},
       {"one frame late", [&](JointPositions& j, size_t i) { j = base.joints[i == 0 ? 0 : i - 1]; }},

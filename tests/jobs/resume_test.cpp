@@ -136,7 +136,7 @@ TEST_F(Resume, WithFlow) {
 // The size that was found goes on with the walker.
 TEST_F(Resume, WithASizeFromTheImages) {
   size_known_ = false;
-  change_ = [](Config& config) { config.tracker.sighting.window = 0.3; };
+  change_ = [](Config& config) { config.tracker.detector.window = 0.3; };
   expect_same_after_kill(18);
   EXPECT_TRUE(
       Json::parse(result("whole").at("run.json"))["numbers"].contains("estimated_height_m"));

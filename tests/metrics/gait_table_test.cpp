@@ -60,7 +60,7 @@ TEST(GaitTable, ALimpIsAnAsymmetryOfItsSide) {
   EXPECT_NEAR(table.symmetry[kStepLengthSymmetry].value, 100 * 0.12 / (walk.speed * walk.step_time),
               1);
   const GaitTable mirrored = gait_table(
-      changed(limping, [](JointPositions& joints, size_t) { exchange_legs(joints); }), {}, {});
+      changed(limping, [](JointPositions& joints, size_t) { mirror_legs(joints); }), {}, {});
   EXPECT_NEAR(mirrored.symmetry[kStepLengthSymmetry].value,
               -table.symmetry[kStepLengthSymmetry].value, 1e-9);
 }

@@ -67,7 +67,7 @@ TEST(Gait, ExchangedSidesExchangeTheEvents) {
   const Motion motion = walk_motion({});
   const Gait gait = gait_from_motion(motion);
   const Gait mirrored = gait_from_motion(
-      changed(motion, [](JointPositions& joints, size_t) { exchange_legs(joints); }));
+      changed(motion, [](JointPositions& joints, size_t) { mirror_legs(joints); }));
   ASSERT_EQ(gait.events.size(), mirrored.events.size());
   for (size_t i = 0; i < gait.events.size(); ++i) {
     EXPECT_EQ(gait.events[i].time, mirrored.events[i].time);

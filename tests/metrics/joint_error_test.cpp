@@ -111,7 +111,7 @@ TEST(JointErrors, OverTimeAreTheFramesErrorsWithHoles) {
 
 TEST(JointErrors, ExchangedLegsAreSwappedWhereTheFeetAreApart) {
   const Motion truth = walk_motion({});
-  const Motion bad = changed(truth, [](JointPositions& joints, size_t) { exchange_legs(joints); });
+  const Motion bad = changed(truth, [](JointPositions& joints, size_t) { mirror_legs(joints); });
   size_t apart = 0;
   for (const JointPositions& joints : truth.joints)
     apart += (joints[Joint::kLeftAnkle] - joints[Joint::kRightAnkle]).norm() > 0.25;

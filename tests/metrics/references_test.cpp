@@ -42,7 +42,7 @@ TEST(FootPlantErrors, MeasureAnOffsetAlongTheWalkOnly) {
 TEST(FootPlantErrors, ExchangedSidesAreNotFound) {
   const TestWalk walk;
   const Motion bad =
-      changed(walk_motion(walk), [](JointPositions& joints, size_t) { exchange_legs(joints); });
+      changed(walk_motion(walk), [](JointPositions& joints, size_t) { mirror_legs(joints); });
   EXPECT_EQ(foot_plant_errors(plants_of(walk), bad, kTrim).found, 0u);
 }
 

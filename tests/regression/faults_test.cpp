@@ -74,14 +74,14 @@ void tremble(SuiteResult& result) {
 
 TEST(PlantedFaults, InResultsTakeAFigureOutOfItsBand) {
   const std::map<std::string, Fault> faults{
-      {"legs exchanged", each_row(exchange_legs)},
+      {"legs exchanged", each_row(mirror_legs)},
       {"wrong sign of the knees' flexion", each_row(flip_knees)},
       {"2 % too large", each_row([](JointPositions& joints) {
          for (Vector3d& p : joints.at) p *= 1.02;
        })},
       {"mirrored world", each_row([](JointPositions& joints) {
          for (Vector3d& p : joints.at) p.y() = -p.y();
-         exchange_legs(joints);
+         mirror_legs(joints);
        })},
       {"ground 10 cm too low", each_row([](JointPositions& joints) {
          for (Vector3d& p : joints.at) p.z() -= 0.1;

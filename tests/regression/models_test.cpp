@@ -1,4 +1,5 @@
-// The three motion models on a scene of the suite. What each is worth: lib/tracker/reports/physics.md.
+// The three motion models on a scene of the suite. What each is worth:
+// lib/tracker/reports/physics.md.
 #include <string>
 
 #include <gtest/gtest.h>

@@ -25,7 +25,7 @@ MotionConfig quiet() {
 
 void silence(const MotionContext& context, WalkerParticle& particle) {
   particle.noise.fill(0);
-  context.moves.realise(context, particle);
+  context.moves.apply_noise(context, particle);
 }
 
 TEST(AnthropomorphicMotion, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
@@ -85,15 +85,15 @@ TEST(AnthropomorphicMotion, KneesBendAboutTheLinesOfTheLegs) {
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   p.noise.fill(0);
   for (const double flexion : {0.0, 0.4, 1.1}) {
-    p.predicted_extra[kKneeFlexion] = p.predicted_extra[kKneeFlexion + 1] = flexion;
-    context.moves.realise(context, p);
+    p.predicted_residual[kKneeFlexion] = p.predicted_residual[kKneeFlexion + 1] = flexion;
+    context.moves.apply_noise(context, p);
     for (size_t i = 0; i < 2; ++i) {
       const bool stands = i == static_cast<size_t>(p.stance);
       const LegPose& leg = p.pose.legs[i];
       const double thigh = p.pose.tilt - leg.hip_flexion, shank = thigh + leg.knee_flexion;
       EXPECT_NEAR(leg.knee_flexion, flexion, 1e-12);
       EXPECT_NEAR((thigh + shank) / 2,
-                  p.walker.q[stands ? kStanceThigh : kSwingThigh] + p.extra[kThigh + i], 1e-12);
+                  p.walker.q[stands ? kStanceThigh : kSwingThigh] + p.residual[kThigh + i], 1e-12);
     }
   }
 }

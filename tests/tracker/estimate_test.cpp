@@ -53,7 +53,7 @@ TEST(EstimateFrame, DatesTheTransferByThoseWhoStandOnTheLikelierFoot) {
   for (size_t i = 0; i < 3; ++i) {
     particles[i].walker.since_transfer = since[i];
     particles[i].stance = i < 2 ? Side::kRight : Side::kLeft;
-    particles[i].extra_before[kPace] = i == 1 ? std::log(2.0) : 0;
+    particles[i].residual_before[kPace] = i == 1 ? std::log(2.0) : 0;
   }
   const std::vector<double> weights{0.3, 0.3, 0.4};
   const FrameEstimate e = estimate_frame(walking.model, particles, weights, context.dt, 1);

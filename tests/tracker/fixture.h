@@ -44,8 +44,8 @@ inline TrackerScene unseen(const BodyModel& model, double dt) {
 inline std::vector<WalkerParticle> walkers(const MotionContext& context, double speed, int count) {
   StartConfig start;
   start.particles = count;
-  const Sighting sighting{.position = {0, 0}, .velocity = {speed, 0}};
-  return spawn(context, start, sighting, {Side::kLeft, 0.0, 1.0}, 7);
+  const DetectedWalk detected{.position = {0, 0}, .velocity = {speed, 0}};
+  return spawn(context, start, detected, {Side::kLeft, 0.0, 1.0}, 7);
 }
 
 // The same after their first two frames.

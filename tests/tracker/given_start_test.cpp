@@ -12,7 +12,7 @@ constexpr double kFrame = 1.0 / 30;
 // Standard deviation of the pelvis over the ground in the first frame when nothing is seen, m.
 double first_spread(double given, double arrival) {
   TrackerScene scene = unseen(test_model(), kFrame);
-  scene.initial = Sighting{.position = {1, 2}, .velocity = {0, 1.2}, .given = true};
+  scene.initial = DetectedWalk{.position = {1, 2}, .velocity = {0, 1.2}, .given = true};
   TrackerConfig config;
   config.motion.given = given;
   config.motion.arrival = arrival;

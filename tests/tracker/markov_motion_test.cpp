@@ -23,7 +23,7 @@ MotionConfig quiet() {
 
 void silence(const MotionContext& context, WalkerParticle& particle) {
   particle.noise.fill(0);
-  context.moves.realise(context, particle);
+  context.moves.apply_noise(context, particle);
 }
 
 WalkerParticle first_seen(const MotionContext& context, double speed) {
@@ -57,10 +57,10 @@ TEST(MarkovMotion, ProcessesKeepTheirSpreadAtAnyFrameRate) {
   for (const double dt : {1.0 / 7, 1.0 / 30, 1.0 / 240}) {
     const MotionContext context = walking.context(dt);
     for (size_t k = kList; k < kShoulder; ++k) {
-      const MarkovConstants c = context.moves.constants({}, static_cast<Extra>(k));
-      EXPECT_NEAR(context.scale.extra[k] * std::sqrt(variance(context.markov[k])), c.spread,
+      const MarkovConstants c = context.moves.constants({}, static_cast<ResidualAngle>(k));
+      EXPECT_NEAR(context.scale.residual[k] * std::sqrt(variance(context.markov[k])), c.spread,
                   1e-9 * c.spread)
-          << "extra " << k << ", dt " << dt;
+          << "residual " << k << ", dt " << dt;
     }
   }
 }
@@ -71,10 +71,10 @@ TEST(MarkovMotion, ProcessesForgetAsFastAtAnyFrameRate) {
   const Walking walking(MotionKind::kMarkov);
   const auto slow = markov_steps(*walking.moves, {}, 1.0 / 30),
              fast = markov_steps(*walking.moves, {}, 1.0 / 300);
-  for (const Extra extra : {kHipFlexion, kKneeFlexion, kRootHeight})
+  for (const ResidualAngle residual : {kHipFlexion, kKneeFlexion, kRootHeight})
     for (const int lag : {3, 9, 15})
-      EXPECT_NEAR(correlation(slow[extra], lag), correlation(fast[extra], 10 * lag), 0.02)
-          << "extra " << extra << ", lag " << lag;
+      EXPECT_NEAR(correlation(slow[residual], lag), correlation(fast[residual], 10 * lag), 0.02)
+          << "residual " << residual << ", lag " << lag;
 }
 
 // Two oscillators half a period on are where they were, mirrored about their rest.
@@ -111,16 +111,17 @@ TEST(MarkovMotion, EntersAGaitOnTheWay) {
   for (const double phase : {0.01, 0.3, 0.6, 0.99}) {
     WalkerParticle p;
     p.aim = {1.25, 0.7};
-    context.moves.enter(context, std::vector{phase}, {&p, 1});
+    context.moves.initialise(context, std::vector{phase}, {&p, 1});
     const PriorGait gait = gait_at(walking.prior, model.walker.parameters, 1.25, 0.7);
     const Pose now = pose_in_gait(model, gait, p.stance, phase);
     for (size_t i = 0; i < 2; ++i) {
-      EXPECT_EQ(p.extra[kKneeFlexion + i], now.legs[i].knee_flexion);
-      EXPECT_EQ(p.extra[kHipFlexion + i], now.legs[i].hip_flexion);
+      EXPECT_EQ(p.residual[kKneeFlexion + i], now.legs[i].knee_flexion);
+      EXPECT_EQ(p.residual[kHipFlexion + i], now.legs[i].hip_flexion);
       // Knees bend at up to 8 rad/s; a rate that fits no frame around is none of a gait.
-      EXPECT_LT(std::abs(p.extra[kKneeFlexion + i] - p.extra_before[kKneeFlexion + i]), 8 * kDt);
+      EXPECT_LT(std::abs(p.residual[kKneeFlexion + i] - p.residual_before[kKneeFlexion + i]),
+                8 * kDt);
     }
-    EXPECT_EQ(p.extra[kRootHeight], now.root.z());
+    EXPECT_EQ(p.residual[kRootHeight], now.root.z());
   }
 }
 

@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 
 const Vector3d kHead(0, 0, 1.6), kFeet(0, 0, 0.1);
 
-Camera camera_from(const Vector3d& eye) {
-  return looking_at(lens({640, 480}, {600, 600}, {319.5, 239.5}), eye, {0, 0, 0.85});
+Camera camera_from(const Vector3d& camera_position) {
+  return looking_at(lens({640, 480}, {600, 600}, {319.5, 239.5}), camera_position, {0, 0, 0.85});
 }
 
 double sd_along(const Matrix3d& covariance, const Vector3d& direction) {
@@ -48,9 +48,10 @@ TEST(FigureCovariance, ACameraMoreNeverWidens) {
   std::vector<Camera> cameras;
   Matrix3d before = figure_covariance(cameras, kHead, kFeet);
   EXPECT_TRUE(before.isApprox(Matrix3d::Identity(), 1e-9)) << "unseen: known to a metre";
-  for (const Vector3d& eye : {Vector3d(0, -7, 1), Vector3d(6, -2, 2), Vector3d(-4, 5, 1.5),
-                              Vector3d(0, 0, -40)}) {  // the last one looks from below the ground
-    cameras.push_back(camera_from(eye));
+  for (const Vector3d& camera_position :
+       {Vector3d(0, -7, 1), Vector3d(6, -2, 2), Vector3d(-4, 5, 1.5),
+        Vector3d(0, 0, -40)}) {  // the last one looks from below the ground
+    cameras.push_back(camera_from(camera_position));
     const Matrix3d now = figure_covariance(cameras, kHead, kFeet);
     const Eigen::SelfAdjointEigenSolver<Matrix3d> gain(before - now);
     EXPECT_GT(gain.eigenvalues().minCoeff(), -1e-12);

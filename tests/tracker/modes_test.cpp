@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
-#include "tracker/moves/exchange.h"
+#include "tracker/moves/mirror_legs.h"
 
 namespace walktrack {
 namespace {
@@ -58,13 +58,14 @@ TEST(Modes, OfEqualMassAreHalfEach) {
 }
 
 TEST(Leaps, AreHalfAStrideWhileTheLegsPass) {
-  EXPECT_TRUE(leapt(0.24, 0.77));
-  EXPECT_TRUE(leapt(0.74, 0.29));
-  EXPECT_TRUE(leapt(0.70, 0.15));
-  EXPECT_FALSE(leapt(0.02, 0.51)) << "both feet are on the ground";
-  EXPECT_FALSE(leapt(0.24, 0.98)) << "out of a passing";
+  EXPECT_TRUE(label_switched(0.24, 0.77));
+  EXPECT_TRUE(label_switched(0.74, 0.29));
+  EXPECT_TRUE(label_switched(0.70, 0.15));
+  EXPECT_FALSE(label_switched(0.02, 0.51)) << "both feet are on the ground";
+  EXPECT_FALSE(label_switched(0.24, 0.98)) << "out of a passing";
   for (double phase = 0; phase < 1; phase += 0.01)
-    for (double on = -0.37; on < 0.375; on += 0.01) EXPECT_FALSE(leapt(phase, around(phase + on)));
+    for (double on = -0.37; on < 0.375; on += 0.01)
+      EXPECT_FALSE(label_switched(phase, around(phase + on)));
 }
 
 // Nobody walks so, at any moment and frame rate; whoever has their legs exchanged while they pass
@@ -82,10 +83,10 @@ TEST(Leaps, AreNotOfWalkersButOfTheirLegs) {
         Rng rng(5, Purpose::kTest, frame);
         if (propagate(context, particle, rng) != Outcome::kAlive) break;
         ++frames;
-        ASSERT_FALSE(leapt(expected, stride_phase(particle))) << expected;
+        ASSERT_FALSE(label_switched(expected, stride_phase(particle))) << expected;
         WalkerParticle exchanged = particle;
-        exchange_legs(context, exchanged);
-        told += leapt(expected, stride_phase(exchanged)) ? 1 : 0;
+        mirror_legs(context, exchanged);
+        told += label_switched(expected, stride_phase(exchanged)) ? 1 : 0;
       }
     }
     EXPECT_GT(frames, 100) << "unseen walkers fall sooner or later";

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
-#include "tracker/moves/course.h"
+#include "tracker/moves/global_pose.h"
 
 namespace walktrack {
 namespace {
@@ -68,7 +68,7 @@ TEST_P(EveryMotionModel, ThePoseFollowsFromPredictionAndNoise) {
     Rng rng(4, Purpose::kTest);
     perturb(context, 0.9, p, rng);
     p.noise = noise;
-    context.moves.realise(context, p);
+    context.moves.apply_noise(context, p);
     EXPECT_TRUE(same(p.pose, pose));
   }
 }
@@ -81,7 +81,7 @@ TEST_P(EveryMotionModel, AChangeOfCourseKeepsTheMotion) {
   for (WalkerParticle& p : set) {
     const double moved = (p.pose.root - p.pose_before.root).head<2>().norm();
     Rng rng(5, Purpose::kTest);
-    change_course(context, spread, 0.5, p, rng);
+    move_global_pose(context, spread, 0.5, p, rng);
     EXPECT_NEAR((p.pose.root - p.pose_before.root).head<2>().norm(), moved, 1e-9);
   }
 }

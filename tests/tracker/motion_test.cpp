@@ -23,7 +23,7 @@ MotionConfig quiet() {
 
 void silence(WalkerParticle& particle, const MotionContext& context) {
   particle.noise.fill(0);
-  realise(context.model, context.scale, particle);
+  apply_noise(context.model, context.scale, particle);
 }
 
 TEST(Propagate, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
@@ -44,7 +44,7 @@ TEST(Propagate, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
   EXPECT_NEAR(distance / (kFrames * dt), 1.2, 0.06);
   // The heading follows the pelvis, which sways over the standing foot.
   const double sway = rad_from_deg(1.5);
-  EXPECT_NEAR(p.extra[kHeading], 0, sway);
+  EXPECT_NEAR(p.residual[kHeading], 0, sway);
   EXPECT_NEAR(p.pose.root.y() - start.y(), 0, sway * distance);
 }
 
@@ -67,11 +67,11 @@ TEST(ToScale, TheSmallAndTheLargeWalkAlike) {
       Rng rng(1, Purpose::kTest, frame);
       EXPECT_EQ(propagate(context, p, rng), Outcome::kAlive);
       std::fill(p.noise.begin() + kExtraNoise, p.noise.end(), 0.0);
-      realise(context.model, context.scale, p);
+      apply_noise(context.model, context.scale, p);
     }
     return p.ball / length;
   };
-  // Rounding grows through three supports.
+  // Rounding grows through three log_likelihoods.
   EXPECT_NEAR((where(0.9) - where(kAdultHeight)).norm(), 0, 1e-6);
   EXPECT_NEAR((where(3) - where(kAdultHeight)).norm(), 0, 1e-6);
 }
@@ -98,7 +98,7 @@ double heading_after(double facing, double aside, double seconds) {
     p.ball += shift;
     p.pose.root.head<2>() += shift;
   }
-  return p.extra[kHeading];
+  return p.residual[kHeading];
 }
 
 TEST(Propagate, TheHeadingComesBackToTheWay) {
@@ -117,12 +117,12 @@ TEST(Propagate, ATurnGoesOn) {
   Rng rng(1, Purpose::kTest);
   arrive(context, p, rng);
   for (int frame = 0; frame < 90; ++frame) {
-    p.extra_before[kHeading] = p.extra[kHeading] - rate * dt;
+    p.residual_before[kHeading] = p.residual[kHeading] - rate * dt;
     ASSERT_EQ(propagate(context, p, rng), Outcome::kAlive);
     silence(p, context);
   }
   const double momentum = context.markov[kHeading].momentum;
-  EXPECT_NEAR(p.extra[kHeading], 90 * momentum * rate * dt, 0.1 * 90 * rate * dt);
+  EXPECT_NEAR(p.residual[kHeading], 90 * momentum * rate * dt, 0.1 * 90 * rate * dt);
 }
 
 // People's pelvis goes on at nearly constant speed, the walker's slows over its standing leg and
@@ -188,7 +188,7 @@ TEST(NoiseScale, MarkovProcessesKeepTheirSpreadAtAnyFrameRate) {
   const Walking walking;
   const MarkovConstants c = markov_constants(kList);
   for (const double dt : {1.0 / 7, 1.0 / 30, 1.0 / 240}) {
-    const double sigma = walking.context(dt).scale.extra[kList];
+    const double sigma = walking.context(dt).scale.residual[kList];
     const double r = std::exp(-dt / c.time);
     Rng rng(3, Purpose::kTest);
     double now = c.rest, before = c.rest, squares = 0;
@@ -214,10 +214,10 @@ TEST(Realise, AMisfitMovesThePersonAndNotTheWalker) {
   const KneedState walker = p.walker;
   const double knee = p.pose.legs[0].knee_flexion;
   p.noise[int{kExtraNoise} + kShank] = 2;
-  realise(context.model, context.scale, p);
+  apply_noise(context.model, context.scale, p);
   EXPECT_EQ(p.walker.q, walker.q);
   EXPECT_EQ(p.walker.qd, walker.qd);
-  EXPECT_NEAR(p.pose.legs[0].knee_flexion - knee, 2 * context.scale.extra[kShank], 1e-12);
+  EXPECT_NEAR(p.pose.legs[0].knee_flexion - knee, 2 * context.scale.residual[kShank], 1e-12);
 }
 
 }  // namespace

@@ -15,10 +15,10 @@ TEST(PoseOf, HasTheWalkersAnglesInItsPlane) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);
   for (const WalkerParticle& p : walkers(context, 1.2, 50)) {
-    Extras extra{};
-    extra[kHeading] = 0.7;
-    const Pose pose = pose_of(walking.model, p.walker, Side::kLeft, p.aim, {2, 3}, extra);
-    const KneedState shown = shown_state(p.walker, Side::kLeft, p.aim, extra);
+    ResidualAngles residual{};
+    residual[kHeading] = 0.7;
+    const Pose pose = pose_of(walking.model, p.walker, Side::kLeft, p.aim, {2, 3}, residual);
+    const KneedState shown = shown_state(p.walker, Side::kLeft, p.aim, residual);
     const JointPositions j = forward_kinematics(walking.model.body, pose).joints;
     const Eigen::Vector3d ahead(std::cos(0.7), std::sin(0.7), 0);
     const auto angle = [&](const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
@@ -38,7 +38,8 @@ TEST(PoseOf, TheStandingFootKeepsItsBallThroughTheStep) {
   const MotionContext context = walking.context(1.0 / 30);
   const double ball_height = walking.model.body.lengths.ball_height;
   for (const WalkerParticle& p : walkers(context, 1.2, 50)) {
-    const Pose pose = pose_of(walking.model, p.walker, Side::kLeft, p.aim, {2, 3}, Extras{});
+    const Pose pose =
+        pose_of(walking.model, p.walker, Side::kLeft, p.aim, {2, 3}, ResidualAngles{});
     const Eigen::Vector3d toe =
         forward_kinematics(walking.model.body, pose).joints[Joint::kLeftToe];
     // The joint lies a ball's height above the contact, tips over with the foot, and leaves the
@@ -81,11 +82,11 @@ TEST(Realise, WithoutNoiseIsThePrediction) {
   const MotionContext context = walking.context(1.0 / 30);
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   p.noise.fill(0);
-  p.predicted_extra = p.extra;
-  realise(walking.model, context.scale, p);
+  p.predicted_residual = p.residual;
+  apply_noise(walking.model, context.scale, p);
   EXPECT_EQ(p.walker.q, p.predicted.q);
   EXPECT_EQ(p.ball, p.predicted_ball);
-  EXPECT_EQ(p.extra, p.predicted_extra);
+  EXPECT_EQ(p.residual, p.predicted_residual);
 }
 
 TEST(Realise, KneesNeverBendBackwards) {
@@ -95,7 +96,7 @@ TEST(Realise, KneesNeverBendBackwards) {
   Rng rng(3, Purpose::kTest);
   for (int i = 0; i < 500; ++i) {
     for (double& z : p.noise) z = 20 * rng.normal();
-    realise(walking.model, context.scale, p);
+    apply_noise(walking.model, context.scale, p);
     for (const LegPose& leg : p.pose.legs) EXPECT_GE(leg.knee_flexion, 0);
   }
 }
@@ -105,7 +106,7 @@ TEST(Realise, KneesBendNoFurtherThanTheHeelCanComeToTheThigh) {
   const MotionContext context = walking.context(1.0 / 30);
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   for (const int shank : {kStanceShank, kSwingShank}) p.predicted.q[shank] += 4;
-  realise(walking.model, context.scale, p);
+  apply_noise(walking.model, context.scale, p);
   for (const LegPose& leg : p.pose.legs) EXPECT_NEAR(leg.knee_flexion, rad_from_deg(150), 1e-12);
 }
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
-#include "tracker/moves/course.h"
-#include "tracker/moves/exchange.h"
+#include "tracker/moves/global_pose.h"
+#include "tracker/moves/mirror_legs.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
@@ -37,13 +37,13 @@ TEST_P(SagittalPath, NothingTurnsOrGoesSideways) {
   const std::vector<WalkerParticle> start = after(0), set = after(45);
   int moved = 0;
   for (size_t i = 0; i < set.size(); ++i) {
-    for (const Extra k : kSideways) {
-      EXPECT_EQ(set[i].extra[k], start[i].extra[k]) << k;
+    for (const ResidualAngle k : kSideways) {
+      EXPECT_EQ(set[i].residual[k], start[i].residual[k]) << k;
       EXPECT_EQ(set[i].noise[size_t(kExtraNoise) + k], 0) << "is not drawn";
     }
     EXPECT_EQ(set[i].pose.heading, 0);
     EXPECT_EQ(set[i].pose.list, start[i].pose.list);
-    moved += set[i].extra[kTilt] != start[i].extra[kTilt];
+    moved += set[i].residual[kTilt] != start[i].residual[kTilt];
   }
   EXPECT_EQ(moved, set.size()) << "the upright plane is as free as ever";
 }
@@ -60,15 +60,15 @@ TEST_P(SagittalPath, WalksOnAsFar) {
 TEST_P(SagittalPath, ExchangedLegsKeepThePelvis) {
   for (const WalkerParticle& particle : after(10)) {
     WalkerParticle exchanged = particle;
-    exchange_legs(context, exchanged);
+    mirror_legs(context, exchanged);
     EXPECT_EQ(exchanged.stance, other(particle.stance));
     EXPECT_LT((exchanged.pose.root - particle.pose.root).norm(), 1e-9);
-    EXPECT_EQ(exchanged.extra[kAbduction], particle.extra[kAbductionRight]);
+    EXPECT_EQ(exchanged.residual[kAbduction], particle.residual[kAbductionRight]);
     EXPECT_EQ(exchanged.pose.legs[0].knee_flexion, particle.pose.legs[1].knee_flexion);
     EXPECT_EQ(exchanged.pose_before.legs[0].hip_abduction,
               particle.pose_before.legs[1].hip_abduction);
     EXPECT_EQ(exchanged.pose_before.root, particle.pose_before.root);
-    exchange_legs(context, exchanged);
+    mirror_legs(context, exchanged);
     EXPECT_LT((exchanged.ball - particle.ball).norm(), 1e-9);
     EXPECT_LT((exchanged.pose.root - particle.pose.root).norm(), 1e-9);
   }
@@ -89,7 +89,7 @@ TEST(SagittalWalk, GoesAlongALine) {
   for (int frame = 0; frame < 150; ++frame) {
     ASSERT_EQ(propagate(context, p, rng), Outcome::kAlive) << frame;
     p.noise.fill(0);
-    context.moves.realise(context, p);
+    context.moves.apply_noise(context, p);
     EXPECT_NEAR(p.pose.root.y(), line, 0.02) << frame;
   }
   EXPECT_GT(p.pose.root.x(), x + 4);
@@ -101,9 +101,9 @@ TEST(SagittalWalk, ASetCanTakeAnotherCourse) {
   const MotionContext context = walking.context(kFrame);
   WalkerParticle p = walkers_on_their_way(context, 1)[0];
   CourseSpread spread;
-  spread.mean << p.pose.root.head<2>(), 0.1, p.extra[kCrouch], p.extra[kTilt];
+  spread.mean << p.pose.root.head<2>(), 0.1, p.residual[kCrouch], p.residual[kTilt];
   Rng rng(1, Purpose::kTest);
-  change_course(context, spread, 1, p, rng);
+  move_global_pose(context, spread, 1, p, rng);
   EXPECT_NEAR(p.pose.heading, 0.1, 1e-12);
   propagate(context, p, rng);
   EXPECT_NEAR(p.pose.heading, 0.1, 1e-12) << "and keeps it";

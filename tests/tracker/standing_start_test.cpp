@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kDt = 1.0 / 30;
-const Sighting kWalk{.position = {2, 1}, .velocity = {1.2, 0}};
+const DetectedWalk kWalk{.position = {2, 1}, .velocity = {1.2, 0}};
 
 // Somebody stood at a place until the frame before the walk, and was seen for so many frames but
 // for those left out.
@@ -27,9 +27,9 @@ struct Stood {
 TEST(StandingStart, IsFoundWhereAndForHowLongSomebodyStood) {
   const auto found = standing_before(kWalk, Stood{}, kDt, {});
   ASSERT_TRUE(found);
-  EXPECT_TRUE(found->sighting.standing);
-  EXPECT_NEAR((found->sighting.position - Vector2d(2.1, 1)).norm(), 0, 0.026);
-  EXPECT_EQ(found->sighting.velocity, kWalk.velocity);
+  EXPECT_TRUE(found->detected.standing);
+  EXPECT_NEAR((found->detected.position - Vector2d(2.1, 1)).norm(), 0, 0.026);
+  EXPECT_EQ(found->detected.velocity, kWalk.velocity);
   EXPECT_EQ(found->frames, 20u);
 }
 

@@ -44,9 +44,9 @@ void halt(Crowd& crowd) {
     const Pose pose = p.pose;
     stand(p);
     for (int k = kHeading; k < kShoulder; ++k)
-      p.extra[static_cast<size_t>(k)] = crowd.context.markov[static_cast<size_t>(k)].rest;
-    p.extra[kCrouch] = 0;
-    p.extra_before = p.extra;
+      p.residual[static_cast<size_t>(k)] = crowd.context.markov[static_cast<size_t>(k)].rest;
+    p.residual[kCrouch] = 0;
+    p.residual_before = p.residual;
     stand_under(crowd.walking.model, pose, p);
   }
 }
@@ -76,11 +76,11 @@ TEST(Standing, WhoStandsStaysWhereTheyAre) {
 TEST(Standing, RegimesChangeAndPosesStay) {
   Crowd crowd(400);
   halt(crowd);
-  const StepBook steps(crowd.walking.model, crowd.walking.prior);
+  const StepLibrary steps(crowd.walking.model, crowd.walking.prior);
   int set_off = 0, stopped = 0, left = 0;
   for (uint32_t i = 0; i < crowd.set.size(); ++i) {
     WalkerParticle p = crowd.set[i];
-    crowd.context.moves.realise(crowd.context, p);
+    crowd.context.moves.apply_noise(crowd.context, p);
     const Pose before = p.pose;
     Rng rng(3, Purpose::kTorque, 1, i);
     for (int attempt = 0; attempt < 3000 && p.regime == Regime::kStanding; ++attempt)
@@ -88,7 +88,7 @@ TEST(Standing, RegimesChangeAndPosesStay) {
     if (p.regime == Regime::kStanding) continue;
     ++set_off;
     left += p.stance == Side::kLeft;
-    const Pose shown = pose_of(crowd.walking.model, p.walker, p.stance, p.aim, p.ball, p.extra);
+    const Pose shown = pose_of(crowd.walking.model, p.walker, p.stance, p.aim, p.ball, p.residual);
     for (size_t leg = 0; leg < 2; ++leg) {
       EXPECT_NEAR(shown.legs[leg].hip_flexion, before.legs[leg].hip_flexion, 1e-9);
       EXPECT_NEAR(shown.legs[leg].knee_flexion, before.legs[leg].knee_flexion, 1e-9);

@@ -34,9 +34,9 @@ TEST(Spawn, WalkersStandOverTheSightingAndLookAhead) {
   const MotionContext context = walking.context(1.0 / 30);
   StartConfig config;
   config.particles = 30;
-  const Sighting sighting{.position = {2, -1}, .velocity = {0, 1.1}};
-  for (const WalkerParticle& p : spawn(context, config, sighting, {Side::kRight, 0, 1}, 3)) {
-    EXPECT_LT((p.pose.root.head<2>() - sighting.position).norm(), 1e-9);
+  const DetectedWalk detected{.position = {2, -1}, .velocity = {0, 1.1}};
+  for (const WalkerParticle& p : spawn(context, config, detected, {Side::kRight, 0, 1}, 3)) {
+    EXPECT_LT((p.pose.root.head<2>() - detected.position).norm(), 1e-9);
     EXPECT_NEAR(p.pose.heading, kPi / 2, 1e-12);
     EXPECT_EQ(p.stance, Side::kRight);
     EXPECT_GT(p.pose.root.z(), 0.7);
@@ -53,14 +53,14 @@ TEST(StartScale, IsInTheUnitsOfTheModel) {
     const NoiseScale scale = start_scale(config, context.moves, context.config, context.scale);
     if (kind == MotionKind::kMarkov) {
       // Of some 0.9 m, more than it wanders later.
-      EXPECT_GT(scale.extra[kRootHeight],
+      EXPECT_GT(scale.residual[kRootHeight],
                 context.moves.constants(context.config, kRootHeight).spread);
-      EXPECT_NEAR(scale.extra[kRootHeight], 0.052, 0.004);
+      EXPECT_NEAR(scale.residual[kRootHeight], 0.052, 0.004);
     } else {
-      EXPECT_EQ(scale.extra[kRootHeight], markov_constants(kCrouch).spread);
+      EXPECT_EQ(scale.residual[kRootHeight], markov_constants(kCrouch).spread);
     }
-    EXPECT_EQ(scale.extra[kList], markov_constants(kList).spread);
-    EXPECT_EQ(scale.extra[kHeading], rad_from_deg(config.heading_deg));
+    EXPECT_EQ(scale.residual[kList], markov_constants(kList).spread);
+    EXPECT_EQ(scale.residual[kHeading], rad_from_deg(config.heading_deg));
   }
 }
 

@@ -13,7 +13,7 @@ constexpr double kDt = 1.0 / 30;
 constexpr size_t kFrames = 36;
 const Eigen::Vector2d kEye(0, -6), kBegin(-0.8, 0.4), kVelocity(1.3, 0);
 
-Sighting walk_off_by(const Eigen::Vector2d& shift) {
+DetectedWalk walk_off_by(const Eigen::Vector2d& shift) {
   return {.position = kBegin + shift, .velocity = kVelocity};
 }
 

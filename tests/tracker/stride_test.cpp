@@ -30,12 +30,13 @@ TEST(LegDifference, MakesTheWalkersKneeAPersons) {
   const Walking walking;
   const double leg = leg_length(walking.model.body.lengths);
   const PriorGait gait = gait_at(walking.prior, walking.model.walker.parameters, 1.3, 0.79 * leg);
-  Extras extra{};
+  ResidualAngles residual{};
   const auto knee_deg = [&](double stride_phase) {
     const bool stands = stride_phase < 0.5;
     const double step_phase = 2 * (stands ? stride_phase : stride_phase - 0.5);
     const KneedState state = state_at_phase(walking.model.walker, gait, step_phase);
-    const KneedState shown = shown_state(state, Side::kLeft, {gait.speed, gait.step_length}, extra);
+    const KneedState shown =
+        shown_state(state, Side::kLeft, {gait.speed, gait.step_length}, residual);
     return deg_from_rad(stands ? shown.q[kStanceShank] - shown.q[kStanceThigh]
                                : shown.q[kSwingShank] - shown.q[kSwingThigh]);
   };

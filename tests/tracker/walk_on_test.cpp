@@ -110,7 +110,7 @@ TEST(WalkOn, EverybodyFeelsTheSlopeOfTheirOwnHeading) {
   walking.model.downhill = {0.5, 0};
   const MotionContext sloped = walking.context(kDt);
   Crowd down = crowd(sloped), up = down;
-  for (WalkerParticle& p : up.particles) p.extra[kHeading] += kPi;
+  for (WalkerParticle& p : up.particles) p.residual[kHeading] += kPi;
   walk_on(sloped, down.particles, down.rngs, down.outcomes);
   walk_on(sloped, up.particles, up.rngs, up.outcomes);
   int compared = 0, faster = 0;
@@ -144,7 +144,7 @@ TEST(AimedGait, MeetsTheSlopeOfItsHeading) {
   const std::vector<std::pair<double, double>> slopes{
       {0, 0.07983}, {kPi, -0.07983}, {kPi / 2, 0}, {-kPi / 3, 0.03988}};
   for (const auto& [heading, slope] : slopes) {
-    p.extra[kHeading] = heading;
+    p.residual[kHeading] = heading;
     EXPECT_NEAR(aimed_gait(context, p).slope, slope, 1e-4) << heading;
   }
   const Walking level;
@@ -166,8 +166,8 @@ TEST(WalkOn, OnASlopeHardlyAnybodyStumbles) {
     StartConfig start;
     start.particles = kWalkers;
     start.speed = start.step_length = 0.05;
-    const Sighting sighting{.position = {0, 0}, .velocity = {1.25 * std::cos(heading), 0}};
-    Crowd all{spawn(context, start, sighting, {Side::kLeft, 0, 1}, 7), {}, {}};
+    const DetectedWalk detected{.position = {0, 0}, .velocity = {1.25 * std::cos(heading), 0}};
+    Crowd all{spawn(context, start, detected, {Side::kLeft, 0, 1}, 7), {}, {}};
     all.outcomes.resize(kWalkers);
     for (uint32_t i = 0; i < kWalkers; ++i) all.rngs.emplace_back(2, Purpose::kTest, 0, i);
     int stumbled = 0;

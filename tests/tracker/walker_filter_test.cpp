@@ -23,10 +23,10 @@ struct Advance : testing::Test {
 TEST_F(Advance, HipsStayUp) {
   std::vector<WalkerParticle> both = walkers(context.motion, 1.2, 2);
   both[1] = both[0];
-  for (const Extra thigh : {kThigh, kThighRight})
-    both[1].extra[thigh] = both[1].extra_before[thigh] = rad_from_deg(-30);
-  for (const Extra shank : {kShank, kShankRight})
-    both[1].extra[shank] = both[1].extra_before[shank] = rad_from_deg(40);
+  for (const ResidualAngle thigh : {kThigh, kThighRight})
+    both[1].residual[thigh] = both[1].residual_before[thigh] = rad_from_deg(-30);
+  for (const ResidualAngle shank : {kShank, kShankRight})
+    both[1].residual[shank] = both[1].residual_before[shank] = rad_from_deg(40);
   FilterConfig plain;
   plain.resample_below = 0;
   plain.max_layers = 1;

@@ -215,9 +215,9 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
-  auto& [tracked, estimate, filter, support, samples, fallen, diverged, modes, names, evidence,
-         keypoints, fit, moving] = value;
-  archive(tracked, estimate, filter, any_number(support), samples, a_count(fallen),
+  auto& [tracked, estimate, filter, mean_log_likelihood, samples, fallen, diverged, modes, names,
+         evidence, keypoints, fit, moving] = value;
+  archive(tracked, estimate, filter, any_number(mean_log_likelihood), samples, a_count(fallen),
           a_count(diverged), modes, names, any_number(evidence), keypoints, fit, moving);
 }
 

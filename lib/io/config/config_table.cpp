@@ -100,9 +100,9 @@ void add_filter(ParameterTable& table) {
 }
 
 void add_search(ParameterTable& table) {
-  using S = SightingConfig;
+  using S = DetectorConfig;
   ParameterGroup<S> s(table, "search", "finding the walker", &Config::tracker,
-                      &TrackerConfig::sighting);
+                      &TrackerConfig::detector);
   s.number("window", &S::window, 0.1, 10, "film that a walk is read from, s");
   s.number("slowest", &S::slowest, 0, 10, "who is slower is not walking, m/s");
   s.number("fastest", &S::fastest, 0.1, 20, "m/s");

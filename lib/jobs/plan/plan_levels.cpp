@@ -55,7 +55,7 @@ PlanLevel level_of(const std::string& name, const std::vector<std::string>& sett
 
 PlanState state_of(const Scene& scene, const Config& config) {
   const BodyModel model = model_of(scene, config);
-  const ExtraRange extras = free_extras(model);
+  const ResidualRange extras = free_residuals(model);
   const int free = extras.end - extras.first;
   PlanState state;
   state.walker = static_cast<int>(KneedState{}.q.size() + KneedState{}.qd.size());

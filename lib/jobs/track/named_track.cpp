@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tracker/moves/exchange.h"
+#include "tracker/moves/mirror_legs.h"
 #include "tracker/smooth/leg_labels.h"
 
 namespace walktrack {
@@ -24,7 +24,7 @@ TrackedFrames named(const TrackedFrames& frames, const Body& body,
   auto probability = swapped.begin();
   for (FrameRecord record : frames.records) {
     const double p = *probability++;
-    if (p > 0.5) exchange_legs(body, record);
+    if (p > 0.5) mirror_legs(body, record);
     if (record.tracked) record.modes.exchanged = std::min(p, 1 - p);
     out.records.append(record);
   }

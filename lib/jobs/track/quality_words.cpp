@@ -51,7 +51,8 @@ constexpr QualityWords kWords[] = {
      "on something else than the subject's legs."},
     {"longest_step_leg_lengths", "Longest step, in leg lengths", "", 2,
      "People's steps are at most about as long as their legs.",
-     "A foot was lost or the figure leapt: look at the longest step in the overlay video. Is the "
+     "A foot was lost or the figure label_switched: look at the longest step in the overlay video. "
+     "Is the "
      "subject's height right?"},
     {"shortest_step_m", "Shortest step", "m", 2,
      "Less than nothing is a step that ends behind the other foot.",
@@ -59,7 +60,8 @@ constexpr QualityWords kWords[] = {
      "that step in the overlay video."},
     {"fastest_m_s", "Fastest half second", "m/s", 2,
      "Speed of the pelvis over the ground; nobody walks faster than 2.5 m/s.",
-     "The figure leapt to another place: look at the speed over time. Is the frame rate right?"},
+     "The figure label_switched to another place: look at the speed over time. Is the frame rate "
+     "right?"},
     {"scale_sd_percent", "Distance and size, standard deviation", "%", 1,
      "By how much the whole figure may be too near and too small, or too far and too large, with "
      "its steps and speed: what the cameras leave open. No check sees an error of this kind.",

@@ -128,7 +128,7 @@ std::vector<std::string> TrackRun::notes() const {
 
 std::string TrackRun::why_nobody(const JobControl& control) {
   return walktrack::why_nobody(
-      {job_.scene, job_.config.values.tracker.sighting, prior_, everywhere_, threads_}, setup_,
+      {job_.scene, job_.config.values.tracker.detector, prior_, everywhere_, threads_}, setup_,
       static_cast<double>(frames_read_) / frames_.frame_rate, control);
 }
 

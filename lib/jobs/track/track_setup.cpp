@@ -24,7 +24,7 @@ constexpr double kNearShare = 0.7;
 constexpr double kFallbackDistance = 10;  // m, where no place on the ground is in view
 
 // How high the subject is expected to stand in the image.
-double expected_height_px(const Scene& scene, const Camera& camera, const SightingConfig& config) {
+double expected_height_px(const Scene& scene, const Camera& camera, const DetectorConfig& config) {
   const double height = scene.subject.height;
   if (scene.initial) {
     const double there = height_px(camera, scene.initial->position, height);
@@ -81,7 +81,7 @@ void set_beginning(const Scene& scene, double frame_rate, TrackerScene& out) {
   constexpr double kUsualSpeed = 1.25;  // m/s, where the scene does not say
   const InitialState& given = *scene.initial;
   const double speed = given.speed.value_or(kUsualSpeed);
-  out.initial = Sighting{
+  out.initial = DetectedWalk{
       .position = given.position,
       .velocity = speed * Eigen::Vector2d(std::cos(given.heading), std::sin(given.heading)),
       .given = true};
@@ -106,7 +106,7 @@ double height_px(const Camera& camera, const Eigen::Vector2d& place, double heig
 }
 
 WorkingScale working_scale(const Scene& scene, const Camera& camera, const Config& config) {
-  const double person_px = expected_height_px(scene, camera, config.tracker.sighting);
+  const double person_px = expected_height_px(scene, camera, config.tracker.detector);
   return {person_px, shrink_factor(person_px, config.observation.person_px)};
 }
 
@@ -140,7 +140,7 @@ double search_window_bytes(const Scene& scene, const Config& config, double fram
     pixels += each.camera.width_px / shrink * (each.camera.height_px / shrink);
   }
   const double flow_bytes = config.observation.flow.enabled ? sizeof(FlowPixel) : 0;
-  return std::ceil(config.tracker.sighting.window * frame_rate) * pixels *
+  return std::ceil(config.tracker.detector.window * frame_rate) * pixels *
          (sizeof(int32_t) + flow_bytes);
 }
 
@@ -158,7 +158,7 @@ void require_room_for_search(const Scene& scene, const Config& config, double fr
 
 Region search_region(const Camera& camera, double subject_height) {
   std::vector<double> scales;
-  for (const auto& place : standing_places({&camera, 1}, subject_height, SightingConfig{}))
+  for (const auto& place : standing_places({&camera, 1}, subject_height, DetectorConfig{}))
     scales.push_back(subject_height / height_px(camera, place, subject_height));
   if (scales.empty()) return whole_image(camera, kFallbackDistance / camera.focal_px.y());
   std::nth_element(scales.begin(), scales.begin() + static_cast<long>(scales.size() / 2),

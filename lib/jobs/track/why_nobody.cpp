@@ -100,11 +100,11 @@ class Looker {
 
   const SearchedVideo& searched_;
   TrackSetup& setup_;
-  FigureBook figures_;
+  PoseTemplates figures_;
   std::vector<Vector2d> near_, far_;  // places where figures are large enough, and smaller
 };
 
-std::string in_words(const Account& seen, const Looker& looker, const SightingConfig& config) {
+std::string in_words(const Account& seen, const Looker& looker, const DetectorConfig& config) {
   if (seen.best.score < config.least_score && seen.best_small.score >= config.least_score) {
     return fmt::format(": who is there is about {:.0f} px high, at least {:.0f} px are needed",
                        looker.px(seen.best_small.place), std::ceil(looker.least_px()));

@@ -9,13 +9,13 @@
 #include "gait/gait_prior.h"
 #include "io/scene/scene.h"
 #include "jobs/track/track_setup.h"
-#include "tracker/detect/sighting.h"
+#include "tracker/detect/detector.h"
 
 namespace walktrack {
 
 struct SearchedVideo {
   const Scene& scene;
-  const SightingConfig& config;
+  const DetectorConfig& config;
   const GaitPrior& prior;
   std::span<const Region> everywhere;  // by camera
   int threads;

@@ -31,14 +31,14 @@ Pose standing_pose(const BodyModel& model) {
   WalkerParticle particle;
   particle.aim = {1, 1};
   stand(particle);
-  Pose pose =
-      pose_of(model, particle.walker, Side::kLeft, particle.aim, Vector2d::Zero(), particle.extra);
+  Pose pose = pose_of(model, particle.walker, Side::kLeft, particle.aim, Vector2d::Zero(),
+                      particle.residual);
   pose.root.head<2>().setZero();
   return pose;
 }
 
-std::optional<StandingStart> standing_before(const Sighting& walk, const StandingScore& score,
-                                             double dt, const SightingConfig& config) {
+std::optional<StandingStart> standing_before(const DetectedWalk& walk, const StandingScore& score,
+                                             double dt, const DetectorConfig& config) {
   constexpr double kLook = 0.15, kGap = 0.15;                       // s
   constexpr double kNearest = -0.4, kFarthest = 0.4, kStep = 0.05;  // m ahead of the line's begin
   constexpr double kAsGood = 0.6;  // of the score just before the walk
@@ -48,20 +48,20 @@ std::optional<StandingStart> standing_before(const Sighting& walk, const Standin
   const Vector2d ahead = walk.velocity.normalized();
   const double heading = std::atan2(ahead.y(), ahead.x());
   StandingStart out{walk};
-  out.sighting.standing = true;
+  out.detected.standing = true;
   double best = config.least_score;
   for (double at = kNearest; at <= kFarthest; at += kStep) {
     const Vector2d place = walk.position + at * ahead;
     const double mean = score_just_before(score, frames_of(kLook), place, heading);
     if (mean <= best) continue;
     best = mean;
-    out.sighting.position = place;
+    out.detected.position = place;
   }
   if (!(best > config.least_score)) return std::nullopt;
   const double least = std::max(config.least_score, kAsGood * best);
   double pending = 0;  // of the newest frames that explain too little
   for (size_t back = 1; back - out.frames <= frames_of(kGap); ++back) {
-    const auto nats = score(back, out.sighting.position, heading);
+    const auto nats = score(back, out.detected.position, heading);
     if (!nats) break;
     pending += *nats;
     if (*nats < least) continue;

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "tracker/detect/sighting.h"
+#include "tracker/detect/detector.h"
 #include "tracker/motion/particle.h"
 
 namespace walktrack {
@@ -17,14 +17,14 @@ using StandingScore =
     std::function<std::optional<double>(size_t back, const Eigen::Vector2d& place, double heading)>;
 
 struct StandingStart {
-  Sighting sighting;  // where they stand, facing the way that they will go
-  size_t frames = 0;  // before the walk begins
-  double score = 0;   // nats, of all these frames
+  DetectedWalk detected;  // where they stand, facing the way that they will go
+  size_t frames = 0;      // before the walk begins
+  double score = 0;       // nats, of all these frames
 };
 
 // Where somebody stood before the walk, and for how many frames without a gap; nullopt when nobody
 // did. `dt` s lie between frames.
-std::optional<StandingStart> standing_before(const Sighting& walk, const StandingScore& score,
-                                             double dt, const SightingConfig& config);
+std::optional<StandingStart> standing_before(const DetectedWalk& walk, const StandingScore& score,
+                                             double dt, const DetectorConfig& config);
 
 }  // namespace walktrack

@@ -29,11 +29,12 @@ struct Fit {
 
 }  // namespace
 
-SizedWalk size_up(const Sighting& walk, double height, size_t frames, const FigureScore& score,
-                  double dt, const Eigen::Vector2d& eye) {
+SizedWalk size_up(const DetectedWalk& walk, double height, size_t frames, const FigureScore& score,
+                  double dt, const Eigen::Vector2d& camera_position) {
   const double looks = independent_looks(frames, dt) / (kStrangeFigure * kStrangeFigure);
-  const auto fitted = [&](double tried, const Sighting& from) {
-    Fit fit{{{tried, 0}, nearest_walk(from, frames, score(tried), dt, eye)}, log_prior(tried)};
+  const auto fitted = [&](double tried, const DetectedWalk& from) {
+    Fit fit{{{tried, 0}, nearest_walk(from, frames, score(tried), dt, camera_position)},
+            log_prior(tried)};
     fit.log_posterior += looks * fit.sized.walk.score;
     return fit;
   };

@@ -2,13 +2,13 @@
 //
 // Cameras over known ground see it: the feet show where somebody stands, the top of the head how
 // high that is. Figures taller and smaller, in steps, look for their own line near the one that was
-// found (tracker/detect/sighting.h). The peak of their log-posterior is the height, its curvature
+// found (tracker/detect/detector.h). The peak of their log-posterior is the height, its curvature
 // the spread.
 #pragma once
 
 #include <functional>
 
-#include "tracker/detect/sighting.h"
+#include "tracker/detect/detector.h"
 #include "tracker/motion/particle.h"
 
 namespace walktrack {
@@ -22,12 +22,13 @@ using FigureScore = std::function<WindowScore(double height)>;
 
 struct SizedWalk {
   Stature stature;
-  Sighting walk;  // its line for that height
+  DetectedWalk walk;  // its line for that height
 };
 
-// `walk`: of a window's frames, dt apart, as figures of `height` see it. `eye` as in find_walk.
-SizedWalk size_up(const Sighting& walk, double height, size_t frames, const FigureScore& score,
-                  double dt, const Eigen::Vector2d& eye);
+// `walk`: of a window's frames, dt apart, as figures of `height` see it. `camera_position` as in
+// detect_walk.
+SizedWalk size_up(const DetectedWalk& walk, double height, size_t frames, const FigureScore& score,
+                  double dt, const Eigen::Vector2d& camera_position);
 
 // The same person, all in proportion; lengths that a scene states stay, and so does the mass.
 BodyModel with_height(const BodyModel& model, double height);

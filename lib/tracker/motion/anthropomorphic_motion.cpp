@@ -58,15 +58,15 @@ void set(const StraightControls& straight, KneedControls& controls) {
 
 // The walker with a trunk, and with knees bent about the lines of its legs: thigh and shank are
 // about as long.
-KneedState shown_state(const KneedState& walker, Side stance, const Extras& extra) {
+KneedState shown_state(const KneedState& walker, Side stance, const ResidualAngles& residual) {
   constexpr double kDeepestBend = 150 * kPi / 180;  // rad
   KneedState shown = walker;
-  shown.q[kTorso] = extra[kTilt];
+  shown.q[kTorso] = residual[kTilt];
   const auto bend = [&](Side side, int thigh, int shank) {
     const auto i = static_cast<size_t>(side);
-    const double flexion = std::clamp(extra[kKneeFlexion + i], 0.0, kDeepestBend);
-    shown.q[thigh] += extra[kThigh + i] - 0.5 * flexion;
-    shown.q[shank] += extra[kThigh + i] + 0.5 * flexion;
+    const double flexion = std::clamp(residual[kKneeFlexion + i], 0.0, kDeepestBend);
+    shown.q[thigh] += residual[kThigh + i] - 0.5 * flexion;
+    shown.q[shank] += residual[kThigh + i] + 0.5 * flexion;
   };
   bend(stance, kStanceThigh, kStanceShank);
   bend(other(stance), kSwingThigh, kSwingShank);
@@ -80,8 +80,9 @@ AnthropomorphicMotion::AnthropomorphicMotion(const BodyModel& model)
       level_(straight_model(parameters_)),
       prior_(load_straight_prior()) {}
 
-MarkovConstants AnthropomorphicMotion::constants(const MotionConfig& config, Extra extra) const {
-  switch (extra) {
+MarkovConstants AnthropomorphicMotion::constants(const MotionConfig& config,
+                                                 ResidualAngle residual) const {
+  switch (residual) {
     case kCrouch:
       return {0, 1, 0, 0, 0};  // knees are free
     case kThigh:
@@ -92,19 +93,19 @@ MarkovConstants AnthropomorphicMotion::constants(const MotionConfig& config, Ext
     case kAnkleRight:
     case kKneeFlexion:
     case kKneeFlexion + 1:
-      return free_constants(extra);
+      return free_constants(residual);
     default:
-      return markov_constants(extra);
+      return markov_constants(residual);
   }
 }
 
-void AnthropomorphicMotion::enter(const MotionContext& context, std::span<const double> phases,
-                                  std::span<WalkerParticle> particles) const {
+void AnthropomorphicMotion::initialise(const MotionContext& context, std::span<const double> phases,
+                                       std::span<WalkerParticle> particles) const {
   for (size_t i = 0; i < particles.size(); ++i) {
     WalkerParticle& p = particles[i];
     enter_figure(context, phases[i], p);
-    for (Extras* extra : {&p.extra, &p.extra_before})
-      (*extra)[kCrouch] = (*extra)[kThigh] = (*extra)[kThighRight] = 0;
+    for (ResidualAngles* residual : {&p.residual, &p.residual_before})
+      (*residual)[kCrouch] = (*residual)[kThigh] = (*residual)[kThighRight] = 0;
     const StraightGait gait = aimed_gait(context.model, p);
     p.aim = {gait.speed, gait.step_length};
     set(gait.controls, p.controls);
@@ -114,17 +115,18 @@ void AnthropomorphicMotion::enter(const MotionContext& context, std::span<const 
   }
 }
 
-void AnthropomorphicMotion::walk(const MotionContext& context, std::span<WalkerParticle> particles,
-                                 std::span<Rng> rngs, std::span<Outcome> outcomes) const {
+void AnthropomorphicMotion::predict(const MotionContext& context,
+                                    std::span<WalkerParticle> particles, std::span<Rng> rngs,
+                                    std::span<Outcome> outcomes) const {
   for (size_t i = 0; i < particles.size(); ++i) outcomes[i] = walk(context, particles[i], rngs[i]);
 }
 
 Outcome AnthropomorphicMotion::walk(const MotionContext& context, WalkerParticle& particle,
                                     Rng& rng) const {
   const StraightModel model =
-      model_on(context.model, gravity_along(context.model, particle.extra[kHeading]));
+      model_on(context.model, gravity_along(context.model, particle.residual[kHeading]));
   const double stray = context.config.clock * std::sqrt(context.dt) * rng.truncated_normal(3);
-  double left = std::max(0.0, context.dt * std::exp(particle.extra_before[kPace]) + stray);
+  double left = std::max(0.0, context.dt * std::exp(particle.residual_before[kPace]) + stray);
   while (left > 0) {
     StraightState state = straight(particle.walker);
     const StraightAdvance done =
@@ -150,10 +152,10 @@ Outcome AnthropomorphicMotion::walk(const MotionContext& context, WalkerParticle
 
 void AnthropomorphicMotion::change_support(const MotionContext& context, WalkerParticle& particle,
                                            Rng& rng) const {
-  change_feet(context.model, shown_state(particle.walker, other(particle.stance), particle.extra),
-              particle);
+  change_feet(context.model,
+              shown_state(particle.walker, other(particle.stance), particle.residual), particle);
   const MotionConfig& config = context.config;
-  vary_aim(config, particle.aim, rng);
+  perturb_step_target(config, particle.aim, rng);
   const StraightGait gait = aimed_gait(context.model, particle);
   particle.aim = {gait.speed, gait.step_length};  // within the table
   set(draw_controls(rng, next_controls(gait, straight(particle.walker), config.feedback),
@@ -173,7 +175,7 @@ StraightGait AnthropomorphicMotion::aimed_gait(const BodyModel& model,
                                                const WalkerParticle& particle) const {
   StraightLeggedParameters parameters = parameters_;
   if (!model.downhill.isZero())
-    parameters.slope = in_plane(model, particle.extra[kHeading]).parameters.slope;
+    parameters.slope = in_plane(model, particle.residual[kHeading]).parameters.slope;
   return gait_at(prior_, parameters, particle.aim.speed, particle.aim.step_length);
 }
 
@@ -189,7 +191,8 @@ StraightModel AnthropomorphicMotion::model_on(const BodyModel& model, double gra
   return out;
 }
 
-bool AnthropomorphicMotion::expect(const MotionContext& context, WalkerParticle& particle) const {
+bool AnthropomorphicMotion::linearise_noise(const MotionContext& context,
+                                            WalkerParticle& particle) const {
   const StraightState state = straight(particle.walker);
   const auto rates = [&](double stance, double swing) {
     return straight_accelerations(level_, 0, Vector2(stance, swing), state);
@@ -202,13 +205,14 @@ bool AnthropomorphicMotion::expect(const MotionContext& context, WalkerParticle&
   return particle.velocity_per_impulse.allFinite();
 }
 
-void AnthropomorphicMotion::realise(const MotionContext& context, WalkerParticle& particle) const {
-  const Extras now = particle.extra, before = particle.extra_before;
+void AnthropomorphicMotion::apply_noise(const MotionContext& context,
+                                        WalkerParticle& particle) const {
+  const ResidualAngles now = particle.residual, before = particle.residual_before;
   realise_walker(context.model, context.scale, particle);
   if (particle.arriving) keep_rates(now, before, particle);
-  particle.pose =
-      pose_showing(context.model, shown_state(particle.walker, particle.stance, particle.extra),
-                   particle.walker.q[kStanceShank], particle.stance, particle.ball, particle.extra);
+  particle.pose = pose_showing(
+      context.model, shown_state(particle.walker, particle.stance, particle.residual),
+      particle.walker.q[kStanceShank], particle.stance, particle.ball, particle.residual);
 }
 
 std::span<const NoiseGroup> AnthropomorphicMotion::noise_groups(Path path) const {

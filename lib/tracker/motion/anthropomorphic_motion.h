@@ -15,13 +15,13 @@ namespace walktrack {
 class AnthropomorphicMotion : public MotionModel {
  public:
   explicit AnthropomorphicMotion(const BodyModel& model);
-  MarkovConstants constants(const MotionConfig& config, Extra extra) const override;
-  void enter(const MotionContext& context, std::span<const double> phases,
-             std::span<WalkerParticle> particles) const override;
-  void walk(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,
-            std::span<Outcome> outcomes) const override;
-  bool expect(const MotionContext& context, WalkerParticle& particle) const override;
-  void realise(const MotionContext& context, WalkerParticle& particle) const override;
+  MarkovConstants constants(const MotionConfig& config, ResidualAngle residual) const override;
+  void initialise(const MotionContext& context, std::span<const double> phases,
+                  std::span<WalkerParticle> particles) const override;
+  void predict(const MotionContext& context, std::span<WalkerParticle> particles,
+               std::span<Rng> rngs, std::span<Outcome> outcomes) const override;
+  bool linearise_noise(const MotionContext& context, WalkerParticle& particle) const override;
+  void apply_noise(const MotionContext& context, WalkerParticle& particle) const override;
   std::span<const NoiseGroup> noise_groups(Path path) const override;
 
  private:

@@ -9,7 +9,7 @@
 #include "tracker/motion/standing.h"
 #include "tracker/motion/support.h"
 #include "tracker/motion/walk_on.h"
-#include "tracker/moves/rephase.h"
+#include "tracker/moves/phase_jump.h"
 #include "walker/kneed_batch.h"
 
 namespace walktrack {
@@ -68,9 +68,9 @@ constexpr std::array<NoiseGroup, 6> kGroupsInPlane{kTrunkInPlane,    kLeftLegInP
 
 }  // namespace
 
-MarkovConstants markov_constants(Extra extra) {
+MarkovConstants markov_constants(ResidualAngle residual) {
   const auto deg = [](double angle) { return rad_from_deg(angle); };
-  switch (extra) {
+  switch (residual) {
     case kHeading:
       return {0, 0.5, 0.3, -1e9, 1e9};
     case kList:
@@ -104,7 +104,7 @@ MarkovConstants markov_constants(Extra extra) {
       return {deg(6), 0.2, deg(6), deg(-10), deg(60)};
     case kElbow:
     case kElbowRight:
-    case kExtraCount:
+    case kResidualCount:
       break;
   }
   return {deg(22), 0.2, deg(15), 0, deg(130)};
@@ -116,43 +116,43 @@ KneedState state_in_gait(const BodyModel& model, const PriorGait& gait, double p
 }
 
 Pose pose_in_gait(const BodyModel& model, const PriorGait& gait, Side stance, double phase) {
-  Extras extra{};
-  for (int k = 0; k < kExtraCount; ++k)
-    extra[static_cast<size_t>(k)] = markov_constants(static_cast<Extra>(k)).rest;
+  ResidualAngles residual{};
+  for (int k = 0; k < kResidualCount; ++k)
+    residual[static_cast<size_t>(k)] = markov_constants(static_cast<ResidualAngle>(k)).rest;
   Pose pose = pose_of(model, state_in_gait(model, gait, phase), stance,
-                      {gait.speed, gait.step_length}, Eigen::Vector2d::Zero(), extra);
+                      {gait.speed, gait.step_length}, Eigen::Vector2d::Zero(), residual);
   pose.root.head<2>().setZero();
   return pose;
 }
 
-MarkovConstants KneedMotion::constants(const MotionConfig& config, Extra extra) const {
-  MarkovConstants c = markov_constants(extra);
-  if (extra >= kTilt && extra <= kShankRight) c.spread *= config.misfit;
+MarkovConstants KneedMotion::constants(const MotionConfig& config, ResidualAngle residual) const {
+  MarkovConstants c = markov_constants(residual);
+  if (residual >= kTilt && residual <= kShankRight) c.spread *= config.misfit;
   return c;
 }
 
-void KneedMotion::enter(const MotionContext& context, std::span<const double> phases,
-                        std::span<WalkerParticle> particles) const {
+void KneedMotion::initialise(const MotionContext& context, std::span<const double> phases,
+                             std::span<WalkerParticle> particles) const {
   std::vector<double> times;
   for (size_t i = 0; i < particles.size(); ++i)
     times.push_back(enter_gait(context, phases[i], particles[i]));
   walk_to(context.model.walker, times, particles);
 }
 
-void KneedMotion::reconsider(const MotionContext& context, WalkerParticle& particle,
+void KneedMotion::jump_phase(const MotionContext& context, WalkerParticle& particle,
                              Rng& rng) const {
   if (context.standing != nullptr && change_regime(context, steps_, particle, rng)) return;
   if (particle.regime == Regime::kStanding) return;
   if (rng.uniform() < context.config.rephasing * context.dt)
-    rephase(context, steps_, particle, rng);
+    try_phase_jump(context, steps_, particle, rng);
 }
 
-void KneedMotion::walk(const MotionContext& context, std::span<WalkerParticle> particles,
-                       std::span<Rng> rngs, std::span<Outcome> outcomes) const {
+void KneedMotion::predict(const MotionContext& context, std::span<WalkerParticle> particles,
+                          std::span<Rng> rngs, std::span<Outcome> outcomes) const {
   walk_on(context, particles, rngs, outcomes);
 }
 
-bool KneedMotion::expect(const MotionContext& context, WalkerParticle& particle) const {
+bool KneedMotion::linearise_noise(const MotionContext& context, WalkerParticle& particle) const {
   if (particle.regime == Regime::kStanding) {
     particle.velocity_per_impulse.setZero();
     particle.ball_sigma = foot_sigma(context, particle);
@@ -164,10 +164,10 @@ bool KneedMotion::expect(const MotionContext& context, WalkerParticle& particle)
   return particle.velocity_per_impulse.allFinite();
 }
 
-void KneedMotion::realise(const MotionContext& context, WalkerParticle& particle) const {
+void KneedMotion::apply_noise(const MotionContext& context, WalkerParticle& particle) const {
   // Where somebody is first seen is as uncertain of those who stand as of those who walk.
   const bool stands = particle.regime == Regime::kStanding && !particle.arriving;
-  walktrack::realise(context.model, stands ? context.standing->scale : context.scale, particle);
+  walktrack::apply_noise(context.model, stands ? context.standing->scale : context.scale, particle);
 }
 
 std::span<const NoiseGroup> KneedMotion::noise_groups(Path path) const {

@@ -1,16 +1,16 @@
 // The motion model `kneed`: the kneed walker under its springs (tracker/motion/walk_on.h) drives
 // trunk and legs, people's angles stray from its own, and who has missed a strike reads the pose
-// anew (tracker/moves/rephase.h).
+// anew (tracker/moves/phase_jump.h).
 #pragma once
 
 #include "gait/gait_prior.h"
 #include "tracker/motion/motion_model.h"
-#include "tracker/motion/step_book.h"
+#include "tracker/motion/step_library.h"
 
 namespace walktrack {
 
 // Without the configuration's share in it, MotionConfig::misfit.
-MarkovConstants markov_constants(Extra extra);
+MarkovConstants markov_constants(ResidualAngle residual);
 
 // The walker at a share of a step of a gait of the prior, on the gait's slope.
 KneedState state_in_gait(const BodyModel& model, const PriorGait& gait, double phase);
@@ -22,18 +22,18 @@ Pose pose_in_gait(const BodyModel& model, const PriorGait& gait, Side stance, do
 class KneedMotion : public MotionModel {
  public:
   KneedMotion(const BodyModel& model, const GaitPrior& prior) : steps_(model, prior) {}
-  MarkovConstants constants(const MotionConfig& config, Extra extra) const override;
-  void enter(const MotionContext& context, std::span<const double> phases,
-             std::span<WalkerParticle> particles) const override;
-  void reconsider(const MotionContext& context, WalkerParticle& particle, Rng& rng) const override;
-  void walk(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,
-            std::span<Outcome> outcomes) const override;
-  bool expect(const MotionContext& context, WalkerParticle& particle) const override;
-  void realise(const MotionContext& context, WalkerParticle& particle) const override;
+  MarkovConstants constants(const MotionConfig& config, ResidualAngle residual) const override;
+  void initialise(const MotionContext& context, std::span<const double> phases,
+                  std::span<WalkerParticle> particles) const override;
+  void jump_phase(const MotionContext& context, WalkerParticle& particle, Rng& rng) const override;
+  void predict(const MotionContext& context, std::span<WalkerParticle> particles,
+               std::span<Rng> rngs, std::span<Outcome> outcomes) const override;
+  bool linearise_noise(const MotionContext& context, WalkerParticle& particle) const override;
+  void apply_noise(const MotionContext& context, WalkerParticle& particle) const override;
   std::span<const NoiseGroup> noise_groups(Path path) const override;
 
  private:
-  StepBook steps_;  // what rephasing reads poses as
+  StepLibrary steps_;  // what rephasing reads poses as
 };
 
 }  // namespace walktrack

@@ -22,27 +22,28 @@ constexpr std::array<NoiseGroup, 5> kGroups{kTrunkNoise, kLeftLegNoise, kRightLe
 constexpr std::array<NoiseGroup, 5> kGroupsInPlane{kTrunkInPlane, kLeftLegInPlane, kRightLegInPlane,
                                                    kLeftArmInPlane, kRightArmInPlane};
 
-Pose pose_at(const Body& body, const Extras& extra, const Eigen::Vector2d& root) {
+Pose pose_at(const Body& body, const ResidualAngles& residual, const Eigen::Vector2d& root) {
   Pose pose;
-  pose.root << root, extra[kRootHeight];
-  pose.heading = extra[kHeading];
-  pose.list = extra[kList];
-  pose.tilt = extra[kTilt];
+  pose.root << root, residual[kRootHeight];
+  pose.heading = residual[kHeading];
+  pose.list = residual[kList];
+  pose.tilt = residual[kTilt];
   for (size_t i = 0; i < 2; ++i) {
-    pose.legs[i] = {extra[kHipFlexion + i], extra[kAbduction + i], extra[kRotation + i],
-                    std::max(0.0, extra[kKneeFlexion + i]), extra[kAnkle + i]};
+    pose.legs[i] = {residual[kHipFlexion + i], residual[kAbduction + i], residual[kRotation + i],
+                    std::max(0.0, residual[kKneeFlexion + i]), residual[kAnkle + i]};
     if (body.groups.arms)
-      pose.arms[i] = {extra[kShoulder + i], extra[kShoulderAbduction + i], extra[kElbow + i]};
+      pose.arms[i] = {residual[kShoulder + i], residual[kShoulderAbduction + i],
+                      residual[kElbow + i]};
   }
   return pose;
 }
 
-void set_angles(const Pose& pose, Extras& extra) {
-  extra[kRootHeight] = pose.root.z();
-  extra[kTilt] = pose.tilt;
+void set_angles(const Pose& pose, ResidualAngles& residual) {
+  residual[kRootHeight] = pose.root.z();
+  residual[kTilt] = pose.tilt;
   for (size_t i = 0; i < 2; ++i) {
-    extra[kHipFlexion + i] = pose.legs[i].hip_flexion;
-    extra[kKneeFlexion + i] = pose.legs[i].knee_flexion;
+    residual[kHipFlexion + i] = pose.legs[i].hip_flexion;
+    residual[kKneeFlexion + i] = pose.legs[i].knee_flexion;
   }
 }
 
@@ -55,9 +56,9 @@ double foot_advance(const Body& body, const WalkerParticle& particle, Side side)
 
 }  // namespace
 
-MarkovConstants free_constants(Extra extra) {
+MarkovConstants free_constants(ResidualAngle residual) {
   const auto deg = [](double angle) { return rad_from_deg(angle); };
-  switch (extra) {
+  switch (residual) {
     case kList:
       return {0, 0.3, deg(2.6), deg(-15), deg(15), 0.55};
     case kAbduction:
@@ -82,7 +83,7 @@ MarkovConstants free_constants(Extra extra) {
     case kKneeFlexion + 1:
       return {deg(30), 0.95, deg(21), 0, deg(150), 0.61};
     default:
-      return markov_constants(extra);
+      return markov_constants(residual);
   }
 }
 
@@ -91,42 +92,42 @@ void enter_figure(const MotionContext& context, double phase, WalkerParticle& pa
   // A frame ago is a frame ahead, mirrored in time, where the step has only begun.
   const double frame = context.dt / gait.period;
   const double sign = phase < frame ? -1 : 1;
-  set_angles(pose_in_gait(context.model, gait, particle.stance, phase), particle.extra);
+  set_angles(pose_in_gait(context.model, gait, particle.stance, phase), particle.residual);
   set_angles(pose_in_gait(context.model, gait, particle.stance, phase - sign * frame),
-             particle.extra_before);
-  for (size_t k = 0; sign < 0 && k < particle.extra.size(); ++k)
-    particle.extra_before[k] = 2 * particle.extra[k] - particle.extra_before[k];
+             particle.residual_before);
+  for (size_t k = 0; sign < 0 && k < particle.residual.size(); ++k)
+    particle.residual_before[k] = 2 * particle.residual[k] - particle.residual_before[k];
 }
 
-void keep_rates(const Extras& now, const Extras& before, WalkerParticle& particle) {
+void keep_rates(const ResidualAngles& now, const ResidualAngles& before, WalkerParticle& particle) {
   for (size_t k = 0; k < now.size(); ++k)
-    particle.extra_before[k] = particle.extra[k] - (now[k] - before[k]);
+    particle.residual_before[k] = particle.residual[k] - (now[k] - before[k]);
 }
 
-MarkovConstants MarkovMotion::constants(const MotionConfig& config, Extra extra) const {
-  MarkovConstants c = free_constants(extra);
+MarkovConstants MarkovMotion::constants(const MotionConfig& config, ResidualAngle residual) const {
+  MarkovConstants c = free_constants(residual);
   c.spread *= config.unrest;
-  if (extra != kRootHeight) return c;
+  if (residual != kRootHeight) return c;
   return {leg_ * c.rest, c.time, leg_ * c.spread, leg_ * c.lowest, leg_ * c.highest, c.period};
 }
 
 // The root's height takes the place of an angle: it is in metres. It begins further off than it
 // wanders later, for the first figure is the gait's and not yet the subject's.
-double MarkovMotion::start_spread(const MotionConfig& config, Extra extra) const {
+double MarkovMotion::start_spread(const MotionConfig& config, ResidualAngle residual) const {
   constexpr double kHeight = 0.058;  // of the leg's length
-  return extra == kRootHeight ? kHeight * leg_ : MotionModel::start_spread(config, extra);
+  return residual == kRootHeight ? kHeight * leg_ : MotionModel::start_spread(config, residual);
 }
 
-void MarkovMotion::enter(const MotionContext& context, std::span<const double> phases,
-                         std::span<WalkerParticle> particles) const {
+void MarkovMotion::initialise(const MotionContext& context, std::span<const double> phases,
+                              std::span<WalkerParticle> particles) const {
   for (size_t i = 0; i < particles.size(); ++i) {
     enter_figure(context, phases[i], particles[i]);
     particles[i].velocity_per_impulse.setZero();
   }
 }
 
-void MarkovMotion::walk(const MotionContext& context, std::span<WalkerParticle> particles,
-                        std::span<Rng>, std::span<Outcome> outcomes) const {
+void MarkovMotion::predict(const MotionContext& context, std::span<WalkerParticle> particles,
+                           std::span<Rng>, std::span<Outcome> outcomes) const {
   std::fill(outcomes.begin(), outcomes.end(), Outcome::kAlive);
   for (WalkerParticle& p : particles) {
     const Eigen::Vector3d moved = p.pose.root - p.pose_before.root;
@@ -140,25 +141,25 @@ void MarkovMotion::walk(const MotionContext& context, std::span<WalkerParticle> 
   }
 }
 
-bool MarkovMotion::expect(const MotionContext& context, WalkerParticle& particle) const {
+bool MarkovMotion::linearise_noise(const MotionContext& context, WalkerParticle& particle) const {
   const double change = context.config.unrest * context.dt * std::sqrt(context.dt);
   particle.ball_sigma = change * Eigen::Vector2d(kAlong, kAcross);
   if (particle.arriving) particle.ball_sigma.setConstant(context.config.arrival);
   return true;
 }
 
-void MarkovMotion::realise(const MotionContext& context, WalkerParticle& particle) const {
-  const Extras now = particle.extra, before = particle.extra_before;
+void MarkovMotion::apply_noise(const MotionContext& context, WalkerParticle& particle) const {
+  const ResidualAngles now = particle.residual, before = particle.residual_before;
   realise_walker(context.model, context.scale, particle);
   const Body& body = context.model.body;
-  particle.pose = pose_at(body, particle.extra, particle.ball);
+  particle.pose = pose_at(body, particle.residual, particle.ball);
   if (!particle.arriving) return;
   // Whoever is first seen is on the way already.
   keep_rates(now, before, particle);
-  const double heading = particle.extra[kHeading];
+  const double heading = particle.residual[kHeading];
   const Eigen::Vector2d way =
       particle.aim.speed * context.dt * Eigen::Vector2d(std::cos(heading), std::sin(heading));
-  particle.pose_before = pose_at(body, particle.extra_before, particle.ball - way);
+  particle.pose_before = pose_at(body, particle.residual_before, particle.ball - way);
 }
 
 std::span<const NoiseGroup> MarkovMotion::noise_groups(Path path) const {

@@ -15,34 +15,34 @@
 
 namespace walktrack {
 
-// Coordinates without a walker, in the places of the extras that belong to one. A pair's right side
-// follows the left.
-inline constexpr Extra kRootHeight = kCrouch, kHipFlexion = kThigh, kKneeFlexion = kShank;
+// Coordinates without a walker, in the places of the residual angles that belong to one. A pair's
+// right side follows the left.
+inline constexpr ResidualAngle kRootHeight = kCrouch, kHipFlexion = kThigh, kKneeFlexion = kShank;
 
 // The processes of the trunk's tilt and the joint angles; those of the root's height in leg
 // lengths. kPace has none.
-MarkovConstants free_constants(Extra extra);
+MarkovConstants free_constants(ResidualAngle residual);
 
 // Angles of a particle, and a frame ago, become those of a person in the kneed walker's gait of the
 // particle's aim at a share of its step: it is how a search's hypothesis looks. Sets tilt, hip
 // flexions, knee flexions and the root's height.
 void enter_figure(const MotionContext& context, double phase, WalkerParticle& particle);
 
-// A particle that is first seen is on its way: its extras go on from `before` to `now` as fast from
-// wherever noise has put them.
-void keep_rates(const Extras& now, const Extras& before, WalkerParticle& particle);
+// A particle that is first seen is on its way: its residual angles go on from `before` to `now` as
+// fast from wherever noise has put them.
+void keep_rates(const ResidualAngles& now, const ResidualAngles& before, WalkerParticle& particle);
 
 class MarkovMotion : public MotionModel {
  public:
   explicit MarkovMotion(const BodyModel& model) : leg_(leg_length(model.body.lengths)) {}
-  MarkovConstants constants(const MotionConfig& config, Extra extra) const override;
-  double start_spread(const MotionConfig& config, Extra extra) const override;
-  void enter(const MotionContext& context, std::span<const double> phases,
-             std::span<WalkerParticle> particles) const override;
-  void walk(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,
-            std::span<Outcome> outcomes) const override;
-  bool expect(const MotionContext& context, WalkerParticle& particle) const override;
-  void realise(const MotionContext& context, WalkerParticle& particle) const override;
+  MarkovConstants constants(const MotionConfig& config, ResidualAngle residual) const override;
+  double start_spread(const MotionConfig& config, ResidualAngle residual) const override;
+  void initialise(const MotionContext& context, std::span<const double> phases,
+                  std::span<WalkerParticle> particles) const override;
+  void predict(const MotionContext& context, std::span<WalkerParticle> particles,
+               std::span<Rng> rngs, std::span<Outcome> outcomes) const override;
+  bool linearise_noise(const MotionContext& context, WalkerParticle& particle) const override;
+  void apply_noise(const MotionContext& context, WalkerParticle& particle) const override;
   std::span<const NoiseGroup> noise_groups(Path path) const override;
 
  private:

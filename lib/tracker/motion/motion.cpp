@@ -17,33 +17,33 @@ namespace {
 using Eigen::Vector2d;
 
 // Arms swing against the legs: forward with the other side's thigh.
-double rest_of(Extra extra, const MarkovStep& step, const WalkerParticle& particle) {
-  if (extra != kShoulder && extra != kShoulderRight) return step.rest;
+double rest_of(ResidualAngle residual, const MarkovStep& step, const WalkerParticle& particle) {
+  if (residual != kShoulder && residual != kShoulderRight) return step.rest;
   constexpr double kArmPerLeg = 0.6;  // walking at 1.3 m/s, Murray et al. 1967
-  const size_t other_leg = 1 - static_cast<size_t>(extra - kShoulder);
+  const size_t other_leg = 1 - static_cast<size_t>(residual - kShoulder);
   return step.rest + kArmPerLeg * particle.pose.legs[other_leg].hip_flexion;
 }
 
-void predict_extras(const MotionContext& context, WalkerParticle& particle) {
-  const ExtraRange free = free_extras(context.model);
+void predict_residuals(const MotionContext& context, WalkerParticle& particle) {
+  const ResidualRange free = free_residuals(context.model);
   const MarkovSteps& steps =
       particle.regime == Regime::kStanding ? context.standing->markov : context.markov;
   for (int k = free.first; k < free.end; ++k) {
-    const auto extra = static_cast<Extra>(k);
+    const auto residual = static_cast<ResidualAngle>(k);
     const size_t i = static_cast<size_t>(k);
     const MarkovStep& step = steps[i];
-    const double now = particle.extra[i];
-    const double next = now + step.momentum * (now - particle.extra_before[i]) +
-                        step.pull * (rest_of(extra, step, particle) - now);
-    particle.extra_before[i] = now;
-    particle.predicted_extra[i] = std::clamp(next, step.lowest, step.highest);
+    const double now = particle.residual[i];
+    const double next = now + step.momentum * (now - particle.residual_before[i]) +
+                        step.pull * (rest_of(residual, step, particle) - now);
+    particle.residual_before[i] = now;
+    particle.predicted_residual[i] = std::clamp(next, step.lowest, step.highest);
   }
 }
 
 Vector2d turned(const Vector2d& v, double angle) { return Eigen::Rotation2Dd(angle) * v; }
 
 // The way of the last frame becomes part of that of the last step.
-void remember_way(const MotionContext& context, WalkerParticle& particle) {
+void update_travel_velocity(const MotionContext& context, WalkerParticle& particle) {
   const Pose &now = particle.pose, &before = particle.pose_before;
   const Vector2d velocity = (now.root - before.root).head<2>() / context.dt;
   const double kept = std::exp(-context.dt / particle.aim.duration());
@@ -52,18 +52,18 @@ void remember_way(const MotionContext& context, WalkerParticle& particle) {
 }
 
 // The prediction turns to the way; that is no turning which goes on.
-void face_the_way(const MotionContext& context, WalkerParticle& particle) {
+void relax_heading_to_travel(const MotionContext& context, WalkerParticle& particle) {
   // Who hardly goes faces anywhere.
   const double ahead = std::max(particle.way.x(), 0.25 * particle.aim.speed);
   const double off = std::atan2(particle.way.y(), ahead);
   const double turn = off * (1 - std::exp(-context.dt / context.config.facing));
-  particle.predicted_extra[kHeading] += turn;
-  particle.extra_before[kHeading] += turn;
+  particle.predicted_residual[kHeading] += turn;
+  particle.residual_before[kHeading] += turn;
   particle.way = turned(particle.way, -turn);
 }
 
 void draw_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  const ExtraRange free = free_extras(context.model);
+  const ResidualRange free = free_residuals(context.model);
   const auto draw = [&](int k) {
     particle.noise[static_cast<size_t>(k)] = rng.truncated_normal(4);
   };
@@ -73,38 +73,39 @@ void draw_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng
 
 // The walker as it is becomes the frame's prediction, and its noise is drawn.
 bool predict(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  if (!context.moves.expect(context, particle)) return false;
+  if (!context.moves.linearise_noise(context, particle)) return false;
   particle.predicted = particle.walker;
   particle.predicted_ball = particle.ball;
   draw_noise(context, particle, rng);
-  context.moves.realise(context, particle);
+  context.moves.apply_noise(context, particle);
   return true;
 }
 
 }  // namespace
 
-MarkovStep markov_step(Extra extra, const MarkovConstants& c, double dt) {
+MarkovStep markov_step(ResidualAngle residual, const MarkovConstants& c, double dt) {
   const double r = std::exp(-dt / c.time);
-  if (extra == kHeading) return {r, 0, 0, c.lowest, c.highest};
+  if (residual == kHeading) return {r, 0, 0, c.lowest, c.highest};
   const double swing = 1 - std::cos(2 * kPi * dt / c.period);
   return {r * r, (1 - r) * (1 - r) + 2 * r * swing, c.rest, c.lowest, c.highest};
 }
 
 MarkovSteps markov_steps(const MotionModel& moves, const MotionConfig& config, double dt) {
   MarkovSteps steps;
-  for (int k = 0; k < kExtraCount; ++k) {
-    const auto extra = static_cast<Extra>(k);
-    steps[static_cast<size_t>(k)] = markov_step(extra, moves.constants(config, extra), dt);
+  for (int k = 0; k < kResidualCount; ++k) {
+    const auto residual = static_cast<ResidualAngle>(k);
+    steps[static_cast<size_t>(k)] = markov_step(residual, moves.constants(config, residual), dt);
   }
   return steps;
 }
 
-double frame_noise(const MotionConfig& config, Extra extra, const MarkovConstants& c, double dt) {
+double frame_noise(const MotionConfig& config, ResidualAngle residual, const MarkovConstants& c,
+                   double dt) {
   const double r = std::exp(-dt / c.time), rr = r * r;
   const double sine = std::sin(2 * kPi * dt / c.period);
-  return extra == kHeading ? config.turning * dt * std::sqrt(1 - rr)
-                           : c.spread * std::sqrt(((1 - rr) * (1 - rr) + 4 * rr * sine * sine) *
-                                                  (1 - rr) / (1 + rr));
+  return residual == kHeading ? config.turning * dt * std::sqrt(1 - rr)
+                              : c.spread * std::sqrt(((1 - rr) * (1 - rr) + 4 * rr * sine * sine) *
+                                                     (1 - rr) / (1 + rr));
 }
 
 MotionConfig to_scale(const MotionConfig& config, double height) {
@@ -136,10 +137,10 @@ NoiseScale noise_scale(const MotionModel& moves, const MotionConfig& config, con
                                      config.ankle_torque};
   for (size_t k = 0; k < 5; ++k) scale.impulse[k] = shares[k] * unit * root;
   scale.elapsed = dt;
-  for (int k = 0; k < kExtraCount; ++k) {
-    const auto extra = static_cast<Extra>(k);
-    scale.extra[static_cast<size_t>(k)] =
-        frame_noise(config, extra, moves.constants(config, extra), dt);
+  for (int k = 0; k < kResidualCount; ++k) {
+    const auto residual = static_cast<ResidualAngle>(k);
+    scale.residual[static_cast<size_t>(k)] =
+        frame_noise(config, residual, moves.constants(config, residual), dt);
   }
   return scale;
 }
@@ -151,7 +152,7 @@ PriorGait aimed_gait(const MotionContext& context, const WalkerParticle& particl
     return gait_at(context.prior, walker.parameters, aim.speed, aim.step_length);
   };
   return model.downhill.isZero() ? gait(model.walker)
-                                 : gait(in_plane(model, particle.extra[kHeading]));
+                                 : gait(in_plane(model, particle.residual[kHeading]));
 }
 
 MotionContext motion_context(const BodyModel& model, const GaitPrior& prior,
@@ -177,12 +178,12 @@ void propagate(const MotionContext& context, std::span<WalkerParticle> particles
   for (size_t i = 0; i < particles.size(); ++i) {
     WalkerParticle& p = particles[i];
     const bool came = std::exchange(p.arriving, false);
-    if (turn && !came) remember_way(context, p);
-    context.moves.reconsider(context, p, rngs[i]);
-    predict_extras(context, p);
-    if (turn) face_the_way(context, p);
+    if (turn && !came) update_travel_velocity(context, p);
+    context.moves.jump_phase(context, p, rngs[i]);
+    predict_residuals(context, p);
+    if (turn) relax_heading_to_travel(context, p);
   }
-  context.moves.walk(context, particles, rngs, outcomes);
+  context.moves.predict(context, particles, rngs, outcomes);
   for (size_t i = 0; i < particles.size(); ++i) {
     particles[i].pose_before = particles[i].pose;
     if (!predict(context, particles[i], rngs[i])) outcomes[i] = Outcome::kDead;
@@ -195,13 +196,13 @@ Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& r
   return outcome;
 }
 
-void perturb(const MotionContext& context, double boldness, WalkerParticle& particle, Rng& rng) {
+void perturb(const MotionContext& context, double step_size, WalkerParticle& particle, Rng& rng) {
   // A quarter of the proposals changes everything a little, the others one part of the body.
-  const double keep = std::sqrt(1 - boldness * boldness);
-  const ExtraRange free = free_extras(context.model);
+  const double keep = std::sqrt(1 - step_size * step_size);
+  const ResidualRange free = free_residuals(context.model);
   const auto change = [&](int k) {
     double& z = particle.noise[static_cast<size_t>(k)];
-    z = keep * z + boldness * rng.normal();
+    z = keep * z + step_size * rng.normal();
   };
   if (rng.uniform() < 0.25) {
     for (int k = 0; k < kExtraNoise + free.end; ++k) {
@@ -215,7 +216,7 @@ void perturb(const MotionContext& context, double boldness, WalkerParticle& part
     const size_t chosen = static_cast<size_t>(rng.uniform() * static_cast<double>(count));
     for (const int k : groups[chosen]) change(k);
   }
-  context.moves.realise(context, particle);
+  context.moves.apply_noise(context, particle);
 }
 
 }  // namespace walktrack

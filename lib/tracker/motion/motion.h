@@ -43,7 +43,8 @@ struct MotionConfig {
   double control_noise = 0.05;  // relative, per step (gait/gait_prior.h)
   double feedback = 1;          // strength of the correction of controls at a support transfer
   double aim_drift = 0.06;      // relative, per step, of the speed and the step length aimed at
-  double rephasing = 30;  // 1/s: how often a particle reads its pose anew (tracker/moves/rephase.h)
+  double rephasing =
+      30;  // 1/s: how often a particle reads its pose anew (tracker/moves/phase_jump.h)
   double torque_noise_scale = 0.15;  // multiplies all five torques
   bool standing = true;  // people may stand, set off and stop (tracker/motion/standing.h)
   double unrest = 1.5;   // multiplies the noise of model kMarkov; tuned on the demo, 1 = as fitted
@@ -54,18 +55,18 @@ struct MotionConfig {
 inline constexpr double kAdultHeight = 1.75;  // m
 MotionConfig to_scale(const MotionConfig& config, double height);
 
-// The process of one extra coordinate from frame to frame.
+// The process of one residual angles from frame to frame.
 struct MarkovStep {
   double momentum = 0, pull = 0;             // a, b
   double rest = 0, lowest = 0, highest = 0;  // rad
 };
-using MarkovSteps = std::array<MarkovStep, kExtraCount>;
-MarkovStep markov_step(Extra extra, const MarkovConstants& constants, double dt);
+using MarkovSteps = std::array<MarkovStep, kResidualCount>;
+MarkovStep markov_step(ResidualAngle residual, const MarkovConstants& constants, double dt);
 MarkovSteps markov_steps(const MotionModel& moves, const MotionConfig& config, double dt);
 
-// Standard deviation of a frame's noise in an extra coordinate.
-double frame_noise(const MotionConfig& config, Extra extra, const MarkovConstants& constants,
-                   double dt);
+// Standard deviation of a frame's noise in a residual angle.
+double frame_noise(const MotionConfig& config, ResidualAngle residual,
+                   const MarkovConstants& constants, double dt);
 
 NoiseScale noise_scale(const MotionModel& moves, const MotionConfig& config, const BodyModel& model,
                        double dt);
@@ -98,6 +99,6 @@ void propagate(const MotionContext& context, std::span<WalkerParticle> particles
 Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& rng);
 
 // Changes some of the frame's noise, reversibly with respect to its prior, and realises it.
-void perturb(const MotionContext& context, double boldness, WalkerParticle& particle, Rng& rng);
+void perturb(const MotionContext& context, double step_size, WalkerParticle& particle, Rng& rng);
 
 }  // namespace walktrack

@@ -6,8 +6,8 @@
 
 namespace walktrack {
 
-double MotionModel::start_spread(const MotionConfig&, Extra extra) const {
-  return markov_constants(extra).spread;
+double MotionModel::start_spread(const MotionConfig&, ResidualAngle residual) const {
+  return markov_constants(residual).spread;
 }
 
 std::unique_ptr<const MotionModel> make_motion_model(MotionKind kind, const BodyModel& model,

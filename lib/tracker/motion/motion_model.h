@@ -23,7 +23,7 @@ struct MotionContext;
 
 enum class MotionKind { kKneed, kAnthropomorphic, kMarkov };
 
-// Constants of the Markov process of one extra coordinate, which tracker/motion/motion.h describes.
+// Constants of the Markov process of one residual angles, which tracker/motion/motion.h describes.
 struct MarkovConstants {
   double rest, time, spread;                                // rad, s, rad (the heading: rad/s)
   double lowest, highest;                                   // rad
@@ -41,32 +41,32 @@ class MotionModel {
  public:
   virtual ~MotionModel() = default;
 
-  // Of an extra coordinate. One without spread stays at its rest.
-  virtual MarkovConstants constants(const MotionConfig& config, Extra extra) const = 0;
+  // Of a residual angle. One without spread stays at its rest.
+  virtual MarkovConstants constants(const MotionConfig& config, ResidualAngle residual) const = 0;
 
-  // How far an extra coordinate may be from the gait that a particle enters with: the standard
+  // How far a residual angle may be from the gait that a particle enters with: the standard
   // deviation with which the first frame draws it, in the coordinate's own unit.
-  virtual double start_spread(const MotionConfig& config, Extra extra) const;
+  virtual double start_spread(const MotionConfig& config, ResidualAngle residual) const;
 
   // Particles whose aim, standing foot, heading and rest angles are set go on from the moments
   // `phases` of their steps, as shares of a step.
-  virtual void enter(const MotionContext& context, std::span<const double> phases,
-                     std::span<WalkerParticle> particles) const = 0;
+  virtual void initialise(const MotionContext& context, std::span<const double> phases,
+                          std::span<WalkerParticle> particles) const = 0;
 
   // Before a frame: a particle may take another view of how it came to its pose.
-  virtual void reconsider(const MotionContext&, WalkerParticle&, Rng&) const {}
+  virtual void jump_phase(const MotionContext&, WalkerParticle&, Rng&) const {}
 
   // A frame without its noise: the walkers go on, feet come down. outcomes[i] is never kDead. What
   // becomes of one particle does not depend on the others. Spans of one size.
-  virtual void walk(const MotionContext& context, std::span<WalkerParticle> particles,
-                    std::span<Rng> rngs, std::span<Outcome> outcomes) const = 0;
+  virtual void predict(const MotionContext& context, std::span<WalkerParticle> particles,
+                       std::span<Rng> rngs, std::span<Outcome> outcomes) const = 0;
 
   // What the frame's noise will do to a particle: predicted, velocity_per_impulse, predicted_ball
   // and ball_sigma. False when it has no state to go on from.
-  virtual bool expect(const MotionContext& context, WalkerParticle& particle) const = 0;
+  virtual bool linearise_noise(const MotionContext& context, WalkerParticle& particle) const = 0;
 
   // Sets the realised part of a particle from the predicted part and the noise.
-  virtual void realise(const MotionContext& context, WalkerParticle& particle) const = 0;
+  virtual void apply_noise(const MotionContext& context, WalkerParticle& particle) const = 0;
 
   // Noise that moves one part of the body; those of the arms, two, come last.
   virtual std::span<const NoiseGroup> noise_groups(Path path) const = 0;

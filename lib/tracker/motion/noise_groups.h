@@ -7,7 +7,7 @@
 
 namespace walktrack {
 
-inline constexpr int noise_of(Extra extra) { return int{kExtraNoise} + int{extra}; }
+inline constexpr int noise_of(ResidualAngle residual) { return int{kExtraNoise} + int{residual}; }
 
 inline constexpr std::array kTrunkNoise{int{kBallNoise}, kBallNoise + 1,    noise_of(kHeading),
                                         noise_of(kList), noise_of(kCrouch), noise_of(kTilt)};

@@ -18,7 +18,7 @@ size_t index(Side side) { return static_cast<size_t>(side); }
 
 // Knees do not bend backwards, nor further than until the heel meets the thigh: there the leg's
 // shank follows its thigh.
-void keep_knees(KneedState& s) {
+void clamp_knees(KneedState& s) {
   constexpr double kDeepestBend = 150 * kPi / 180;  // rad
   const auto keep = [&](int shank, int thigh) {
     s.q[shank] = std::clamp(s.q[shank], s.q[thigh], s.q[thigh] + kDeepestBend);
@@ -30,50 +30,52 @@ void keep_knees(KneedState& s) {
 // A normal number made heavy-tailed: people mostly walk straight on, but when they turn, they turn.
 double heavy_tailed(double normal) { return std::sinh(normal); }
 
-void set_leg(const KneedState& s, bool stance, const Extras& extra, Side side, Pose& pose) {
+void set_leg(const KneedState& s, bool stance, const ResidualAngles& residual, Side side,
+             Pose& pose) {
   const double thigh = s.q[stance ? kStanceThigh : kSwingThigh];
   const double shank = s.q[stance ? kStanceShank : kSwingShank];
   const size_t i = index(side);
-  pose.legs[i] = {s.q[kTorso] - thigh, extra[kAbduction + i], extra[kRotation + i], shank - thigh,
-                  extra[kAnkle + i]};
+  pose.legs[i] = {s.q[kTorso] - thigh, residual[kAbduction + i], residual[kRotation + i],
+                  shank - thigh, residual[kAnkle + i]};
 }
 
 }  // namespace
 
 KneedState shown_state(const KneedState& walker, Side stance, const StepAim& aim,
-                       const Extras& extra) {
+                       const ResidualAngles& residual) {
   const size_t standing = index(stance), swinging = 1 - standing;
   const double half_stride = 0.5 * std::min(1.0, walker.since_transfer / aim.duration());
   const LegDifference stands = leg_difference(half_stride);
   const LegDifference swings = leg_difference(0.5 + half_stride);
   // Thigh and shank are about as long: the hip sinks straight down.
-  const double crouch = 0.5 * extra[kCrouch];
+  const double crouch = 0.5 * residual[kCrouch];
   KneedState shown = walker;
-  shown.q[kTorso] += extra[kTilt];
-  shown.q[kStanceThigh] += stands.thigh + extra[kThigh + standing] - crouch;
-  shown.q[kStanceShank] += stands.shank + extra[kShank + standing] + crouch;
-  shown.q[kSwingThigh] += swings.thigh + extra[kThigh + swinging] - crouch;
-  shown.q[kSwingShank] += swings.shank + extra[kShank + swinging] + crouch;
-  keep_knees(shown);
+  shown.q[kTorso] += residual[kTilt];
+  shown.q[kStanceThigh] += stands.thigh + residual[kThigh + standing] - crouch;
+  shown.q[kStanceShank] += stands.shank + residual[kShank + standing] + crouch;
+  shown.q[kSwingThigh] += swings.thigh + residual[kThigh + swinging] - crouch;
+  shown.q[kSwingShank] += swings.shank + residual[kShank + swinging] + crouch;
+  clamp_knees(shown);
   return shown;
 }
 
 Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance, const StepAim& aim,
-             const Eigen::Vector2d& ball, const Extras& extra) {
-  return pose_showing(model, shown_state(walker, stance, aim, extra), walker.q[kStanceShank],
-                      stance, ball, extra);
+             const Eigen::Vector2d& ball, const ResidualAngles& residual) {
+  return pose_showing(model, shown_state(walker, stance, aim, residual), walker.q[kStanceShank],
+                      stance, ball, residual);
 }
 
 Pose pose_showing(const BodyModel& model, const KneedState& shown, double shank, Side stance,
-                  const Eigen::Vector2d& ball, const Extras& extra) {
+                  const Eigen::Vector2d& ball, const ResidualAngles& residual) {
   Pose pose;
-  pose.heading = extra[kHeading];
-  pose.list = extra[kList];
+  pose.heading = residual[kHeading];
+  pose.list = residual[kList];
   pose.tilt = shown.q[kTorso];
-  set_leg(shown, true, extra, stance, pose);
-  set_leg(shown, false, extra, other(stance), pose);
+  set_leg(shown, true, residual, stance, pose);
+  set_leg(shown, false, residual, other(stance), pose);
   for (size_t i = 0; model.body.groups.arms && i < 2; ++i)
-    pose.arms[i] = {extra[kShoulder + i], extra[kShoulderAbduction + i], extra[kElbow + i]};
+    pose.arms[i] = {residual[kShoulder + i], residual[kShoulderAbduction + i],
+                    residual[kElbow + i]};
   stand_on(model.body, stance, Eigen::Vector3d(ball.x(), ball.y(), 0), rolled_ankle(model, shank),
            pose);
   return pose;
@@ -89,27 +91,27 @@ void realise_walker(const BodyModel& model, const NoiseScale& scale, WalkerParti
   walker = particle.predicted;
   walker.qd += kick;
   walker.q += 0.5 * scale.elapsed * kick;
-  keep_knees(walker);
-  particle.extra[kHeading] = particle.predicted_extra[kHeading];
-  const ExtraRange free = free_extras(model);
+  clamp_knees(walker);
+  particle.residual[kHeading] = particle.predicted_residual[kHeading];
+  const ResidualRange free = free_residuals(model);
   for (int k = free.first; k < free.end; ++k) {
     const size_t i = size_t(k);
     const double noise = z[size_t(kExtraNoise) + i];
-    particle.extra[i] = particle.predicted_extra[i] +
-                        scale.extra[i] * (i == kHeading ? heavy_tailed(noise) : noise);
+    particle.residual[i] = particle.predicted_residual[i] +
+                           scale.residual[i] * (i == kHeading ? heavy_tailed(noise) : noise);
   }
-  if (particle.arriving) particle.extra_before = particle.extra;
-  const double heading = particle.extra[kHeading];
+  if (particle.arriving) particle.residual_before = particle.residual;
+  const double heading = particle.residual[kHeading];
   const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
   particle.ball =
       particle.predicted_ball + particle.ball_sigma.x() * z[kBallNoise] * ahead +
       particle.ball_sigma.y() * z[kBallNoise + 1] * Eigen::Vector2d(-ahead.y(), ahead.x());
 }
 
-void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle) {
+void apply_noise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle) {
   realise_walker(model, scale, particle);
-  particle.pose =
-      pose_of(model, particle.walker, particle.stance, particle.aim, particle.ball, particle.extra);
+  particle.pose = pose_of(model, particle.walker, particle.stance, particle.aim, particle.ball,
+                          particle.residual);
 }
 
 Eigen::Vector2d rolled_ankle(const BodyModel& model, double shank) {

@@ -1,9 +1,10 @@
 // One hypothesis: a kneed walker in its vertical plane, where that plane stands, and the angles
 // that the walker does not drive. The one place where a planar state becomes a 3-D pose.
 //
-// A frame's state is what physics predicted plus standardised normal noise brought in by `realise`.
-// Keeping the noise apart lets the filter's moves explore it reversibly (preconditioned
-// Crank-Nicolson: z' = sqrt(1 - s^2) z + s n leaves N(0, 1) invariant), without simulating again.
+// A frame's state is what physics predicted plus standardised normal noise brought in by
+// `apply_noise`. Keeping the noise apart lets the filter's moves explore it reversibly
+// (preconditioned Crank-Nicolson: z' = sqrt(1 - s^2) z + s n leaves N(0, 1) invariant), without
+// simulating again.
 #pragma once
 
 #include <array>
@@ -22,8 +23,8 @@ namespace walktrack {
 // The coordinates that follow a damped second-order Markov process, in this order: those that the
 // walker does not drive, and how far those that it drives stray from it. The walker itself never
 // feels them: its gait stays the stable one that the prior knows. What is sideways comes first and
-// last, the arms last, so that those that a scene has are a range (free_extras).
-enum Extra {
+// last, the arms last, so that those that a scene has are a range (free_residuals).
+enum ResidualAngle {
   kHeading,
   kList,
   kAbduction,  // of the left leg; the right one's follows, and so for all pairs
@@ -45,9 +46,9 @@ enum Extra {
   kElbowRight,
   kShoulderAbduction,
   kShoulderAbductionRight,
-  kExtraCount
+  kResidualCount
 };
-using Extras = std::array<double, kExtraCount>;  // rad
+using ResidualAngles = std::array<double, kResidualCount>;  // rad
 
 // Where walkers may go and what shows of them:
 //   spatial   anywhere over the ground, turning
@@ -64,14 +65,14 @@ enum NoiseIndex {
   kTorqueNoise,                   // 5: torso, hip, stance knee, swing knee, stance ankle
   kBallNoise = kTorqueNoise + 5,  // 2: the standing foot's place, along and across
   kExtraNoise = kBallNoise + 2,
-  kNoiseCount = kExtraNoise + kExtraCount
+  kNoiseCount = kExtraNoise + kResidualCount
 };
 
 // Standard deviations of one frame's noise, derived from MotionConfig and the frame's length.
 struct NoiseScale {
   std::array<double, 5> impulse{};  // N m s
   double elapsed = 0;               // s, the frame's length
-  Extras extra{};                   // rad
+  ResidualAngles residual{};        // rad
 };
 
 // What the present step aims at; chosen anew at every support transfer.
@@ -90,18 +91,19 @@ struct WalkerParticle {
   Eigen::Vector2d predicted_ball = Eigen::Vector2d::Zero();
   // Of the standing foot's place in this frame, along and across the heading, m.
   Eigen::Vector2d ball_sigma = Eigen::Vector2d::Zero();
-  Extras predicted_extra{};
+  ResidualAngles predicted_residual{};
   std::array<double, kNoiseCount> noise{};  // standard normal
 
   // As realised.
   KneedState walker;
   Side stance = Side::kLeft;
   Eigen::Vector2d ball = Eigen::Vector2d::Zero();  // of the standing foot, on the ground, m
-  Extras extra{}, extra_before{};                  // now and one frame ago
+  ResidualAngles residual{}, residual_before{};    // now and one frame ago
   Pose pose, pose_before;                          // now and one frame ago
   // How the root has moved in about the last step, forward and to the left, m/s.
   Eigen::Vector2d way = Eigen::Vector2d::Zero();
-  bool arriving = false;  // the first frame: there is no frame before, extras start at rest
+  bool arriving =
+      false;  // the first frame: there is no frame before, residual angles start at rest
   Regime regime = Regime::kWalking;
 
   KneedControls controls;
@@ -118,36 +120,36 @@ struct BodyModel {
 
 // The coordinates that have a process in this model. One that has none keeps the value that it was
 // given at the start, and is neither predicted nor drawn.
-struct ExtraRange {
+struct ResidualRange {
   int first, end;
 };
-inline ExtraRange free_extras(const BodyModel& model) {
+inline ResidualRange free_residuals(const BodyModel& model) {
   const bool arms = model.body.groups.arms;
-  if (model.path == Path::kSpatial) return {kHeading, arms ? kExtraCount : kShoulder};
+  if (model.path == Path::kSpatial) return {kHeading, arms ? kResidualCount : kShoulder};
   return {kAnkle, arms ? kShoulderAbduction : kShoulder};
 }
 
 // Whether walkers may turn.
 inline bool turns(const BodyModel& model) { return model.path == Path::kSpatial; }
 
-// Sets the realised part (walker, ball, extra, pose) from the predicted part and the noise: of a
+// Sets the realised part (walker, ball, residual, pose) from the predicted part and the noise: of a
 // kneed walker, and of any walker but for the pose.
-void realise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle);
+void apply_noise(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle);
 void realise_walker(const BodyModel& model, const NoiseScale& scale, WalkerParticle& particle);
 
 // The walker's state as the person shows it: with a person's legs (tracker/motion/stride.h),
-// strayed by the extras.
+// strayed by the residual angles.
 KneedState shown_state(const KneedState& walker, Side stance, const StepAim& aim,
-                       const Extras& extra);
+                       const ResidualAngles& residual);
 
 // The pose of a walker whose standing foot has its ball at `ball`.
 Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance, const StepAim& aim,
-             const Eigen::Vector2d& ball, const Extras& extra);
+             const Eigen::Vector2d& ball, const ResidualAngles& residual);
 
 // The same of a walker whose state as the person shows it is `shown` and whose own standing shank
 // leans by `shank`, rad.
 Pose pose_showing(const BodyModel& model, const KneedState& shown, double shank, Side stance,
-                  const Eigen::Vector2d& ball, const Extras& extra);
+                  const Eigen::Vector2d& ball, const ResidualAngles& residual);
 
 // The standing ankle relative to its ball's place, (forward, up), m, when the walker's round foot
 // has rolled to where its shank leans by `shank`, rad. The foot is flat at 0, its ball

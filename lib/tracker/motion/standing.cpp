@@ -21,8 +21,8 @@ constexpr double kSlower = -0.25, kSlower_sd = 0.12;  // of kPace, a logarithm
 constexpr double kLatest = 0.6;
 
 // A standing person sways and shifts weight in seconds, where a walker's strays change in a tenth.
-double standing_time(Extra extra, double walking) {
-  switch (extra) {
+double standing_time(ResidualAngle residual, double walking) {
+  switch (residual) {
     case kThigh:
     case kThighRight:
     case kShank:
@@ -41,29 +41,29 @@ double standing_time(Extra extra, double walking) {
   }
 }
 
-bool sets_off(const MotionContext& context, const StepBook& steps, WalkerParticle& particle,
+bool sets_off(const MotionContext& context, const StepLibrary& steps, WalkerParticle& particle,
               Rng& rng) {
   const double unit = std::sqrt(context.model.body.subject.height / kAdultHeight);
   const double leg = leg_length(context.model.body.lengths);
   const double speed = unit * (kSlowestAim + (kFastestAim - kSlowestAim) * rng.uniform());
   const double pace = std::sqrt(context.model.walker.parameters.gravity * leg);
   const StepAim aim{speed, leg * preferred_step_length(speed / pace)};
-  const BookedStep* step = steps.near(aim, particle.extra[kHeading], rng);
+  const LibraryStep* step = steps.near(aim, particle.residual[kHeading], rng);
   if (step == nullptr) return false;
   WalkerParticle reading = particle;
   reading.regime = Regime::kWalking;
   reading.aim = step->aim;
   reading.controls = step->controls;
   reading.walker =
-      step->moments[static_cast<size_t>(rng.uniform() * kLatest * double{BookedStep::kMoments})];
+      step->moments[static_cast<size_t>(rng.uniform() * kLatest * double{LibraryStep::kMoments})];
   if (rng.uniform() < 0.5) reading.stance = other(particle.stance);
   stray_to(particle.pose, reading);
-  if (!std::isfinite(strays_improbability(context, reading.extra))) return false;
+  if (!std::isfinite(strays_improbability(context, reading.residual))) return false;
   draw_strays_before(context, reading, rng);
   const MarkovConstants c = markov_constants(kPace);
-  reading.extra[kPace] =
+  reading.residual[kPace] =
       std::clamp(kSlower + kSlower_sd * rng.truncated_normal(3), c.lowest, c.highest);
-  reading.extra_before[kPace] = reading.extra[kPace];
+  reading.residual_before[kPace] = reading.residual[kPace];
   stand_under(context.model, particle.pose, reading);
   particle = reading;
   return true;
@@ -74,8 +74,8 @@ bool stops(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   stand(reading);
   stray_to(particle.pose, reading);
   // As in rephasing, a walker whose pose is that of a walk goes on walking.
-  const double gain =
-      strays_improbability(context, particle.extra) - strays_improbability(context, reading.extra);
+  const double gain = strays_improbability(context, particle.residual) -
+                      strays_improbability(context, reading.residual);
   if (!(std::log(rng.uniform()) < gain)) return false;
   draw_strays_before(context, reading, rng);
   stand_under(context.model, particle.pose, reading);
@@ -87,12 +87,12 @@ bool stops(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
 
 StandingProcess standing_process(const MotionModel& moves, const MotionConfig& config, double dt) {
   StandingProcess out;
-  for (int k = 0; k < kExtraCount; ++k) {
-    const auto extra = static_cast<Extra>(k);
-    MarkovConstants c = moves.constants(config, extra);
-    c.time = standing_time(extra, c.time);
-    out.markov[static_cast<size_t>(k)] = markov_step(extra, c, dt);
-    out.scale.extra[static_cast<size_t>(k)] = frame_noise(config, extra, c, dt);
+  for (int k = 0; k < kResidualCount; ++k) {
+    const auto residual = static_cast<ResidualAngle>(k);
+    MarkovConstants c = moves.constants(config, residual);
+    c.time = standing_time(residual, c.time);
+    out.markov[static_cast<size_t>(k)] = markov_step(residual, c, dt);
+    out.scale.residual[static_cast<size_t>(k)] = frame_noise(config, residual, c, dt);
   }
   out.scale.elapsed = dt;
   return out;
@@ -104,7 +104,7 @@ void stand(WalkerParticle& particle) {
   particle.walker.stance_stop = particle.walker.swing_stop = true;
 }
 
-bool change_regime(const MotionContext& context, const StepBook& steps, WalkerParticle& particle,
+bool change_regime(const MotionContext& context, const StepLibrary& steps, WalkerParticle& particle,
                    Rng& rng) {
   if (particle.regime == Regime::kStanding)
     return rng.uniform() < kSetsOff * context.dt && sets_off(context, steps, particle, rng);

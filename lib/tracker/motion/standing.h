@@ -8,23 +8,23 @@
 // strays that take the swinging leg in. Both keep the pose as it is (tracker/motion/strays.h).
 #pragma once
 
-#include "tracker/motion/step_book.h"
+#include "tracker/motion/step_library.h"
 #include "tracker/motion/strays.h"
 
 namespace walktrack {
 
-// Of the extras of those who stand.
+// Of the residual angles of those who stand.
 struct StandingProcess {
   NoiseScale scale;
   MarkovSteps markov;
 };
 StandingProcess standing_process(const MotionModel& moves, const MotionConfig& config, double dt);
 
-// Makes a particle whose stance and extras are set stand, upright and at rest.
+// Makes a particle whose stance and residual angles are set stand, upright and at rest.
 void stand(WalkerParticle& particle);
 
 // One frame's chance to set off or to stop; whether it was taken. `context.standing` is there.
-bool change_regime(const MotionContext& context, const StepBook& steps, WalkerParticle& particle,
+bool change_regime(const MotionContext& context, const StepLibrary& steps, WalkerParticle& particle,
                    Rng& rng);
 
 }  // namespace walktrack

@@ -37,39 +37,41 @@ PlanarAngles planar_angles(const Vector5& q, Side stance) {
 
 }  // namespace
 
-double strays_improbability(const MotionContext& context, const Extras& extra) {
+double strays_improbability(const MotionContext& context, const ResidualAngles& residual) {
   double sum = 0;
   for (size_t k = kTilt; k < kTilt + kStrayCount; ++k) {
-    const MarkovConstants c = markov_constants(static_cast<Extra>(k));
-    if (extra[k] < c.lowest || extra[k] > c.highest) return std::numeric_limits<double>::infinity();
-    const double off = extra[k] / (context.config.misfit * c.spread);
+    const MarkovConstants c = markov_constants(static_cast<ResidualAngle>(k));
+    if (residual[k] < c.lowest || residual[k] > c.highest)
+      return std::numeric_limits<double>::infinity();
+    const double off = residual[k] / (context.config.misfit * c.spread);
     sum += 0.5 * off * off;
   }
   return sum;
 }
 
 void stray_to(const Pose& pose, WalkerParticle& reading) {
-  Extras& extra = reading.extra;
-  std::fill_n(extra.begin() + kTilt, kStrayCount, 0.0);
-  const KneedState shown = shown_state(reading.walker, reading.stance, reading.aim, extra);
+  ResidualAngles& residual = reading.residual;
+  std::fill_n(residual.begin() + kTilt, kStrayCount, 0.0);
+  const KneedState shown = shown_state(reading.walker, reading.stance, reading.aim, residual);
   const PlanarAngles stray = planar_angles(pose) - planar_angles(shown.q, reading.stance);
-  for (size_t k = 0; k < kStrayCount; ++k) extra[kTilt + k] = stray[static_cast<Eigen::Index>(k)];
+  for (size_t k = 0; k < kStrayCount; ++k)
+    residual[kTilt + k] = stray[static_cast<Eigen::Index>(k)];
 }
 
 // The process of tracker/motion/motion.h is autoregressive with the double root r.
 void draw_strays_before(const MotionContext& context, WalkerParticle& reading, Rng& rng) {
   for (size_t k = kTilt; k < kTilt + kStrayCount; ++k) {
-    const MarkovConstants c = markov_constants(static_cast<Extra>(k));
+    const MarkovConstants c = markov_constants(static_cast<ResidualAngle>(k));
     const double rr = std::exp(-2 * context.dt / c.time);
     const double correlation = 2 * std::sqrt(rr) / (1 + rr), rest = (1 - rr) / (1 + rr);
-    reading.extra_before[k] = correlation * reading.extra[k] +
-                              rest * context.config.misfit * c.spread * rng.truncated_normal(4);
+    reading.residual_before[k] = correlation * reading.residual[k] +
+                                 rest * context.config.misfit * c.spread * rng.truncated_normal(4);
   }
 }
 
 void stand_under(const BodyModel& model, const Pose& pose, WalkerParticle& reading) {
   const Pose unplaced = pose_of(model, reading.walker, reading.stance, reading.aim,
-                                Eigen::Vector2d::Zero(), reading.extra);
+                                Eigen::Vector2d::Zero(), reading.residual);
   reading.ball = (pose.root - unplaced.root).head<2>();
 }
 

@@ -8,12 +8,12 @@
 
 namespace walktrack {
 
-// The strays are the extras from kTilt on, in this number: trunk, thighs, shanks.
+// The strays are the residual angles from kTilt on, in this number: trunk, thighs, shanks.
 inline constexpr size_t kStrayCount = kShankRight - kTilt + 1;
 
 // -log of the strays' own density (tracker/motion/motion.h), but for a constant; infinite beyond
 // their limits.
-double strays_improbability(const MotionContext& context, const Extras& extra);
+double strays_improbability(const MotionContext& context, const ResidualAngles& residual);
 
 // Gives `reading`, whose walker, stance and aim are set, the strays with which it shows `pose`.
 void stray_to(const Pose& pose, WalkerParticle& reading);

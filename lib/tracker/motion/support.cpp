@@ -34,7 +34,7 @@ void change_feet(const BodyModel& model, const KneedState& shown, WalkerParticle
   particle.ball = landing_ball(model, pose, landed, particle.walker.q[kStanceShank]);
 }
 
-void vary_aim(const MotionConfig& config, StepAim& aim, Rng& rng) {
+void perturb_step_target(const MotionConfig& config, StepAim& aim, Rng& rng) {
   aim.speed *= std::exp(config.aim_drift * rng.truncated_normal(3));
   aim.step_length *= std::exp(config.aim_drift * rng.truncated_normal(3));
 }

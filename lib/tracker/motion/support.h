@@ -14,6 +14,6 @@ Eigen::Vector2d foot_sigma(const MotionContext& context, const WalkerParticle& p
 void change_feet(const BodyModel& model, const KneedState& shown, WalkerParticle& particle);
 
 // A new step aims a little differently from the last.
-void vary_aim(const MotionConfig& config, StepAim& aim, Rng& rng);
+void perturb_step_target(const MotionConfig& config, StepAim& aim, Rng& rng);
 
 }  // namespace walktrack

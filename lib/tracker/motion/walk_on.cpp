@@ -21,7 +21,7 @@ constexpr KneedLimits kWalks{.min_hip_height = 0.8};
 // has left.
 void choose_controls(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   const MotionConfig& config = context.config;
-  vary_aim(config, particle.aim, rng);
+  perturb_step_target(config, particle.aim, rng);
   const PriorGait gait = aimed_gait(context, particle);
   particle.aim = {gait.speed, gait.step_length};  // within the table
   particle.controls = draw_controls(
@@ -32,7 +32,7 @@ void choose_controls(const MotionContext& context, WalkerParticle& particle, Rng
 // The swing foot has come down: it carries the body from here, and a new step begins.
 void change_support(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   change_feet(context.model,
-              shown_state(particle.walker, other(particle.stance), particle.aim, particle.extra),
+              shown_state(particle.walker, other(particle.stance), particle.aim, particle.residual),
               particle);
   choose_controls(context, particle, rng);
 }
@@ -76,12 +76,12 @@ void gather(const MotionContext& context, std::span<WalkerParticle> particles, s
       group.left.push_back(0);
       continue;
     }
-    settle_knee_stops(in_plane(context.model, p.extra[kHeading]), p.controls, Vector5::Zero(),
+    settle_knee_stops(in_plane(context.model, p.residual[kHeading]), p.controls, Vector5::Zero(),
                       p.walker);
     group.states.push_back(p.walker);
     group.controls.push_back(p.controls);
     const double stray = context.config.clock * std::sqrt(context.dt) * rngs[i].truncated_normal(3);
-    const double time = context.dt * std::exp(p.extra_before[kPace]) + stray;
+    const double time = context.dt * std::exp(p.residual_before[kPace]) + stray;
     group.left.push_back(std::max(0.0, time));
   }
 }
@@ -96,7 +96,7 @@ void advance(const MotionContext& context, std::span<const WalkerParticle> parti
   for (size_t i = 0; i < particles.size(); ++i)
     if (group.left[i] > 0)
       group.done[i] =
-          kneed_advance(in_plane(context.model, particles[i].extra[kHeading]), group.controls[i],
+          kneed_advance(in_plane(context.model, particles[i].residual[kHeading]), group.controls[i],
                         group.noise[i], group.states[i], group.left[i], kWalks);
 }
 

@@ -55,7 +55,7 @@ void spread_angles(std::span<const WalkerParticle> particles, std::span<const do
 
 // Walkers run by their own clocks: the pace turns the walker's time into the person's.
 double since_transfer(const WalkerParticle& particle) {
-  return particle.walker.since_transfer / std::exp(particle.extra_before[kPace]);
+  return particle.walker.since_transfer / std::exp(particle.residual_before[kPace]);
 }
 
 // Over the particles that stand on `side`, one at least.

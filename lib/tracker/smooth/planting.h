@@ -8,7 +8,8 @@
 //                      + w sum_(flat) |f_i + s_i - p|^2.
 // Legs turn about their hips (body/moved_feet.h): footskate cleanup (Kovar, Schreiner & Gleicher,
 // SCA 2002), by least squares over the whole film. Toes that point into the ground are lifted in
-// every frame. tracker/reports/reported_pose.md says what it changes. Positions in metres, world axes.
+// every frame. tracker/reports/reported_pose.md says what it changes. Positions in metres, world
+// axes.
 #pragma once
 
 #include <array>

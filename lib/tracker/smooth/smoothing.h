@@ -8,8 +8,8 @@
 // Parabolas pass through unchanged, so do joints and angles that belong to each other, to third
 // order in the time. What the images could not tell in any of the frames stays as it is.
 //
-// Which foot stands, and since when, is left alone. tracker/reports/reported_pose.md says what else was
-// tried, and what it gains.
+// Which foot stands, and since when, is left alone. tracker/reports/reported_pose.md says what else
+// was tried, and what it gains.
 #pragma once
 
 #include <deque>

@@ -12,12 +12,12 @@ namespace walktrack {
 Pose exchanged_legs(const Body& body, const Pose& pose);
 
 // Now and a frame ago, with the frame's noise; the particle is realised.
-void exchange_legs(const MotionContext& context, WalkerParticle& particle);
+void mirror_legs(const MotionContext& context, WalkerParticle& particle);
 
 // All of them.
-void exchange_legs(const MotionContext& context, WalkerFilter& filter);
+void mirror_legs(const MotionContext& context, WalkerFilter& filter);
 
 // What was estimated of a frame, its samples, and its place in the stride.
-void exchange_legs(const Body& body, FrameRecord& record);
+void mirror_legs(const Body& body, FrameRecord& record);
 
 }  // namespace walktrack

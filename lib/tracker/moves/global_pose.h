@@ -19,10 +19,10 @@
 namespace walktrack {
 
 // Root x, y (m), heading, crouch, tilt (rad).
-using Course = Eigen::Matrix<double, 5, 1>;
+using GlobalPose = Eigen::Matrix<double, 5, 1>;
 
 struct CourseSpread {
-  Course mean = Course::Zero();
+  GlobalPose mean = GlobalPose::Zero();
   Eigen::Matrix<double, 5, 5> factor = Eigen::Matrix<double, 5, 5>::Zero();  // S = factor factor^T
 };
 
@@ -30,8 +30,8 @@ struct CourseSpread {
 CourseSpread course_spread(std::span<const WalkerParticle> particles,
                            std::span<const double> log_weights);
 
-// Proposes another course; boldness in (0, 1].
-void change_course(const MotionContext& context, const CourseSpread& spread, double boldness,
-                   WalkerParticle& particle, Rng& rng);
+// Proposes another course; step_size in (0, 1].
+void move_global_pose(const MotionContext& context, const CourseSpread& spread, double step_size,
+                      WalkerParticle& particle, Rng& rng);
 
 }  // namespace walktrack

@@ -14,12 +14,13 @@
 
 namespace walktrack {
 
-class Contest {
+class StartHypotheses {
  public:
-  // Hypotheses around a sighting; all over the stride, or at a stated phase of it (0 = left foot
+  // Hypotheses around a detected; all over the stride, or at a stated phase of it (0 = left foot
   // strike). `filter`: as it will be used afterwards.
-  Contest(const MotionContext& motion, const StartConfig& start, const FilterConfig& filter,
-          const Sighting& sighting, std::optional<double> stride_phase, uint64_t seed, int threads);
+  StartHypotheses(const MotionContext& motion, const StartConfig& start, const FilterConfig& filter,
+                  const DetectedWalk& detected, std::optional<double> stride_phase, uint64_t seed,
+                  int threads);
 
   // The next frame; false when no hypothesis explains it.
   bool step(const WalkerFilterContext& context, const SceneEvidence& evidence, uint32_t frame);
@@ -28,7 +29,7 @@ class Contest {
   // The leading hypothesis' account of the frames so far.
   const std::vector<FrameRecord>& records() const { return leader().records; }
   // FilterConfig::particles of those that are left, in proportion to their evidence.
-  std::vector<WalkerParticle> survivors() const;
+  std::vector<WalkerParticle> resampled() const;
 
  private:
   struct Hypothesis {
@@ -36,11 +37,11 @@ class Contest {
     uint64_t seed;
     double log_evidence = 0;
     std::vector<FrameRecord> records;
-    bool beaten = false;  // has lost; followed on only to tell the doubt
+    bool rejected = false;  // has lost; followed on only to tell the doubt
   };
 
   const Hypothesis& leader() const;
-  std::optional<uint64_t> rival() const;
+  std::optional<uint64_t> mirror_hypothesis() const;
   void weigh_modes();
 
   FilterConfig filter_;

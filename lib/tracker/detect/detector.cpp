@@ -1,4 +1,4 @@
-#include "tracker/detect/sighting.h"
+#include "tracker/detect/detector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ bool visible_everywhere(std::span<const Camera> cameras, const Vector2d& positio
 
 // A straight walk and how well it explains a frame in the mean, nats.
 struct Walk {
-  Sighting line;
+  DetectedWalk line;
   double score;
 };
 
@@ -63,7 +63,7 @@ struct Window {
 };
 
 // The figure's scores along a line, in every `stride`-th frame.
-std::vector<double> scores_along(const Window& window, const Sighting& line,
+std::vector<double> scores_along(const Window& window, const DetectedWalk& line,
                                  const Vector2d& velocity, size_t stride) {
   std::vector<double> scores((window.frames + stride - 1) / stride);
   parallel_for(scores.size(), window.threads, [&](size_t i) {
@@ -75,14 +75,14 @@ std::vector<double> scores_along(const Window& window, const Sighting& line,
 
 // How fast people walk, where nothing else is known: 1.25 +- .5 m/s. It matters along the viewing
 // rays, where images say little and a line may otherwise run off.
-double log_prior(const Sighting& line) {
+double log_prior(const DetectedWalk& line) {
   const double strange = (line.velocity.norm() - 1.25) / 0.5;
   return -0.5 * strange * strange;
 }
 
 // Log-posterior of a line, by frame: every frame counts alike, for where a line lies, above all how
 // far away, is a matter of all of them.
-double line_score(const Window& window, const Sighting& line, size_t stride = 1) {
+double line_score(const Window& window, const DetectedWalk& line, size_t stride = 1) {
   const std::vector<double> scores = scores_along(window, line, line.velocity, stride);
   return std::accumulate(scores.begin(), scores.end(), 0.0) / double(scores.size()) +
          log_prior(line) / independent_looks(window.frames, window.dt);
@@ -95,7 +95,7 @@ double mean_of_worst_third(std::vector<double> scores) {
 }
 
 // Standing in the middle of a line.
-Sighting halt(const Window& window, const Sighting& line) {
+DetectedWalk halt(const Window& window, const DetectedWalk& line) {
   const double half = 0.5 * window.dt * double(window.frames - 1);
   return {line.position + half * line.velocity, Vector2d::Zero(), line.ray, 0, 0};
 }
@@ -104,7 +104,7 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
-double share_over_standing(const Window& window, const Sighting& line) {
+double share_over_standing(const Window& window, const DetectedWalk& line) {
   const double walking = mean(scores_along(window, line, line.velocity, 1));
   return 1 - mean(scores_along(window, halt(window, line), line.velocity, 1)) / walking;
 }
@@ -112,8 +112,8 @@ double share_over_standing(const Window& window, const Sighting& line) {
 // Whether the line explains the frames where it fails better than standing in its middle explains
 // those where that fails: neither somebody who stands there, nor two things that are always there,
 // make a walk.
-bool moves(const Window& window, const Sighting& line) {
-  const Sighting still = halt(window, line);
+bool moves(const Window& window, const DetectedWalk& line) {
+  const DetectedWalk still = halt(window, line);
   const Vector2d& pace = line.velocity;
   return mean_of_worst_third(scores_along(window, line, pace, 1)) >
          std::max(0.0, mean_of_worst_third(scores_along(window, still, pace, 1)));
@@ -121,7 +121,7 @@ bool moves(const Window& window, const Sighting& line) {
 
 // Lines through a candidate of an early and one of a late frame, at a walking speed.
 std::vector<Walk> proposed_walks(const WindowCandidates& window, double dt,
-                                 const SightingConfig& config) {
+                                 const DetectorConfig& config) {
   const auto [early, late] = window_ends(window.frames);
   const double time = dt * double(late - early);
   std::vector<Walk> walks;
@@ -157,14 +157,16 @@ std::vector<Shift> shifts(const Shift& rays) {
 // The steps of a climb's shrinking pattern, m.
 constexpr double kCoarseSteps[] = {0.24, 0.12}, kFineSteps[] = {0.06, 0.03, 0.015};
 
-Vector2d end_of(const Sighting& line, double time) { return line.position + time * line.velocity; }
+Vector2d end_of(const DetectedWalk& line, double time) {
+  return line.position + time * line.velocity;
+}
 
 size_t stride_of_climb(const Window& window) {
   return std::max<size_t>(1, window.frames / kScored);
 }
 
 // A walk whose score is that of a climb, which looks at some of the frames.
-Walk looked_at(const Window& window, const Sighting& line) {
+Walk looked_at(const Window& window, const DetectedWalk& line) {
   return {line, line_score(window, line, stride_of_climb(window))};
 }
 
@@ -174,12 +176,12 @@ Walk climbed(Walk walk, const Window& window, const std::vector<Shift>& pattern,
   for (bool better = true; better;) {
     better = false;
     for (const Shift& shift : pattern) {
-      Sighting line{walk.line.position + step * shift.begin,
-                    walk.line.velocity + step / time * (shift.end - shift.begin),
-                    walk.line.ray,
-                    0,
-                    0,
-                    0};
+      DetectedWalk line{walk.line.position + step * shift.begin,
+                        walk.line.velocity + step / time * (shift.end - shift.begin),
+                        walk.line.ray,
+                        0,
+                        0,
+                        0};
       const Walk tried = looked_at(window, line);
       if (tried.score <= walk.score) continue;
       walk = tried;
@@ -205,7 +207,7 @@ void drop_doubles(double apart, double time, std::vector<Walk>& walks) {
 }
 
 // Climbs from each of them.
-void refine(const Window& window, const Vector2d& eye, std::span<const double> steps,
+void refine(const Window& window, const Vector2d& camera_position, std::span<const double> steps,
             std::vector<Walk>& walks) {
   const double time = window.dt * double(window.frames - 1);
   for (const double step : steps) {
@@ -213,11 +215,11 @@ void refine(const Window& window, const Vector2d& eye, std::span<const double> s
     Window own = window;
     if (walks.size() > 1) own.threads = 1;
     parallel_for(walks.size(), window.threads, [&](size_t i) {
-      const Sighting& line = walks[i].line;
-      walks[i] = climbed(
-          walks[i], own,
-          shifts({(line.position - eye).normalized(), (end_of(line, time) - eye).normalized()}),
-          step);
+      const DetectedWalk& line = walks[i].line;
+      walks[i] = climbed(walks[i], own,
+                         shifts({(line.position - camera_position).normalized(),
+                                 (end_of(line, time) - camera_position).normalized()}),
+                         step);
     });
     drop_doubles(2 * step, time, walks);
   }
@@ -229,7 +231,7 @@ double spread_of(const Shift& shift, const Walk& walk, const Window& window) {
   const double time = window.dt * double(window.frames - 1);
   double bent = -2 * walk.score;
   for (const double sign : {1.0, -1.0}) {
-    Sighting line = walk.line;
+    DetectedWalk line = walk.line;
     line.position += sign * shift.begin;
     line.velocity += sign / time * (shift.end - shift.begin);
     bent += line_score(window, line);
@@ -268,7 +270,7 @@ double worst_moment(std::span<const double> scores, double dt, size_t stride) {
 }
 
 // Nobody hidden or cut off: the score does not stay far below its median.
-bool seen_throughout(const Walk& walk, const Window& window, const SightingConfig& config) {
+bool seen_throughout(const Walk& walk, const Window& window, const DetectorConfig& config) {
   std::vector<double> scores = scores_along(window, walk.line, walk.line.velocity, 1);
   const double least = worst_moment(scores, window.dt, 1);
   std::nth_element(scores.begin(), scores.begin() + long(scores.size() / 2), scores.end());
@@ -283,7 +285,7 @@ bool worth_refining(const Walk& walk, const Window& window) {
                       stride) >= 0;
 }
 
-bool walks_on(const Walk& walk, const Window& window, const SightingConfig& config) {
+bool walks_on(const Walk& walk, const Window& window, const DetectorConfig& config) {
   const double speed = walk.line.velocity.norm();
   return speed >= config.slowest && speed <= config.fastest && moves(window, walk.line) &&
          seen_throughout(walk, window, config);
@@ -292,12 +294,13 @@ bool walks_on(const Walk& walk, const Window& window, const SightingConfig& conf
 }  // namespace
 
 double side_on_heading(const Camera& camera, const Vector2d& position) {
-  const Vector3d eye = camera_centre(camera);
-  return std::atan2(position.y() - eye.y(), position.x() - eye.x()) + 0.5 * kPi;
+  const Vector3d camera_position = camera_centre(camera);
+  return std::atan2(position.y() - camera_position.y(), position.x() - camera_position.x()) +
+         0.5 * kPi;
 }
 
 std::vector<Vector2d> standing_places(std::span<const Camera> cameras, double height,
-                                      const SightingConfig& config) {
+                                      const DetectorConfig& config) {
   const Camera& camera = cameras[0];
   const double step = std::max(2.0, config.grid_px * camera.width_px / 640.0);
   std::vector<Vector2d> places;
@@ -312,7 +315,7 @@ std::vector<Vector2d> standing_places(std::span<const Camera> cameras, double he
 }
 
 std::vector<Place> find_figures(const PlaceScore& score, std::span<const Vector2d> places,
-                                const SightingConfig& config, int threads) {
+                                const DetectorConfig& config, int threads) {
   std::vector<double> scores(places.size());
   parallel_for(places.size(), threads, [&](size_t i) { scores[i] = score(places[i]); });
   std::vector<size_t> order(places.size());
@@ -335,13 +338,14 @@ WindowEnds window_ends(size_t frames) {
   return {early, frames - 1 - early};
 }
 
-std::optional<Sighting> find_walk(const WindowCandidates& candidates, const WindowScore& score,
-                                  double dt, const Vector2d& eye, const SightingConfig& config,
-                                  int threads) {
+std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
+                                        const WindowScore& score, double dt,
+                                        const Vector2d& camera_position,
+                                        const DetectorConfig& config, int threads) {
   constexpr size_t kRefined = 4, kStride = 3;
   const Window window{score, candidates.frames, dt, threads};
   std::vector<Walk> walks = proposed_walks(candidates, dt, config);
-  for (const Sighting& line : candidates.lines) walks.push_back({line, 0});
+  for (const DetectedWalk& line : candidates.lines) walks.push_back({line, 0});
   if (walks.empty()) return std::nullopt;
   parallel_for(walks.size(), threads, [&](size_t i) {
     walks[i].score = line_score({score, candidates.frames, dt, 1}, walks[i].line, kStride);
@@ -351,27 +355,27 @@ std::optional<Sighting> find_walk(const WindowCandidates& candidates, const Wind
                    [](const Walk& a, const Walk& b) { return a.score > b.score; });
   walks.resize(std::min(walks.size(), kRefined));
   for (Walk& walk : walks) walk = looked_at(window, walk.line);
-  refine(window, eye, kCoarseSteps, walks);
+  refine(window, camera_position, kCoarseSteps, walks);
   std::erase_if(walks, [&](const Walk& walk) { return !worth_refining(walk, window); });
-  refine(window, eye, kFineSteps, walks);
+  refine(window, camera_position, kFineSteps, walks);
   std::erase_if(walks, [&](const Walk& walk) { return !walks_on(walk, window, config); });
   if (walks.empty()) return std::nullopt;
   Walk& best = *std::max_element(walks.begin(), walks.end(),
                                  [](const Walk& a, const Walk& b) { return a.score < b.score; });
   best.score = line_score(window, best.line);
-  measure_spread((best.line.position - eye).normalized(), window, best);
+  measure_spread((best.line.position - camera_position).normalized(), window, best);
   best.line.score = best.score;
   best.line.over_standing = share_over_standing(window, best.line);
   return best.line;
 }
 
-Sighting nearest_walk(const Sighting& walk, size_t frames, const WindowScore& score, double dt,
-                      const Vector2d& eye) {
+DetectedWalk nearest_walk(const DetectedWalk& walk, size_t frames, const WindowScore& score,
+                          double dt, const Vector2d& camera_position) {
   const Window window{score, frames, dt, 1};
   std::vector<Walk> walks{looked_at(window, walk)};
-  refine(window, eye, kCoarseSteps, walks);
-  refine(window, eye, kFineSteps, walks);
-  Sighting found = walks[0].line;
+  refine(window, camera_position, kCoarseSteps, walks);
+  refine(window, camera_position, kFineSteps, walks);
+  DetectedWalk found = walks[0].line;
   found.score = line_score(window, found);
   return found;
 }

@@ -1,4 +1,4 @@
-#include "tracker/motion/step_book.h"
+#include "tracker/motion/step_library.h"
 
 #include <cmath>
 
@@ -8,13 +8,14 @@ namespace {
 
 constexpr int kSpeeds = 14, kLengths = 5;
 
-BookedStep booked(const BodyModel& body, const PriorGait& gait) {
+LibraryStep booked(const BodyModel& body, const PriorGait& gait) {
   const KneedModel model = on_slope(body, gait.slope);
-  BookedStep step{.aim = {gait.speed, gait.step_length}, .controls = gait.controls, .moments = {}};
+  LibraryStep step{.aim = {gait.speed, gait.step_length}, .controls = gait.controls, .moments = {}};
   KneedState state = gait.start;
   for (KneedState& moment : step.moments) {
     moment = state;
-    kneed_advance(model, gait.controls, Vector5::Zero(), state, gait.period / BookedStep::kMoments);
+    kneed_advance(model, gait.controls, Vector5::Zero(), state,
+                  gait.period / LibraryStep::kMoments);
   }
   return step;
 }
@@ -24,7 +25,7 @@ int neighbour(Rng& rng) { return static_cast<int>(rng.uniform() * 3) - 1; }
 
 }  // namespace
 
-StepBook::StepBook(const BodyModel& model, const GaitPrior& prior)
+StepLibrary::StepLibrary(const BodyModel& model, const GaitPrior& prior)
     : units_(walker_units(model.walker.parameters)), downhill_(model.downhill) {
   slowest_ = prior.speeds.front() * units_.speed();
   speed_step_ = (prior.speeds.back() * units_.speed() - slowest_) / (kSpeeds - 1);
@@ -43,7 +44,7 @@ StepBook::StepBook(const BodyModel& model, const GaitPrior& prior)
   }
 }
 
-const BookedStep* StepBook::near(const StepAim& aim, double heading, Rng& rng) const {
+const LibraryStep* StepLibrary::near(const StepAim& aim, double heading, Rng& rng) const {
   const double preferred = units_.length * preferred_step_length(aim.speed / units_.speed());
   const long i = std::lround((aim.speed - slowest_) / speed_step_) + neighbour(rng);
   const long j =

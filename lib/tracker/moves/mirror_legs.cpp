@@ -1,4 +1,4 @@
-#include "tracker/moves/exchange.h"
+#include "tracker/moves/mirror_legs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +12,15 @@ namespace {
 // the negative of the other leg's, rad (to first order).
 double reach(const Body& body) { return body.lengths.hip_width / leg_length(body.lengths); }
 
-void exchange_extras(Extras& extra) {
-  for (const Extra left :
+void exchange_extras(ResidualAngles& residual) {
+  for (const ResidualAngle left :
        {kAbduction, kRotation, kAnkle, kThigh, kShank, kShoulder, kShoulderAbduction, kElbow})
-    std::swap(extra[size_t(left)], extra[size_t(left) + 1]);
+    std::swap(residual[size_t(left)], residual[size_t(left) + 1]);
 }
 
-void reach_across(double reach, Extras& extra) {
-  for (const size_t i : {size_t{kAbduction}, size_t{kAbductionRight}}) extra[i] = -extra[i] - reach;
+void reach_across(double reach, ResidualAngles& residual) {
+  for (const size_t i : {size_t{kAbduction}, size_t{kAbductionRight}})
+    residual[i] = -residual[i] - reach;
 }
 
 // Below the hips and the shoulders.
@@ -59,9 +60,9 @@ Pose swapped_limbs(const Pose& pose) {
 // Legs that do not reach sideways: the pelvis stays where it is, and the feet change their places.
 void exchange_feet(const MotionContext& context, WalkerParticle& particle) {
   const Eigen::Vector2d root = particle.pose.root.head<2>();
-  context.moves.realise(context, particle);
+  context.moves.apply_noise(context, particle);
   particle.predicted_ball += root - particle.pose.root.head<2>();
-  context.moves.realise(context, particle);
+  context.moves.apply_noise(context, particle);
   particle.pose_before = swapped_limbs(particle.pose_before);
 }
 
@@ -73,31 +74,32 @@ Pose exchanged_legs(const Body& body, const Pose& pose) {
   return out;
 }
 
-void exchange_legs(const MotionContext& context, WalkerParticle& particle) {
+void mirror_legs(const MotionContext& context, WalkerParticle& particle) {
   const Body& body = context.model.body;
   const bool reaches = context.model.path == Path::kSpatial;
   particle.stance = other(particle.stance);
-  for (Extras* extra : {&particle.predicted_extra, &particle.extra_before, &particle.extra}) {
-    exchange_extras(*extra);
-    if (reaches) reach_across(reach(body), *extra);
+  for (ResidualAngles* residual :
+       {&particle.predicted_residual, &particle.residual_before, &particle.residual}) {
+    exchange_extras(*residual);
+    if (reaches) reach_across(reach(body), *residual);
   }
-  Extras noise;
-  std::copy_n(particle.noise.begin() + kExtraNoise, kExtraCount, noise.begin());
+  ResidualAngles noise;
+  std::copy_n(particle.noise.begin() + kExtraNoise, kResidualCount, noise.begin());
   exchange_extras(noise);
   if (reaches) reach_across(0, noise);
-  std::copy_n(noise.begin(), kExtraCount, particle.noise.begin() + kExtraNoise);
+  std::copy_n(noise.begin(), kResidualCount, particle.noise.begin() + kExtraNoise);
   if (!reaches) return exchange_feet(context, particle);
-  context.moves.realise(context, particle);
+  context.moves.apply_noise(context, particle);
   particle.pose_before = exchanged_legs(body, particle.pose_before);
 }
 
-void exchange_legs(const MotionContext& context, WalkerFilter& filter) {
+void mirror_legs(const MotionContext& context, WalkerFilter& filter) {
   FilterState<WalkerParticle> state = filter.state();
-  for (WalkerParticle& particle : state.set.states) exchange_legs(context, particle);
+  for (WalkerParticle& particle : state.set.states) mirror_legs(context, particle);
   filter.resume(std::move(state));
 }
 
-void exchange_legs(const Body& body, FrameRecord& record) {
+void mirror_legs(const Body& body, FrameRecord& record) {
   FrameEstimate& estimate = record.estimate;
   estimate.pose = exchanged_legs(body, estimate.pose);
   exchange_joints(estimate.joints);

@@ -1,4 +1,4 @@
-#include "tracker/moves/exchange.h"
+#include "tracker/moves/mirror_legs.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ class ExchangedLegs : public testing::TestWithParam<MotionKind> {
   std::vector<WalkerParticle> set = walkers_on_their_way(context, 30);
 
   WalkerParticle exchanged(WalkerParticle particle) const {
-    exchange_legs(context, particle);
+    mirror_legs(context, particle);
     return particle;
   }
   JointPositions joints(const Pose& pose) const { return forward_kinematics(body, pose).joints; }
@@ -53,9 +53,9 @@ TEST_P(ExchangedLegs, AreAsBeforeWhenExchangedAgain) {
     const WalkerParticle again = exchanged(exchanged(particle));
     EXPECT_EQ(again.stance, particle.stance);
     EXPECT_EQ(again.walker.q, particle.walker.q) << "the plane knows no sides";
-    for (size_t k = 0; k < kExtraCount; ++k) {
-      EXPECT_NEAR(again.extra[k], particle.extra[k], 1e-12) << k;
-      EXPECT_NEAR(again.extra_before[k], particle.extra_before[k], 1e-12) << k;
+    for (size_t k = 0; k < kResidualCount; ++k) {
+      EXPECT_NEAR(again.residual[k], particle.residual[k], 1e-12) << k;
+      EXPECT_NEAR(again.residual_before[k], particle.residual_before[k], 1e-12) << k;
     }
     EXPECT_LT((again.pose.root - particle.pose.root).norm(), 1e-9);
     EXPECT_NEAR(again.pose_before.legs[0].hip_abduction, particle.pose_before.legs[0].hip_abduction,
@@ -66,7 +66,7 @@ TEST_P(ExchangedLegs, AreAsBeforeWhenExchangedAgain) {
 // What the one leg was about to do, the other one is.
 TEST_P(ExchangedLegs, GoOnAsTheyMoved) {
   const auto rate = [](const WalkerParticle& p, int k) {
-    return p.extra[size_t(k)] - p.extra_before[size_t(k)];
+    return p.residual[size_t(k)] - p.residual_before[size_t(k)];
   };
   for (const WalkerParticle& particle : set) {
     const WalkerParticle other_way = exchanged(particle);
@@ -104,8 +104,8 @@ TEST_P(ExchangedLegs, OfARecordAreThoseOfItsParticles) {
   FrameRecord record;
   record.estimate = estimate_frame(walking.model, set, weights, kFrame, 1);
   record.modes = stride_modes(set, weights);
-  exchange_legs(body, record);
-  for (WalkerParticle& particle : set) exchange_legs(context, particle);
+  mirror_legs(body, record);
+  for (WalkerParticle& particle : set) mirror_legs(context, particle);
   const FrameEstimate after = estimate_frame(walking.model, set, weights, kFrame, 1);
   for (int i = 0; i < kJointAngleCount; ++i) {
     const Spread &is = record.estimate.angles[size_t(i)], &wanted = after.angles[size_t(i)];
@@ -123,7 +123,7 @@ TEST_P(ExchangedLegs, OfARecordAreThoseOfItsParticles) {
 TEST_P(ExchangedLegs, OfAFilterAreThoseOfItsParticles) {
   WalkerFilter filter({}, 3, 1);
   filter.start(set);
-  exchange_legs(context, filter);
+  mirror_legs(context, filter);
   const auto& states = filter.particles().states;
   ASSERT_EQ(states.size(), set.size());
   for (size_t i = 0; i < set.size(); ++i) {

@@ -1,4 +1,4 @@
-#include "tracker/detect/sighting.h"
+#include "tracker/detect/detector.h"
 
 #include <cmath>
 
@@ -34,8 +34,8 @@ struct Film {
   std::vector<Place> early, late;
   WindowScore score;
 
-  std::optional<Sighting> walk(int threads = 1) const {
-    return find_walk({kFrames, early, late}, score, kDt, {0, -6}, {}, threads);
+  std::optional<DetectedWalk> walk(int threads = 1) const {
+    return detect_walk({kFrames, early, late}, score, kDt, {0, -6}, {}, threads);
   }
 };
 
@@ -97,7 +97,8 @@ TEST(FindWalk, SparesItselfTheFineStepsWhereNobodyIsSeenForAMoment) {
 
 // What one camera scores: a ridge along the viewing ray, forty times as long as it is wide.
 double ridge(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double height) {
-  const Eigen::Vector2d eye(0, -6), from_eye = place - eye, true_ray = truth - eye;
+  const Eigen::Vector2d camera_position(0, -6), from_eye = place - camera_position,
+                                                true_ray = truth - camera_position;
   const double farther = from_eye.norm() / true_ray.norm() - 1;
   const double aside = std::remainder(
       std::atan2(from_eye.x(), from_eye.y()) - std::atan2(true_ray.x(), true_ray.y()), 2 * kPi);
@@ -113,7 +114,8 @@ TEST(FindWalk, ClimbsAlongTheRayOfEitherEnd) {
       film([&](size_t frame, const Eigen::Vector2d& p) { return ridge(p, truth(frame), 100); });
   // The only candidate of the late frame stands on its ray, but half as far again away.
   const size_t late = window_ends(kFrames).late;
-  const Eigen::Vector2d eye(0, -6), far = eye + 1.5 * (truth(late) - eye);
+  const Eigen::Vector2d camera_position(0, -6),
+      far = camera_position + 1.5 * (truth(late) - camera_position);
   f.late = {{far, f.score(late, far, {})}};
   const auto walk = f.walk();
   ASSERT_TRUE(walk);

@@ -1,4 +1,4 @@
-#include "tracker/moves/course.h"
+#include "tracker/moves/global_pose.h"
 
 #include <cmath>
 
@@ -13,13 +13,13 @@ namespace {
 using Eigen::Vector2d;
 using Matrix = Eigen::Matrix<double, 5, 5>;
 
-// The course's angles among the extras, in its order.
-constexpr std::array<Extra, 3> kAngles{kHeading, kCrouch, kTilt};
+// The course's angles among the residual angles, in its order.
+constexpr std::array<ResidualAngle, 3> kAngles{kHeading, kCrouch, kTilt};
 
-Course course(const WalkerParticle& particle) {
-  Course out;
-  out << particle.pose.root.head<2>(), particle.extra[kHeading], particle.extra[kCrouch],
-      particle.extra[kTilt];
+GlobalPose global_pose_of(const WalkerParticle& particle) {
+  GlobalPose out;
+  out << particle.pose.root.head<2>(), particle.residual[kHeading], particle.residual[kCrouch],
+      particle.residual[kTilt];
   return out;
 }
 
@@ -59,31 +59,32 @@ CourseSpread course_spread(std::span<const WalkerParticle> particles,
   const std::vector<double> weights = normalised_weights(log_weights);
   CourseSpread out;
   for (size_t i = 0; i < particles.size(); ++i)
-    if (weights[i] > 0) out.mean += weights[i] * course(particles[i]);
+    if (weights[i] > 0) out.mean += weights[i] * global_pose_of(particles[i]);
   Matrix covariance = Matrix::Zero();
   for (size_t i = 0; i < particles.size(); ++i) {
     if (!(weights[i] > 0)) continue;
-    const Course away = course(particles[i]) - out.mean;
+    const GlobalPose away = global_pose_of(particles[i]) - out.mean;
     covariance += weights[i] * away * away.transpose();
   }
   out.factor = factor_of(covariance);
   return out;
 }
 
-void change_course(const MotionContext& context, const CourseSpread& spread, double boldness,
-                   WalkerParticle& particle, Rng& rng) {
-  const Course now = course(particle);
-  Course normal;
+void move_global_pose(const MotionContext& context, const CourseSpread& spread, double step_size,
+                      WalkerParticle& particle, Rng& rng) {
+  const GlobalPose now = global_pose_of(particle);
+  GlobalPose normal;
   for (double& z : normal) z = rng.normal();
-  const Course wanted = spread.mean + std::sqrt(1 - boldness * boldness) * (now - spread.mean) +
-                        boldness * (spread.factor * normal);
+  const GlobalPose wanted = spread.mean +
+                            std::sqrt(1 - step_size * step_size) * (now - spread.mean) +
+                            step_size * (spread.factor * normal);
   const Pose was = particle.pose;
   for (size_t k = 0; k < kAngles.size(); ++k) {
     const double change = wanted[2 + int(k)] - now[2 + int(k)];
-    particle.predicted_extra[kAngles[k]] += change;
-    particle.extra_before[kAngles[k]] += change;
+    particle.predicted_residual[kAngles[k]] += change;
+    particle.residual_before[kAngles[k]] += change;
   }
-  context.moves.realise(context, particle);
+  context.moves.apply_noise(context, particle);
   const Vector2d shift = wanted.head<2>() - particle.pose.root.head<2>();
   particle.predicted_ball += shift;
   particle.ball += shift;

@@ -11,7 +11,7 @@
 
 namespace walktrack {
 
-struct BookedStep {
+struct LibraryStep {
   static constexpr size_t kMoments = 24;
   StepAim aim;
   KneedControls controls;
@@ -21,20 +21,20 @@ struct BookedStep {
 
 // Steps over all speeds and step lengths of the prior's table, on the slopes that a walker can
 // meet.
-class StepBook {
+class StepLibrary {
  public:
-  StepBook(const BodyModel& model, const GaitPrior& prior);
+  StepLibrary(const BodyModel& model, const GaitPrior& prior);
 
   // A step of about the same speed and length on about the slope that `heading` meets, drawn as
   // likely there and back; none beyond the table.
-  const BookedStep* near(const StepAim& aim, double heading, Rng& rng) const;
+  const LibraryStep* near(const StepAim& aim, double heading, Rng& rng) const;
 
  private:
   double slowest_, speed_step_;   // m/s
   double shortest_, ratio_step_;  // of the preferred step length
   WalkerUnits units_;
   Eigen::Vector2d downhill_;
-  std::vector<BookedStep> steps_;  // by slope, speed and step length, which runs fastest
+  std::vector<LibraryStep> steps_;  // by slope, speed and step length, which runs fastest
 };
 
 }  // namespace walktrack

@@ -1,4 +1,4 @@
-#include "tracker/leg_names.h"
+#include "tracker/leg_label_evidence.h"
 
 #include <algorithm>
 

@@ -17,7 +17,7 @@
 
 namespace walktrack {
 
-struct SightingConfig {
+struct DetectorConfig {
   double window = 1.2;     // s of film that a walk is read from: two steps
   double slowest = 0.35;   // m/s: who is slower is not walking
   double fastest = 3.0;    // m/s
@@ -29,7 +29,7 @@ struct SightingConfig {
 
 // Where the person was and how they moved, on the ground, metres and m/s.
 // Along the viewing ray both are less certain.
-struct Sighting {
+struct DetectedWalk {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // at the window's first frame
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
   Eigen::Vector2d ray = Eigen::Vector2d::UnitX();  // over the ground, away from the first camera
@@ -57,11 +57,11 @@ double side_on_heading(const Camera& camera, const Eigen::Vector2d& position);
 // Ground points under the pixel grid of `cameras[0]` at which the figure lies wholly inside the
 // image of every camera that has it in front.
 std::vector<Eigen::Vector2d> standing_places(std::span<const Camera> cameras, double height,
-                                             const SightingConfig& config);
+                                             const DetectorConfig& config);
 
 // The best of `places`, at least half a metre apart, best first.
 std::vector<Place> find_figures(const PlaceScore& score, std::span<const Eigen::Vector2d> places,
-                                const SightingConfig& config, int threads);
+                                const DetectorConfig& config, int threads);
 
 // The two frames of a window that have to say where somebody may stand: through a candidate of each
 // go the lines that are tried.
@@ -73,19 +73,20 @@ WindowEnds window_ends(size_t frames);
 struct WindowCandidates {
   size_t frames;  // of the window
   std::span<const Place> early, late;
-  std::span<const Sighting> lines{};  // further ones to try, from elsewhere
+  std::span<const DetectedWalk> lines{};  // further ones to try, from elsewhere
 };
 
 // The walk through a window's frames, dt apart; nullopt when nobody walks there, is cut
-// off by an edge or hidden in part of the frames. `eye`: where the camera stands that sees the
-// distance least (any, if several do).
-std::optional<Sighting> find_walk(const WindowCandidates& candidates, const WindowScore& score,
-                                  double dt, const Eigen::Vector2d& eye,
-                                  const SightingConfig& config, int threads);
+// off by an edge or hidden in part of the frames. `camera_position`: where the camera stands that
+// sees the distance least (any, if several do).
+std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
+                                        const WindowScore& score, double dt,
+                                        const Eigen::Vector2d& camera_position,
+                                        const DetectorConfig& config, int threads);
 
 // The line about `walk` that explains a window's frames best by this score, with its own score.
-Sighting nearest_walk(const Sighting& walk, size_t frames, const WindowScore& score, double dt,
-                      const Eigen::Vector2d& eye);
+DetectedWalk nearest_walk(const DetectedWalk& walk, size_t frames, const WindowScore& score,
+                          double dt, const Eigen::Vector2d& camera_position);
 
 // How far the log-posterior of a line of `frames` frames, dt apart, grows with its score, nats for
 // one nat a frame: frames close in time err together.

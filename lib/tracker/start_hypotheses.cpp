@@ -1,4 +1,4 @@
-#include "tracker/contest.h"
+#include "tracker/start_hypotheses.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,23 +13,23 @@ namespace {
 // A hypothesis this many nats behind the best has lost (odds of 1 to 3 million).
 constexpr double kHopeless = 15;
 // The evidence of a few particles is itself uncertain. Of 25 starts (side views from near and from
-// afar, two cameras; reports/left_and_right.md) the leading hypothesis was the wrong one as often as if so many
-// nats were worth one.
+// afar, two cameras; reports/left_and_right.md) the leading hypothesis was the wrong one as often
+// as if so many nats were worth one.
 constexpr double kNatsForOne = 50;
 
 }  // namespace
 
-Contest::Contest(const MotionContext& motion, const StartConfig& start, const FilterConfig& filter,
-                 const Sighting& sighting, std::optional<double> stride_phase, uint64_t seed,
-                 int threads)
+StartHypotheses::StartHypotheses(const MotionContext& motion, const StartConfig& start,
+                                 const FilterConfig& filter, const DetectedWalk& detected,
+                                 std::optional<double> stride_phase, uint64_t seed, int threads)
     : filter_(filter), seed_(seed), frames_to_decide_(frames_in(start.seconds, motion.dt)) {
   FilterConfig small = filter;
   small.particles = start.particles;
-  if (sighting.standing) {  // in no phase of a stride
+  if (detected.standing) {  // in no phase of a stride
     hypotheses_.push_back({WalkerFilter(filter, seed, threads), seed, 0, {}, false});
     StartConfig all = start;
     all.particles = filter.particles;
-    hypotheses_.back().filter.start(spawn(motion, all, sighting, {}, seed));
+    hypotheses_.back().filter.start(spawn(motion, all, detected, {}, seed));
     return;
   }
   for (const PhaseRange& range :
@@ -37,19 +37,19 @@ Contest::Contest(const MotionContext& motion, const StartConfig& start, const Fi
     // Streams of its own.
     const uint64_t own = seed + 0x9E3779B97F4A7C15u * (hypotheses_.size() + 1);
     hypotheses_.push_back({WalkerFilter(small, own, threads), own, 0, {}, false});
-    hypotheses_.back().filter.start(spawn(motion, start, sighting, range, own));
+    hypotheses_.back().filter.start(spawn(motion, start, detected, range, own));
   }
 }
 
-const Contest::Hypothesis& Contest::leader() const {
+const StartHypotheses::Hypothesis& StartHypotheses::leader() const {
   return *std::max_element(
       hypotheses_.begin(), hypotheses_.end(), [](const Hypothesis& a, const Hypothesis& b) {
-        return a.beaten != b.beaten ? a.beaten : a.log_evidence < b.log_evidence;
+        return a.rejected != b.rejected ? a.rejected : a.log_evidence < b.log_evidence;
       });
 }
 
-bool Contest::step(const WalkerFilterContext& context, const SceneEvidence& evidence,
-                   uint32_t frame) {
+bool StartHypotheses::step(const WalkerFilterContext& context, const SceneEvidence& evidence,
+                           uint32_t frame) {
   for (Hypothesis& each : hypotheses_) {
     each.records.push_back(advance(context, evidence, frame, each.seed, frames_ == 0, each.filter));
     each.log_evidence += each.records.back().filter.log_evidence;
@@ -58,17 +58,17 @@ bool Contest::step(const WalkerFilterContext& context, const SceneEvidence& evid
   const double best = leader().log_evidence;
   if (best == -std::numeric_limits<double>::infinity()) return false;
   for (Hypothesis& each : hypotheses_)
-    each.beaten = each.beaten || each.log_evidence < best - kHopeless;
-  const std::optional<uint64_t> kept = rival();
+    each.rejected = each.rejected || each.log_evidence < best - kHopeless;
+  const std::optional<uint64_t> kept = mirror_hypothesis();
   std::erase_if(hypotheses_,
-                [&](const Hypothesis& each) { return each.beaten && each.seed != kept; });
+                [&](const Hypothesis& each) { return each.rejected && each.seed != kept; });
   weigh_modes();
   return true;
 }
 
 // The seed of the best of those whose legs are exchanged against the leader's: it stays, so that
 // the doubt can be told.
-std::optional<uint64_t> Contest::rival() const {
+std::optional<uint64_t> StartHypotheses::mirror_hypothesis() const {
   const double phase = leader().records.back().modes.phase;
   const Hypothesis* best = nullptr;
   for (const Hypothesis& each : hypotheses_) {
@@ -80,7 +80,7 @@ std::optional<uint64_t> Contest::rival() const {
 }
 
 // Of the newest frame: how probable are hypotheses with legs exchanged against one's own.
-void Contest::weigh_modes() {
+void StartHypotheses::weigh_modes() {
   std::vector<double> evidence, phases;
   for (const Hypothesis& each : hypotheses_) {
     evidence.push_back(each.log_evidence / kNatsForOne);
@@ -93,15 +93,16 @@ void Contest::weigh_modes() {
   }
 }
 
-std::vector<WalkerParticle> Contest::survivors() const {
+std::vector<WalkerParticle> StartHypotheses::resampled() const {
   std::vector<double> evidence;
   for (const Hypothesis& each : hypotheses_)
-    evidence.push_back(each.beaten ? -std::numeric_limits<double>::infinity() : each.log_evidence);
+    evidence.push_back(each.rejected ? -std::numeric_limits<double>::infinity()
+                                     : each.log_evidence);
   const std::vector<double> share = normalised_weights(evidence);
   std::vector<const WalkerParticle*> states;
   std::vector<double> log_weights;
   for (size_t h = 0; h < hypotheses_.size(); ++h) {
-    if (hypotheses_[h].beaten) continue;
+    if (hypotheses_[h].rejected) continue;
     const auto& set = hypotheses_[h].filter.particles();
     const double total = log_sum_exp(set.log_weights);
     for (size_t i = 0; i < set.states.size(); ++i) {

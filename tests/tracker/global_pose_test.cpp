@@ -1,4 +1,4 @@
-#include "tracker/moves/course.h"
+#include "tracker/moves/global_pose.h"
 
 #include <cmath>
 
@@ -56,7 +56,7 @@ TEST(ChangeCourse, KeepsMeanAndSpread) {
   const CourseSpread before = course_spread(set, equal_weights(set.size()));
   for (size_t i = 0; i < set.size(); ++i) {
     Rng rng(6, Purpose::kMoves, 0, static_cast<uint32_t>(i));
-    for (int k = 0; k < 20; ++k) change_course(context, before, 0.5, set[i], rng);
+    for (int k = 0; k < 20; ++k) move_global_pose(context, before, 0.5, set[i], rng);
   }
   const CourseSpread after = course_spread(set, equal_weights(set.size()));
   for (int k = 0; k < 5; ++k) {
@@ -74,14 +74,14 @@ TEST(ChangeCourse, TurnsTheFigureRigidlyWithItsPast) {
   const MotionContext context = walking.context(kDt);
   WalkerParticle p = walkers_on_their_way(context, 1)[0];
   CourseSpread spread;
-  spread.mean << p.pose.root.x() + 1, p.pose.root.y() - 2, p.pose.heading + 0.4, p.extra[kCrouch],
-      p.extra[kTilt];
+  spread.mean << p.pose.root.x() + 1, p.pose.root.y() - 2, p.pose.heading + 0.4,
+      p.residual[kCrouch], p.residual[kTilt];
   const auto joints = [&](const Pose& pose) {
     return forward_kinematics(walking.model.body, pose).joints;
   };
   const JointPositions now = joints(p.pose), before = joints(p.pose_before);
   Rng rng(1, Purpose::kMoves);
-  change_course(context, spread, 1, p, rng);  // all the way to the mean: there is no spread
+  move_global_pose(context, spread, 1, p, rng);  // all the way to the mean: there is no spread
   EXPECT_NEAR(p.pose.root.x(), spread.mean[0], 1e-12);
   EXPECT_NEAR(p.pose.heading, spread.mean[2], 1e-12);
   const JointPositions turned = joints(p.pose), turned_before = joints(p.pose_before);
@@ -91,7 +91,7 @@ TEST(ChangeCourse, TurnsTheFigureRigidlyWithItsPast) {
     EXPECT_NEAR((turned[j] - turned_before[j]).norm(), (now[j] - before[j]).norm(), 1e-9);
   }
   // The standing foot came along.
-  const Pose again = pose_of(walking.model, p.walker, p.stance, p.aim, p.ball, p.extra);
+  const Pose again = pose_of(walking.model, p.walker, p.stance, p.aim, p.ball, p.residual);
   EXPECT_LT((again.root - p.pose.root).norm(), 1e-9);
 }
 

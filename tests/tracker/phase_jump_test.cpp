@@ -1,4 +1,4 @@
-#include "tracker/moves/rephase.h"
+#include "tracker/moves/phase_jump.h"
 
 #include <cmath>
 
@@ -22,7 +22,7 @@ MotionConfig with_rephasing(double rate) {
 // Walkers on their way, each rephased once if it is in a hundred attempts; how many were.
 template <typename Check>
 int rephase_each(const Walking& walking, int count, const Check& check) {
-  const StepBook steps(walking.model, walking.prior);
+  const StepLibrary steps(walking.model, walking.prior);
   const MotionContext context = walking.context(kDt, with_rephasing(0));
   int accepted = 0;
   uint32_t i = 0;
@@ -31,7 +31,7 @@ int rephase_each(const Walking& walking, int count, const Check& check) {
     Rng rng = stream(i++);
     bool changed = false;
     for (int attempt = 0; attempt < 100 && !changed; ++attempt)
-      changed = rephase(context, steps, particle, rng);
+      changed = try_phase_jump(context, steps, particle, rng);
     if (!changed) continue;
     ++accepted;
     check(context, before, particle);
@@ -55,7 +55,7 @@ TEST(Rephase, ThePoseStays) {
       [&](const MotionContext& context, const WalkerParticle& before, const WalkerParticle& now) {
         other_leg += now.stance != before.stance;
         const Pose shown =
-            pose_of(context.model, now.walker, now.stance, now.aim, now.ball, now.extra);
+            pose_of(context.model, now.walker, now.stance, now.aim, now.ball, now.residual);
         expect_same_legs(shown, before.pose, 1e-12);
         EXPECT_LT((shown.root - before.pose.root).head<2>().norm(), 1e-12);
       });
@@ -66,24 +66,24 @@ TEST(Rephase, ThePoseStays) {
 // Gives the particle strays, now and a frame ago, of their stationary distribution, and the pose
 // that they make. Crouched, so that no knee straightens and is kept from bending back.
 void stray(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  particle.extra[kCrouch] = rad_from_deg(40);
+  particle.residual[kCrouch] = rad_from_deg(40);
   for (size_t k = kTilt; k <= kShankRight; ++k) {
-    const MarkovConstants c = markov_constants(static_cast<Extra>(k));
+    const MarkovConstants c = markov_constants(static_cast<ResidualAngle>(k));
     const double r = std::exp(-context.dt / c.time), correlation = 2 * r / (1 + r * r);
     const double sd = context.config.misfit * c.spread;
     const double z = rng.truncated_normal(4), other = rng.truncated_normal(4);
-    particle.extra[k] = sd * z;
-    particle.extra_before[k] =
+    particle.residual[k] = sd * z;
+    particle.residual_before[k] =
         sd * (correlation * z + std::sqrt(1 - correlation * correlation) * other);
   }
   particle.pose = pose_of(context.model, particle.walker, particle.stance, particle.aim,
-                          particle.ball, particle.extra);
+                          particle.ball, particle.residual);
 }
 
 // Metropolis-Hastings: strays that have their distribution keep it, of now and of their change.
 TEST(Rephase, LeavesTheStraysDistribution) {
   const Walking walking;
-  const StepBook steps(walking.model, walking.prior);
+  const StepLibrary steps(walking.model, walking.prior);
   const MotionContext context = walking.context(kDt, with_rephasing(0));
   constexpr int kParticles = 2000;
   int accepted = 0;
@@ -91,12 +91,13 @@ TEST(Rephase, LeavesTheStraysDistribution) {
   for (WalkerParticle& particle : walkers(context, 1.3, kParticles)) {
     Rng rng = stream(static_cast<uint32_t>(count));
     stray(context, particle, rng);
-    for (int repeat = 0; repeat < 20; ++repeat) accepted += rephase(context, steps, particle, rng);
+    for (int repeat = 0; repeat < 20; ++repeat)
+      accepted += try_phase_jump(context, steps, particle, rng);
     for (size_t k = kTilt; k <= kShankRight; ++k) {
-      const MarkovConstants c = markov_constants(static_cast<Extra>(k));
+      const MarkovConstants c = markov_constants(static_cast<ResidualAngle>(k));
       const double sd = context.config.misfit * c.spread, r = std::exp(-kDt / c.time);
-      const double change = particle.extra[k] - particle.extra_before[k];
-      squares += std::pow(particle.extra[k] / sd, 2);
+      const double change = particle.residual[k] - particle.residual_before[k];
+      squares += std::pow(particle.residual[k] / sd, 2);
       changes += std::pow(change / sd * std::sqrt((1 + r * r) / 2) / (1 - r), 2);
       ++count;
     }
@@ -110,7 +111,7 @@ TEST(Rephase, LeavesTheStraysDistribution) {
 // A set whose walkers still swing a leg that has come down finds the new step.
 TEST(Rephase, FindsAMissedStrike) {
   const Walking walking;
-  const StepBook steps(walking.model, walking.prior);
+  const StepLibrary steps(walking.model, walking.prior);
   const MotionContext context = walking.context(kDt, with_rephasing(0));
   const KneedModel& model = context.model.walker;
   const PriorGait gait = gait_at(context.prior, model.parameters, 1.3, 0.7);
@@ -122,15 +123,15 @@ TEST(Rephase, FindsAMissedStrike) {
     particle.aim = {gait.speed, gait.step_length};
     const auto pose_at = [&](double phase) {
       return pose_of(context.model, state_at_phase(model, gait, phase), Side::kRight, particle.aim,
-                     Eigen::Vector2d::Zero(), particle.extra);
+                     Eigen::Vector2d::Zero(), particle.residual);
     };
     particle.pose = pose_at(kIntoTheStep);
     particle.stance = Side::kLeft;
     particle.walker = state_at_phase(model, gait, 1);
-    particle.extra[kThigh] = rad_from_deg(25);  // what it takes to show that pose, about
-    particle.extra[kThighRight] = rad_from_deg(-25);
+    particle.residual[kThigh] = rad_from_deg(25);  // what it takes to show that pose, about
+    particle.residual[kThighRight] = rad_from_deg(-25);
     Rng rng = stream(i);
-    for (int frame = 0; frame < 60; ++frame) rephase(context, steps, particle, rng);
+    for (int frame = 0; frame < 60; ++frame) try_phase_jump(context, steps, particle, rng);
     const double phase = particle.walker.since_transfer / particle.aim.duration();
     found += particle.stance == Side::kRight && std::abs(phase - kIntoTheStep) < 0.15;
   }
@@ -139,13 +140,13 @@ TEST(Rephase, FindsAMissedStrike) {
 
 TEST(Rephase, WalkersThatMayNotStrayAreLeftAlone) {
   const Walking walking;
-  const StepBook steps(walking.model, walking.prior);
+  const StepLibrary steps(walking.model, walking.prior);
   MotionConfig config = with_rephasing(0);
   config.misfit = 0;
   const MotionContext context = walking.context(kDt, config);
   for (WalkerParticle& particle : walkers_on_their_way(context, 20)) {
     Rng rng = stream(0);
-    EXPECT_FALSE(rephase(context, steps, particle, rng));
+    EXPECT_FALSE(try_phase_jump(context, steps, particle, rng));
   }
 }
 

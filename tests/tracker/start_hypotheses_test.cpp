@@ -1,4 +1,4 @@
-#include "tracker/contest.h"
+#include "tracker/start_hypotheses.h"
 
 #include <cmath>
 
@@ -18,24 +18,24 @@ struct Blind {
   WalkerFilterContext context{scene, walking.context(kFrame), 0, 1};
   StartConfig start;
   FilterConfig filter;
-  Sighting sighting;
+  DetectedWalk detected;
 
   Blind() {
     start.phases = 3;
     start.particles = 20;
     start.seconds = 0.2;
     filter.particles = 60;
-    sighting.velocity = {1.2, 0};
+    detected.velocity = {1.2, 0};
   }
 
-  Contest contest(std::optional<double> stride_phase) const {
-    return {context.motion, start, filter, sighting, stride_phase, 5, 1};
+  StartHypotheses contest(std::optional<double> stride_phase) const {
+    return {context.motion, start, filter, detected, stride_phase, 5, 1};
   }
 };
 
-TEST(Contest, KeepsWhatNothingTellsApart) {
+TEST(StartHypotheses, KeepsWhatNothingTellsApart) {
   const Blind blind;
-  Contest contest = blind.contest(std::nullopt);
+  StartHypotheses contest = blind.contest(std::nullopt);
   uint32_t frame = 0;
   while (!contest.decided()) {
     ASSERT_LT(frame, 100u);
@@ -43,7 +43,7 @@ TEST(Contest, KeepsWhatNothingTellsApart) {
   }
   EXPECT_EQ(contest.frames(), 6);
   EXPECT_EQ(contest.records().size(), 6u);
-  const std::vector<WalkerParticle> left = contest.survivors();
+  const std::vector<WalkerParticle> left = contest.resampled();
   ASSERT_EQ(left.size(), 60u);
   // Equal evidence all around the stride: as many stand on one foot as on the other.
   int on_left = 0;
@@ -53,10 +53,10 @@ TEST(Contest, KeepsWhatNothingTellsApart) {
 }
 
 // Half of what nothing tells apart stands on the other foot, and the record says so.
-TEST(Contest, SaysHowMuchSpeaksForExchangedLegs) {
+TEST(StartHypotheses, SaysHowMuchSpeaksForExchangedLegs) {
   const Blind blind;
   for (const bool phase_known : {false, true}) {
-    Contest contest = blind.contest(phase_known ? std::optional(0.25) : std::nullopt);
+    StartHypotheses contest = blind.contest(phase_known ? std::optional(0.25) : std::nullopt);
     for (uint32_t frame = 0; !contest.decided(); ++frame)
       ASSERT_TRUE(contest.step(blind.context, {}, frame));
     for (const FrameRecord& record : contest.records())
@@ -64,23 +64,23 @@ TEST(Contest, SaysHowMuchSpeaksForExchangedLegs) {
   }
 }
 
-TEST(Contest, AStatedPhaseIsKept) {
+TEST(StartHypotheses, AStatedPhaseIsKept) {
   const Blind blind;
-  Contest contest = blind.contest(0.1);
+  StartHypotheses contest = blind.contest(0.1);
   uint32_t frame = 0;
   while (!contest.decided()) ASSERT_TRUE(contest.step(blind.context, {}, frame++));
   EXPECT_EQ(contest.frames(), 6);
-  for (const WalkerParticle& p : contest.survivors()) EXPECT_EQ(p.stance, Side::kLeft);
+  for (const WalkerParticle& p : contest.resampled()) EXPECT_EQ(p.stance, Side::kLeft);
 }
 
-TEST(Contest, TheSameForAnyNumberOfThreads) {
+TEST(StartHypotheses, TheSameForAnyNumberOfThreads) {
   const Blind blind;
   std::vector<double> places[2];
   for (const int threads : {1, 4}) {
-    Contest contest(blind.context.motion, blind.start, blind.filter, blind.sighting, std::nullopt,
-                    5, threads);
+    StartHypotheses contest(blind.context.motion, blind.start, blind.filter, blind.detected,
+                            std::nullopt, 5, threads);
     for (uint32_t frame = 0; !contest.decided(); ++frame) contest.step(blind.context, {}, frame);
-    for (const WalkerParticle& p : contest.survivors())
+    for (const WalkerParticle& p : contest.resampled())
       places[threads == 1 ? 0 : 1].push_back(p.pose.root.x());
   }
   EXPECT_EQ(places[0], places[1]);

@@ -1,4 +1,4 @@
-#include "tracker/motion/step_book.h"
+#include "tracker/motion/step_library.h"
 
 #include <cmath>
 #include <map>
@@ -16,31 +16,31 @@ constexpr StepAim kUsual{1.3, 0.7};
 Rng stream(uint32_t i) { return {5, Purpose::kTest, 0, i}; }
 
 // The book holds what a simulation from the support transfer gives.
-TEST(StepBook, MomentsAreThoseOfTheGait) {
+TEST(StepLibrary, MomentsAreThoseOfTheGait) {
   const Walking walking;
-  const StepBook steps(walking.model, walking.prior);
+  const StepLibrary steps(walking.model, walking.prior);
   const KneedModel& model = walking.model.walker;
   Rng rng = stream(0);
-  const BookedStep* step = steps.near(kUsual, 0, rng);
+  const LibraryStep* step = steps.near(kUsual, 0, rng);
   ASSERT_NE(step, nullptr);
   const PriorGait gait =
       gait_at(walking.prior, model.parameters, step->aim.speed, step->aim.step_length);
   EXPECT_NEAR(step->aim.speed, gait.speed, 1e-9);
-  for (size_t k = 0; k < BookedStep::kMoments; ++k) {
-    const KneedState state = state_at_phase(model, gait, double(k) / BookedStep::kMoments);
+  for (size_t k = 0; k < LibraryStep::kMoments; ++k) {
+    const KneedState state = state_at_phase(model, gait, double(k) / LibraryStep::kMoments);
     // Simulated in as many pieces, each with its own last time step: the integrator's error.
     EXPECT_LT((step->moments[k].q - state.q).norm(), 1e-4) << k;
     EXPECT_NEAR(step->moments[k].since_transfer, state.since_transfer, 1e-9);
   }
 }
 
-TEST(StepBook, NearStepsAreNearAndSeveral) {
+TEST(StepLibrary, NearStepsAreNearAndSeveral) {
   const Walking walking;
-  const StepBook steps(walking.model, walking.prior);
-  std::set<const BookedStep*> found;
+  const StepLibrary steps(walking.model, walking.prior);
+  std::set<const LibraryStep*> found;
   for (uint32_t i = 0; i < 200; ++i) {
     Rng rng = stream(i);
-    const BookedStep* step = steps.near(kUsual, 0, rng);
+    const LibraryStep* step = steps.near(kUsual, 0, rng);
     ASSERT_NE(step, nullptr);
     EXPECT_NEAR(step->aim.speed, kUsual.speed, 0.25);
     EXPECT_NEAR(step->aim.step_length, kUsual.step_length, 0.25);
@@ -50,13 +50,13 @@ TEST(StepBook, NearStepsAreNearAndSeveral) {
 }
 
 // Metropolis-Hastings asks for it: as likely there as back.
-TEST(StepBook, DrawsAsLikelyThereAndBack) {
+TEST(StepLibrary, DrawsAsLikelyThereAndBack) {
   const Walking walking;
-  const StepBook steps(walking.model, walking.prior);
+  const StepLibrary steps(walking.model, walking.prior);
   Rng first = stream(0);
-  const BookedStep* here = steps.near(kUsual, 0, first);
+  const LibraryStep* here = steps.near(kUsual, 0, first);
   constexpr int kDraws = 4000;
-  std::map<const BookedStep*, int> there;
+  std::map<const LibraryStep*, int> there;
   for (uint32_t i = 0; i < kDraws; ++i) {
     Rng rng = stream(i);
     ++there[steps.near(here->aim, 0, rng)];
@@ -72,9 +72,9 @@ TEST(StepBook, DrawsAsLikelyThereAndBack) {
   }
 }
 
-TEST(StepBook, NothingBeyondTheTable) {
+TEST(StepLibrary, NothingBeyondTheTable) {
   const Walking walking;
-  const StepBook steps(walking.model, walking.prior);
+  const StepLibrary steps(walking.model, walking.prior);
   for (const StepAim aim : {StepAim{0.1, 0.7}, StepAim{9, 0.7}, StepAim{1.3, 5}}) {
     Rng rng = stream(0);
     EXPECT_EQ(steps.near(aim, 0, rng), nullptr) << aim.speed << ' ' << aim.step_length;
