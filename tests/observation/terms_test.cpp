@@ -30,7 +30,8 @@ TEST(Terms, SayNothingOfNothing) {
 
 TEST(Terms, ThatAreOffCostNothing) {
   ObservationConfig off;
-  off.background.enabled = off.foreground.enabled = off.flow.enabled = false;
+  off.background.enabled = off.foreground.enabled = false;
+  off.flow.enabled = TermSetting::kOff;
   const TermWork work{1e4, 120, 1e3, 11, 4};
   Terms::each([&]<typename Term>() { EXPECT_TRUE(Term::cost(off, work).empty()) << Term::kName; });
   for (const TermSwitch& each : term_switches()) EXPECT_FALSE(each.on(off)) << each.key;
