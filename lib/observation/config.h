@@ -51,8 +51,8 @@ struct FlowConfig {
 // has none.
 struct KeypointConfig {
   TermSetting enabled = TermSetting::kAuto;  // decided before anything is tracked
-  int every = 3;                                // frames, of which the network looks at one
-  std::string model = "movenet_lightning";  // the shipped network, or a file of the same family
+  int every = 3;                             // frames, of which the network looks at one
+  std::string model = "movenet_lightning";   // the shipped network, or a file of the same family
   // Of one point: a network's points err together from joint to joint and for several frames.
   double weight = .2;
   // Probability that the names of a frame's left and right are swapped. Of clear views it is below

@@ -102,43 +102,44 @@ Origin origin_of(const FlowConfig& config, const FlowField& flow, const Capsule&
           static_cast<float>(config.error_px * config.error_px + motion * motion), true};
 }
 
-// A product of Student-t densities, a few at a time: far from overflow.
+// A product of Student-t densities; logarithms are taken of some factors at a time, few enough to
+// be far from overflow.
 class Likelihood {
  public:
   Likelihood(const FlowConfig& config)
       : noise2_(static_cast<float>(config.noise * config.noise)),
         dof_(static_cast<float>(config.dof)) {}
 
-  struct Product {
-    double scales = 1, misses = 1;
-    int count = 0, anything = 0;
-  };
-  static constexpr int kMostFactors = 24;
-
-  void multiply(float difference, float error2_slope2, Product& product) const {
+  void multiply(float difference, float error2_slope2) {
     const float scale2 = noise2_ + error2_slope2;
-    product.scales *= static_cast<double>(scale2);
-    product.misses *=
+    scales_ *= static_cast<double>(scale2);
+    misses_ *=
         static_cast<double>(dof_ * scale2 + std::min(difference * difference, kStrangest * scale2));
-    ++product.count;
+    if (++factors_ % kMostFactors == 0) take_logs();
   }
-  void add(const Product& product) {
-    log_scales_ += std::log(product.scales);
-    log_misses_ += std::log(product.misses);
-    count_ += product.count;
-    anything_ += product.anything;
-  }
+  void multiply_by_anything() { ++anything_; }
 
-  double log() const {
+  double log() {
+    take_logs();
     const double dof = static_cast<double>(dof_);
-    return log_t_peak(dof) * count_ + 0.5 * dof * log_scales_ - 0.5 * (dof + 1) * log_misses_ +
+    return log_t_peak(dof) * factors_ + 0.5 * dof * log_scales_ - 0.5 * (dof + 1) * log_misses_ +
            kLogAnything * anything_;
   }
 
  private:
+  // Of at most 1e17 each, with the largest errors that a configuration may state.
+  static constexpr int kMostFactors = 16;
+
+  void take_logs() {
+    log_scales_ += std::log(scales_);
+    log_misses_ += std::log(misses_);
+    scales_ = misses_ = 1;
+  }
+
   float noise2_, dof_;
+  double scales_ = 1, misses_ = 1;
   double log_scales_ = 0, log_misses_ = 0;
-  int count_ = 0, anything_ = 0;
+  int factors_ = 0, anything_ = 0;
 };
 
 // One run of cells in a row that shows one part.
@@ -159,56 +160,39 @@ class BodyPixels {
         width_(flow.known.width()),
         limit_(static_cast<float>(width_ - 1), static_cast<float>(flow.known.height() - 1)) {}
 
-  void add(Run run, const Origin& origin) {
-    for (int end = run.end; run.begin < end; run.begin = run.end) {
-      run.end = std::min(end, run.begin + Likelihood::kMostFactors);
-      add_some(run, origin);
-    }
-  }
-
-  double log_ratio() const { return sum_ + likelihood_.log(); }
-
- private:
-  // Of at most Likelihood::kMostFactors cells.
-  void add_some(const Run& run, const Origin& origin) {
+  void add(const Run& run, const Origin& origin) {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(run.row) * flow_.columns + run.begin;
     const FlowCell* cell = flow_.cells.data() + first;
     const uint8_t* shown = before_.part.data() + first;
     Vector2f was = origin.corner + static_cast<float>(run.begin) * origin.right +
                    static_cast<float>(run.row) * origin.down;
-    Likelihood::Product product;
     float given_up = 0;
     for (int column = run.begin; column < run.end; ++column, ++cell, ++shown, was += origin.right) {
       if (cell->now < 0) continue;
       given_up += cell->at_rest + (*shown != 0 ? cell->uncovered : 0);
-      multiply(*cell, was, run.part, origin, product);
+      multiply(*cell, was, run.part, origin);
     }
     sum_ -= static_cast<double>(given_up);
-    likelihood_.add(product);
   }
 
-  void multiply(const FlowCell& cell, const Vector2f& was, int part, const Origin& origin,
-                Likelihood::Product& product) const {
+  double log_ratio() { return sum_ + likelihood_.log(); }
+
+ private:
+  void multiply(const FlowCell& cell, const Vector2f& was, int part, const Origin& origin) {
     const float x = was.x(), y = was.y();
     if (!origin.known || !(x >= 0 && y >= 0 && x < limit_.x() && y < limit_.y()) ||
-        hidden(was, part)) {
-      ++product.anything;
-      return;
-    }
+        hidden(was, part))
+      return likelihood_.multiply_by_anything();
     const auto i = static_cast<int>(x), j = static_cast<int>(y);
     const float right = x - static_cast<float>(i), down = y - static_cast<float>(j);
     const EarlierPixel* const top =
         flow_.before.data() + static_cast<std::ptrdiff_t>(j) * width_ + i;
     const EarlierPixel* const bottom = top + width_;
     const float slope2 = (down < 0.5F ? top : bottom)[right < 0.5F ? 0 : 1].slope2;
-    if (slope2 < 0) {
-      ++product.anything;
-      return;
-    }
+    if (slope2 < 0) return likelihood_.multiply_by_anything();
     const float above = top[0].grey + right * (top[1].grey - top[0].grey);
     const float below = bottom[0].grey + right * (bottom[1].grey - bottom[0].grey);
-    likelihood_.multiply(cell.now - (above + down * (below - above)), origin.error2 * slope2,
-                         product);
+    likelihood_.multiply(cell.now - (above + down * (below - above)), origin.error2 * slope2);
   }
 
   // By another part, a frame ago.

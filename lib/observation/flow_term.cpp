@@ -14,6 +14,16 @@ namespace {
 constexpr double kFlowMeasured = 31;
 constexpr double kFlowWeighed = 602;
 
+// What is above the legs hardly moves against them, silhouettes know it as well, and the arms of
+// people pass in front of it where the body has none.
+CapsuleList project_legs(const Camera& camera, const PosedParts& parts) {
+  PosedParts legs;
+  for (const PosedPart& part : parts)
+    if (part.appearance == Appearance::kLegs || part.appearance == Appearance::kFeet)
+      legs.push_back(part);
+  return project_parts(camera, legs);
+}
+
 }  // namespace
 
 void FlowTerm::Memory::prepare(const ObserverSetting& setting, ObservedFrame& frame, int,
@@ -48,8 +58,8 @@ double FlowTerm::log_likelihood(const ObservationConfig& config, const CameraEvi
                                 const Camera& camera, const PosedBody& now,
                                 const PosedBody* before) {
   return evidence.pixel_weight * config.flow.weight *
-         flow_log_ratio(config.flow, evidence.flow, project_parts(camera, now.parts),
-                        project_parts(camera, before->parts));
+         flow_log_ratio(config.flow, evidence.flow, project_legs(camera, now.parts),
+                        project_legs(camera, before->parts));
 }
 
 TermCosts FlowTerm::cost(const ObservationConfig& config, const TermWork& work) {

@@ -67,7 +67,7 @@ void FlowTerm::describe(Groups& groups) {
             {"off", TermSetting::kOff},
             {"true", TermSetting::kOn},
             {"false", TermSetting::kOff}},
-           "whether the motion from frame to frame is compared; auto: not, as it has not been seen to gain");
+           "whether the motion between frames is compared; auto: no, it has not been seen to gain");
   w.number("error_px", &W::error_px, 0, 1000, "error of what rests, px");
   w.number("error_share", &W::error_share, 0, 10, "and more of what moves, share of its motion");
   w.number("noise", &W::noise, 0.01, 255, "of grey values from frame to frame, of 256");

@@ -37,6 +37,14 @@ TEST(Terms, ThatAreOffCostNothing) {
   for (const TermSwitch& each : term_switches()) EXPECT_FALSE(each.on(off)) << each.key;
 }
 
+CapsuleList legs_and_feet(const Camera& camera, const PosedBody& body) {
+  CapsuleList out;
+  for (const Capsule& each : project_parts(camera, body.parts))
+    if (each.appearance == Appearance::kLegs || each.appearance == Appearance::kFeet)
+      out.insert(each);
+  return out;
+}
+
 // The fold is the sum that is written out by hand.
 TEST(Terms, AddUp) {
   const CameraEvidence evidence = made_evidence(0.7, true);
@@ -53,11 +61,29 @@ TEST(Terms, AddUp) {
       if (Term::says(evidence))
         sum += Term::log_likelihood(ObservationConfig{}, evidence, camera, now, &before);
   });
-  const CapsuleList capsules_before = project_parts(camera, before.parts);
-  const double by_hand =
-      log_likelihood({}, evidence, project_parts(camera, now.parts), &capsules_before);
-  EXPECT_NE(by_hand, 0);
+  const double flow =
+      flow_log_ratio({}, evidence.flow, legs_and_feet(camera, now), legs_and_feet(camera, before));
+  const double by_hand = log_likelihood({}, evidence, project_parts(camera, now.parts), nullptr) +
+                         evidence.pixel_weight * FlowConfig{}.weight * flow;
+  EXPECT_NE(flow, 0);
   EXPECT_NEAR(sum, by_hand, 1e-12 * std::abs(by_hand));
+}
+
+// Arms that a body has change nothing, and neither do those that it has not.
+TEST(Terms, FlowAsksLegsAndFeetAlone) {
+  const CameraEvidence evidence = made_evidence(0.7, true);
+  const Camera camera = camera_at({0, -4, 1}, {0, 0, 1}, 300, kEvidenceWidth, kEvidenceHeight);
+  Pose pose;
+  pose.root = {0, 0, 0.95};
+  Pose earlier = pose;
+  earlier.root.x() -= 0.03;
+  const auto said = [&](bool all) {
+    const Body body = make_body(Subject{}, {.head = all, .arms = all});
+    const PosedBody now(body, pose), before(body, earlier);
+    return FlowTerm::log_likelihood({}, evidence, camera, now, &before);
+  };
+  EXPECT_NE(said(true), 0);
+  EXPECT_EQ(said(true), said(false));
 }
 
 }  // namespace
