@@ -125,9 +125,9 @@ class Pairs {
             grey_picture(stage, view, frame, frame * kFrame)};
   }
   static BackgroundModel empty_scene(const Stage& stage, const View& view) {
-    constexpr uint32_t kFrame = 1000;  // of no frame of the walk
+    constexpr uint32_t kAfter = 1000;  // of no frame of the walk
     std::vector<uint8_t> bgr =
-        developed(render(view, stage.world, {}).colour, Sensor{}, 3, 0, kFrame);
+        developed(render(view, stage.world, {}).colour, Sensor{}, 3, 0, kAfter);
     BackgroundSampler sampler({}, 1);
     sampler.add(cv::Mat(view.camera.height_px, view.camera.width_px, CV_8UC3, bgr.data()));
     return sampler.model();
