@@ -12,7 +12,7 @@ namespace {
 
 // CPU of a frame, nanoseconds, as scripts/measure_costs.py prints them.
 constexpr double kFlowMeasured = 31;
-constexpr double kFlowWeighed = 602;
+constexpr double kFlowWeighed = 380;
 
 // What is above the legs hardly moves against them, silhouettes know it as well, and the arms of
 // people pass in front of it where the body has none.
