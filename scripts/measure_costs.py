@@ -89,7 +89,7 @@ def features(before, record, plan):
     asked = [poses] + [others] * (len(plan["cameras"]) - 1)
     region, parts = sum(c["region_px"] for c in plan["cameras"]), plan["work"]["parts"]
     rows = sum(n * c["rows"] for n, c in zip(asked, plan["cameras"]))
-    flow, silhouettes = images["flow"]["enabled"], images["background"]["enabled"] or images["foreground"]["enabled"]
+    flow, silhouettes = images["flow"]["enabled"] == "on", images["background"]["enabled"] or images["foreground"]["enabled"]
     seconds = [r["timing"]["stage_cpu_seconds"] for r in (before, record)]
     ns = {stage: 1e9 * (s - seconds[0].get(stage, 0)) / (LONG - SHORT) for stage, s in seconds[1].items()}
     filmed = sum(c["size_px"][0] * c["size_px"][1] for c in plan["cameras"])

@@ -34,22 +34,25 @@ struct ForegroundConfig {
   double anchor_share = .5;    // share of the first frames learned that is never forgotten
 };
 
-struct FlowConfig {
-  bool enabled = false;  // costs time, wins where light is low, not in good light (README.md)
-  double error_px = 1;   // of a pose's motion that is still right, px
-  double noise = 4;      // of a residual without texture, grey levels of 256
-  double dof = 3;        // of the Student-t: the smaller, the more outliers are expected
-  double weight = 1;     // against the silhouettes, both per independent area
-};
+// Whether a term is on; auto is decided before anything is tracked.
+enum class TermSetting { kAuto, kOn, kOff };
 
-enum class KeypointSwitch { kAuto, kOn, kOff };
+struct FlowConfig {
+  TermSetting enabled = TermSetting::kAuto;
+  // Of the Student-t, fitted to a real video (README.md, Flow).
+  double noise = 1.2;        // of a difference without texture, grey levels of 256
+  double error_px = .35;     // of what rests, px: pictures tremble, edges are compressed
+  double error_share = .05;  // and more of what moves, as a share of its motion
+  double dof = 1.7;          // the smaller, the more outliers are expected
+  double weight = .5;        // against the silhouettes, both per independent area
+};
 
 // Points of a pose detector: from the scene's files, or from the built-in network where a camera
 // has none.
 struct KeypointConfig {
-  KeypointSwitch enabled = KeypointSwitch::kAuto;  // decided before anything is tracked
-  int every = 3;                                   // frames, of which the network looks at one
-  std::string model = "movenet_lightning";  // the shipped network, or a file of the same family
+  TermSetting enabled = TermSetting::kAuto;  // decided before anything is tracked
+  int every = 3;                             // frames, of which the network looks at one
+  std::string model = "movenet_lightning";   // the shipped network, or a file of the same family
   // Of one point: a network's points err together from joint to joint and for several frames.
   double weight = .2;
   // Probability that the names of a frame's left and right are swapped. Of clear views it is below

@@ -1,61 +1,94 @@
-// Optical flow without measuring it: how well two frames agree along the motion of a pose.
+// Optical flow without measuring it: how probable a frame is after the one before, if a body has
+// moved from one pose to the other.
 //
-// A material point of the visible surface is at pixel u now and, says the pose, was at w one frame
-// ago. If that is so, both pixels look alike; if the point is resting background, u looked alike
-// then. With the residuals m = I(u) - J(w) and r = I(u) - J(u) of the grey images I (now) and J
-// (before), both of variance s^2,
-//   log ratio = -(dof + 1)/2 [ log(1 + m^2 / (dof s^2)) - log(1 + r^2 / (dof s^2)) ],
-//   s^2 = noise^2 + error_px^2 |grad I|^2.
-// It is zero for a body at rest, where nothing has texture and for a point that is not seen, so
-// poses with different visible points stay comparable. What measured flow gets wrong at the very
-// places that matter (README.md, Flow) no particle needs: each brings its own motion along.
+// With the grey images I (now) and J (before), and S the visible silhouette, every pixel u of the
+// frame is one of three kinds:
+//   of the body, u in S_now: the same material point was at w a frame ago. I(u) is Student-t about
+//     J(w), or anything at all, 1 / 256, where another part hid the point or w is off the picture;
+//   uncovered, u in S_before and not in S_now: background that J does not show; I(u) is as the
+//     background's model says, or anything at all without one;
+//   background at rest: I(u) is Student-t about J(u).
+// So for any two poses this is a normalised density of all pixels asked, and what counts is
+//   sum over S_now [log p_body - log p_rest] + sum over S_before \ S_now [log p_uncovered - log
+//   p_rest],
+// zero for a body at rest. Squares of the t's scale: noise^2 + (error_px^2 + error_share^2 |u -
+// w|^2) |grad J|^2, of a body at rest as of background. J is as bright as I: the light's gain
+// between the frames has been taken out.
+//
+// What moves beside the body and is no part of it (arms that it does not have, shadows, people
+// behind) must not pull the body to where it is: a tenth of the pixels, at rest or of the body, may
+// be anything, which bounds how strange one can be.
+//
+// Asked are the pixels of a lattice a few centimetres apart on the body, after smoothing to match,
+// and each counts for its area. Flow that is measured first is wrong at the very places that matter
+// (README.md, Flow); no particle needs it: each brings its own motion along.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "observation/background.h"
 #include "observation/capsules.h"
 #include "observation/config.h"
-#include "observation/planes.h"
-
-namespace cv {
-class Mat;
-}
+#include "observation/frame_pair.h"
 
 namespace walktrack {
 
-struct FlowPixel {
-  float now = 0, before = 0;  // smoothed grey levels
-  float precision = 0;        // 1 / s^2; 0 = an occluder stands here, nothing is known
+// One pixel of the lattice.
+struct FlowCell {
+  float now;        // grey level; below zero: an occluder stands here, nothing is known
+  float at_rest;    // log p_rest
+  float uncovered;  // log p_uncovered - log p_rest
 };
 
-// Two successive frames around a walker, row by row.
+// A pixel of the frame before, as bright as it would be now.
+struct EarlierPixel {
+  float grey;
+  float slope2;  // |grad J|^2, squared grey levels per px^2; below zero: an occluder stands here
+};
+
+// Two successive frames around a walker.
 struct FlowField {
-  PixelRect area;
-  std::vector<FlowPixel> pixels;  // none when there is no frame before
-
-  const FlowPixel& at(int x, int y) const {
-    return pixels[static_cast<size_t>(y - area.y0) * static_cast<size_t>(area.width()) +
-                  static_cast<size_t>(x - area.x0)];
-  }
+  PixelRect area;  // pixels that the density is of
+  int step = 1;    // px between those asked: (area.x0 + column step, area.y0 + row step)
+  int columns = 0, rows = 0;
+  std::vector<FlowCell> cells;  // row by row; none when there is no frame before
+  LogRatioPlanes uncovered;     // prefix sums of FlowCell::uncovered, x and y being column and row
+  PixelRect known;              // of the frame before
+  std::vector<EarlierPixel> before;  // row by row
 };
 
-struct GreyImage {
-  int width = 0, height = 0;
-  std::vector<uint8_t> pixels;  // row by row
+// Most cells of a field: a figure's silhouette in them fits on the stack.
+inline constexpr size_t kMaxFlowCells = 16'384;
+
+// The empty scene, where there is a model of it.
+struct FlowBackground {
+  const BackgroundModel* model = nullptr;
+  double gain = 1;  // strength of the light now relative to the model
 };
 
-// `before` and `now`: 8-bit grey images of one size. Holds `area` and some pixels more to all
-// sides, from which a walker in it may have come.
-void pair_frames(const FlowConfig& config, const cv::Mat& before, const cv::Mat& now,
-                 const PixelRect& area, FlowField& out);
-void pair_frames(const FlowConfig& config, const GreyImage& before, const GreyImage& now,
-                 const PixelRect& area, FlowField& out);
+// `before` and `now`: of one size, a pixel of the walker showing `metres_per_px`. Reuses the memory
+// of `out`; an empty area gives no cells.
+void make_flow_field(const ObservationConfig& config, const GreyImage& before, const GreyImage& now,
+                     const FlowBackground& background, const PixelRect& area, double metres_per_px,
+                     FlowField& out);
 
-// Sum over points of the visible surface, nats times square pixels: each point weighs as much as
-// the area it stands for. `now` and `before` are the capsules of one particle in this and the
-// previous frame.
+// Nothing is known where `blocked` (of a frame's size) is not zero. Needs finish_flow_field().
+void block(const cv::Mat& blocked, FlowField& field);
+// Sums up what is uncovered: the last step.
+void finish_flow_field(FlowField& field);
+
+// How much brighter `now` is than `before`: the median over points of the picture.
+double light_gain(const GreyImage& before, const GreyImage& now);
+
+// Nats times square pixels: each cell weighs as much as the area it stands for. `now` and `before`
+// are the capsules of one particle in this and the previous frame.
 double flow_log_ratio(const FlowConfig& config, const FlowField& flow, const CapsuleList& now,
                       const CapsuleList& before);
+
+// log of the density of a difference: log_t_peak + dof / 2 log s^2 - (dof + 1) / 2 log(dof s^2 +
+// d^2) with d^2 the difference's square, at most kStrangest s^2: beyond that the tenth of pixels
+// that may be anything outweighs the Student-t (at s = 1.2 grey levels; elsewhere nearly).
+inline constexpr float kStrangest = 240;
+double log_t_peak(double dof);
 
 }  // namespace walktrack

@@ -12,17 +12,16 @@ namespace {
 
 // CPU of a frame, nanoseconds, as scripts/measure_costs.py prints them.
 constexpr double kFlowMeasured = 31;
-constexpr double kFlowWeighed = 602;
+constexpr double kFlowWeighed = 380;
 
-// Pixels that smoothing mixes with an occluder's say nothing.
-void block(const cv::Mat& mask, FlowField& flow) {
-  constexpr int kReach = 2;
-  cv::Mat near;
-  cv::dilate(mask, near, cv::Mat::ones(2 * kReach + 1, 2 * kReach + 1, CV_8U));
-  auto pixel = flow.pixels.begin();
-  for (int y = flow.area.y0; y < flow.area.y1; ++y)
-    for (int x = flow.area.x0; x < flow.area.x1; ++x, ++pixel)
-      if (near.at<uint8_t>(y, x)) pixel->precision = 0;
+// What is above the legs hardly moves against them, silhouettes know it as well, and the arms of
+// people pass in front of it where the body has none.
+CapsuleList project_legs(const Camera& camera, const PosedParts& parts) {
+  PosedParts legs;
+  for (const PosedPart& part : parts)
+    if (part.appearance == Appearance::kLegs || part.appearance == Appearance::kFeet)
+      legs.push_back(part);
+  return project_parts(camera, legs);
 }
 
 }  // namespace
@@ -30,17 +29,18 @@ void block(const cv::Mat& mask, FlowField& flow) {
 void FlowTerm::Memory::prepare(const ObserverSetting& setting, ObservedFrame& frame, int,
                                Prepared& out) const {
   out.flow.area = {};  // none, but for its memory, where there is no frame before
-  out.flow.pixels.clear();
-  if (!setting.config.flow.enabled || frame.bgr.empty() || state_.grey_before.pixels.empty())
-    return;
-  pair_frames(setting.config.flow, state_.grey_before, grey_of(frame), frame.region.area, out.flow);
+  out.flow.cells.clear();
+  if (!is_on(setting.config.flow) || frame.bgr.empty() || state_.grey_before.pixels.empty()) return;
+  make_flow_field(setting.config, state_.grey_before, grey_of(frame), frame.background,
+                  frame.region.area, frame.region.metres_per_px, out.flow);
 }
 
 void FlowTerm::Memory::complete(const ObserverSetting& setting, ObservedFrame& frame,
                                 Prepared& prepared, CameraEvidence& out) {
   std::swap(out.flow, prepared.flow);
-  if (!setting.config.flow.enabled) return;
+  if (!is_on(setting.config.flow)) return;
   if (setting.occluded) block(setting.mask, out.flow);
+  finish_flow_field(out.flow);
   state_.grey_before = frame.bgr.empty() ? GreyImage{} : grey_of(frame);
 }
 
@@ -52,18 +52,18 @@ bool FlowTerm::Memory::fits(const ObserverSetting& setting, const State& state) 
   return grey.pixels.empty() || sized;
 }
 
-bool FlowTerm::says(const CameraEvidence& evidence) { return !evidence.flow.pixels.empty(); }
+bool FlowTerm::says(const CameraEvidence& evidence) { return !evidence.flow.cells.empty(); }
 
 double FlowTerm::log_likelihood(const ObservationConfig& config, const CameraEvidence& evidence,
                                 const Camera& camera, const PosedBody& now,
                                 const PosedBody* before) {
   return evidence.pixel_weight * config.flow.weight *
-         flow_log_ratio(config.flow, evidence.flow, project_parts(camera, now.parts),
-                        project_parts(camera, before->parts));
+         flow_log_ratio(config.flow, evidence.flow, project_legs(camera, now.parts),
+                        project_legs(camera, before->parts));
 }
 
 TermCosts FlowTerm::cost(const ObservationConfig& config, const TermWork& work) {
-  if (!config.flow.enabled) return {};
+  if (!is_on(config.flow)) return {};
   return {{"flow", kFlowMeasured * work.region_px + kFlowWeighed * work.poses * work.parts}};
 }
 

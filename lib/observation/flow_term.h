@@ -8,13 +8,15 @@
 
 namespace walktrack {
 
+inline bool is_on(const FlowConfig& config) { return config.enabled == TermSetting::kOn; }
+
 struct FlowTerm {
   static constexpr std::string_view kName = "flow";
   static constexpr TermStage kStage = TermStage::kLate;
   static constexpr bool kAsksBefore = true;
   static constexpr std::array kSwitches{
       TermSwitch{"flow", "flow", "how the pixels move",
-                 [](const ObservationConfig& c) { return c.flow.enabled; }}};
+                 [](const ObservationConfig& c) { return is_on(c.flow); }}};
 
   struct Evidence {
     FlowField flow;  // no samples when flow is off or there is no frame before
@@ -59,8 +61,15 @@ template <typename Groups>
 void FlowTerm::describe(Groups& groups) {
   using W = FlowConfig;
   auto w = groups.group("flow", "optical flow", &ObservationConfig::flow);
-  w.flag("enabled", &W::enabled, "whether the way from frame to frame is looked at");
-  w.number("error_px", &W::error_px, 0, 1000, "of a pose's motion that is still right, px");
+  w.choice("enabled", &W::enabled,
+           {{"auto", TermSetting::kAuto},
+            {"on", TermSetting::kOn},
+            {"off", TermSetting::kOff},
+            {"true", TermSetting::kOn},
+            {"false", TermSetting::kOff}},
+           "whether the motion between frames is compared; auto: no, it has not been seen to gain");
+  w.number("error_px", &W::error_px, 0, 1000, "error of what rests, px");
+  w.number("error_share", &W::error_share, 0, 10, "and more of what moves, share of its motion");
   w.number("noise", &W::noise, 0.01, 255, "of grey values from frame to frame, of 256");
   w.number("dof", &W::dof, 0.5, 1000, "of the Student-t; smaller expects more outliers");
   w.number("weight", &W::weight, 0, 1000, "against the silhouettes");

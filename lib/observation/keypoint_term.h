@@ -44,7 +44,7 @@ struct KeypointUse {
   int64_t legs_flipped = 0;  // with the names of the legs swapped
 };
 
-inline bool is_on(const KeypointConfig& config) { return config.enabled == KeypointSwitch::kOn; }
+inline bool is_on(const KeypointConfig& config) { return config.enabled == TermSetting::kOn; }
 
 struct KeypointTerm {
   static constexpr std::string_view kName = "keypoints";
@@ -109,11 +109,11 @@ void KeypointTerm::describe(Groups& groups) {
   auto k = groups.group("keypoints", "points of a pose detector", &ObservationConfig::keypoints);
   k.choice(
       "enabled", &K::enabled,
-      {{"auto", KeypointSwitch::kAuto},
-       {"on", KeypointSwitch::kOn},
-       {"off", KeypointSwitch::kOff},
-       {"true", KeypointSwitch::kOn},
-       {"false", KeypointSwitch::kOff}},
+      {{"auto", TermSetting::kAuto},
+       {"on", TermSetting::kOn},
+       {"off", TermSetting::kOff},
+       {"true", TermSetting::kOn},
+       {"false", TermSetting::kOff}},
       "on: from the scene's files, from the built-in network where a camera has none; auto: where "
       "every camera has a file, and the network for one camera alone");
   k.integer("every", &K::every, 1, 1000, "frames, of which the network looks at one");

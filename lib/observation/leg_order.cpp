@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "observation/flow_points.h"
+#include "observation/frame_pair_points.h"
 
 namespace walktrack {
 
@@ -18,6 +18,7 @@ constexpr double kInner = 0.85;      // share of a leg's width that is surely th
 constexpr double kBelowHands = 0.4;  // share of the thigh, from the knee
 // Beyond three standard deviations one misfit is like another: shoes, hems, the edge of a shadow.
 constexpr double kWorst = 9;
+constexpr double kDof = 3;  // of the Student-t
 
 std::optional<Side> leg_of(Segment segment) {
   switch (segment) {
@@ -85,20 +86,17 @@ bool looks_like(const Limb& limb, const LogRatioPlanes& planes, const Vector2d& 
 }
 
 // Student-t: how strange it is that a point comes from there, as a logarithm.
-std::optional<double> strangeness(const FlowConfig& config, const FlowField& flow,
-                                  const Vector2d& is, const Vector2d& was) {
-  const auto here = between(flow, is), there = between(flow, was);
+std::optional<double> strangeness(const FramePair& pair, const Vector2d& is, const Vector2d& was) {
+  const auto here = between(pair, is), there = between(pair, was);
   if (!here || !there) return {};
-  const double residual = static_cast<double>(here->mix(&FlowPixel::now)) -
-                          static_cast<double>(there->mix(&FlowPixel::before));
+  const double residual = static_cast<double>(here->mix(&PairPixel::now)) -
+                          static_cast<double>(there->mix(&PairPixel::before));
   const double precision = static_cast<double>(here->precision());
-  return 0.5 * (config.dof + 1) *
-         std::log(config.dof + std::min(kWorst, precision * residual * residual));
+  return 0.5 * (kDof + 1) * std::log(kDof + std::min(kWorst, precision * residual * residual));
 }
 
 struct Asked {
-  const FlowConfig& config;
-  const FlowField& flow;
+  const FramePair& pair;
   const SeenLegs& before;
   const SeenLegs& now;
 };
@@ -110,8 +108,8 @@ double point_log_ratio(const Asked& asked, const Limb& near, const Limb& far,
       !looks_like(near, asked.before.planes, from_near) ||
       !looks_like(far, asked.before.planes, from_far))
     return 0;
-  const auto as_near = strangeness(asked.config, asked.flow, point, from_near);
-  const auto as_far = strangeness(asked.config, asked.flow, point, from_far);
+  const auto as_near = strangeness(asked.pair, point, from_near);
+  const auto as_far = strangeness(asked.pair, point, from_far);
   return as_near && as_far ? *as_far - *as_near : 0;
 }
 
@@ -156,9 +154,9 @@ PixelRect leg_overlap(std::span<const Part> parts, const CapsuleList& now) {
   return all;
 }
 
-double leg_order_log_ratio(const FlowConfig& config, std::span<const Part> parts,
-                           const FlowField& flow, const SeenLegs& before, const SeenLegs& now) {
-  if (flow.pixels.empty()) return 0;
+double leg_order_log_ratio(std::span<const Part> parts, const FramePair& pair,
+                           const SeenLegs& before, const SeenLegs& now) {
+  if (pair.pixels.empty()) return 0;
   std::array<const Capsule*, kMaxCapsules> earlier{};
   for (const Capsule& capsule : before.capsules)
     earlier[static_cast<size_t>(capsule.part)] = &capsule;
@@ -172,7 +170,7 @@ double leg_order_log_ratio(const FlowConfig& config, std::span<const Part> parts
   double sum = 0;
   for (const Crossing& crossing : crossings(parts, now.capsules)) {
     const auto near = limb(crossing.near), far = limb(crossing.far);
-    if (near && far) sum += crossing_log_ratio({config, flow, before, now}, crossing, *near, *far);
+    if (near && far) sum += crossing_log_ratio({pair, before, now}, crossing, *near, *far);
   }
   return sum;
 }

@@ -3,9 +3,9 @@
 // pose, the nearer leg was at n one frame ago and the farther one at f. With the grey images I
 // (now) and J (before),
 //   log ratio = (dof + 1)/2 [ log(dof + (I(u) - J(f))^2 / s^2) - log(dof + (I(u) - J(n))^2 / s^2) ]
-// speaks for the pose's order of the legs against the other one, s and dof as in flow.h, squares
-// over s^2 at most 9. Both orders have the same outline: where silhouettes from the side cannot
-// tell left from right, this can.
+// speaks for the pose's order of the legs against the other one, s^2 the variance of a difference
+// (frame_pair.h), squares over s^2 at most 9. Both orders have the same outline: where silhouettes
+// from the side cannot tell left from right, this can.
 //
 // Asked are pixels well inside both legs, hidden by nothing else, and only below where hands swing:
 // an arm that the body does not have swings with the leg that is farther away and would speak for
@@ -16,8 +16,7 @@
 #include <span>
 
 #include "observation/capsules.h"
-#include "observation/config.h"
-#include "observation/flow.h"
+#include "observation/frame_pair.h"
 #include "observation/planes.h"
 
 namespace walktrack {
@@ -32,8 +31,8 @@ struct SeenLegs {
   const LogRatioPlanes& planes;
 };
 
-// Sum over pixels, nats times square pixels. `flow` pairs the two frames around leg_overlap().
-double leg_order_log_ratio(const FlowConfig& config, std::span<const Part> parts,
-                           const FlowField& flow, const SeenLegs& before, const SeenLegs& now);
+// Sum over pixels, nats times square pixels. `pair` holds the two frames around leg_overlap().
+double leg_order_log_ratio(std::span<const Part> parts, const FramePair& pair,
+                           const SeenLegs& before, const SeenLegs& now);
 
 }  // namespace walktrack

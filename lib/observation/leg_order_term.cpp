@@ -27,13 +27,12 @@ double LegOrderTerm::names_log_odds(const ObservationConfig& config, const Body&
   const CapsuleList legs = project_parts(camera, now.parts);
   const PixelRect area = leg_overlap(body.parts, legs);
   if (area.empty()) return 0;
-  FlowField flow;
-  pair_frames(config.flow, evidence_before.picture, evidence.picture, area, flow);
+  const FramePair pair = pair_frames(evidence_before.picture, evidence.picture, area);
   const Eigen::Vector2d place = now.skeleton.joints[Joint::kPelvis].head<2>();
   const double at_subject = person_region(camera, place, body.subject.height, 0).metres_per_px;
   const CapsuleList legs_before = project_parts(camera, before.parts);
   return independent_share(config, at_subject) *
-         leg_order_log_ratio(config.flow, body.parts, flow, {legs_before, evidence_before.planes},
+         leg_order_log_ratio(body.parts, pair, {legs_before, evidence_before.planes},
                              {legs, evidence.planes});
 }
 

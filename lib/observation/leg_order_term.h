@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "observation/flow.h"
+#include "observation/frame_pair.h"
 #include "observation/term.h"
 
 namespace walktrack {

@@ -22,6 +22,8 @@ struct ObservedFrame {
   cv::Mat bgr;                             // shrunk; empty without a picture
   const DetectedPeople* people = nullptr;  // only while the frame is prepared
   GreyImage grey;                          // see grey_of()
+  // The empty scene, only while the frame is prepared and where it is modelled.
+  FlowBackground background;
 };
 
 // The grey image, made when a term first asks for it.

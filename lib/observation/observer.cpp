@@ -182,12 +182,14 @@ void Observer::prepare(const cv::Mat& frame_bgr, const Region& region, int threa
   frame.region = region;
   frame.region.area = intersection(region.area, image_area(setting.camera));
   frame.grey = {};
+  frame.background = {};
   frame.people = &people;
   Terms::each([&]<typename Term>() {
     state_->memory<Term>().prepare(setting, frame, threads,
                                    std::get<PreparedOf<Term>>(content.prepared));
   });
   frame.people = nullptr;
+  frame.background = {};
 }
 
 void Observer::complete(PreparedFrame& prepared, CameraEvidence& out) {

@@ -88,6 +88,7 @@ void SilhouetteTerm::Memory::prepare(const ObserverSetting& setting, ObservedFra
   read_colours(frame.bgr, with_border(area, setting.camera), out.colours);
   if (!setting.config.background.enabled) return;
   out.gain = light_gain(*background_, frame.bgr);
+  frame.background = {&*background_, out.gain};
   const auto width = static_cast<size_t>(area.width());
   out.behind.resize(width * static_cast<size_t>(area.height()));
   for_bands(area, threads, [&](int begin, int end) {

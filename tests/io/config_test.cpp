@@ -105,14 +105,14 @@ TEST(Config, WritesThroughGroupsToTheMembers) {
                                          "  foreground:\n    classes: [0, 1, 1, 2, 0]\n"));
   const ObservationConfig& observation = config.values.observation;
   EXPECT_EQ(observation.clip, 2.5);
-  EXPECT_TRUE(observation.flow.enabled);
+  EXPECT_EQ(observation.flow.enabled, TermSetting::kOn);
   EXPECT_EQ(observation.flow.dof, 8);
   EXPECT_EQ(observation.foreground.classes, (std::array{0, 1, 1, 2, 0}));
   EXPECT_EQ(config.origin.at("observation.flow.dof"), "c.yaml:3");
   EXPECT_EQ(config_as_yaml(config, ConfigScope::kChanged, false),
             "observation:  # how images become likelihoods\n  clip: 2.5\n"
             "  foreground:  # how the walker looks\n    classes: [0, 1, 1, 2, 0]\n"
-            "  flow:  # optical flow\n    enabled: true\n    dof: 8\n");
+            "  flow:  # optical flow\n    enabled: on\n    dof: 8\n");
 }
 
 TEST(ConfigFile, NamesKeysInsideGroups) {

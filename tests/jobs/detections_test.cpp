@@ -77,15 +77,27 @@ TEST_F(DetectionsTest, AutoIsForFilesAndForOneCameraThatSeesEnough) {
   std::string cameras;
   for (const char* name : {"a", "b", "c"}) cameras += replaced(camera, "NAME", name);
   EXPECT_FALSE(keypoints_wanted(scene(cameras), config));
-  keypoints.enabled = KeypointSwitch::kOff;
+  keypoints.enabled = TermSetting::kOff;
   EXPECT_FALSE(keypoints_wanted(with_files(), config));
-  keypoints.enabled = KeypointSwitch::kOn;
+  keypoints.enabled = TermSetting::kOn;
   EXPECT_TRUE(keypoints_wanted(scene(cameras), config));
+}
+
+TEST_F(DetectionsTest, FlowIsForThoseWhoAskForIt) {
+  const Scene one = scene("  - {name: a, video: a.mp4, calibration: a.yaml, keypoints: points}\n");
+  Config config;
+  const auto decided = [&] { return decided_terms(one, config).flow.enabled; };
+  EXPECT_EQ(decided(), TermSetting::kOff) << "by default, which is auto";
+  config.observation.flow.enabled = TermSetting::kOn;
+  EXPECT_EQ(decided(), TermSetting::kOn);
+  config.observation.flow.enabled = TermSetting::kOff;
+  EXPECT_EQ(decided(), TermSetting::kOff);
+  EXPECT_EQ(decided_terms(one, config).keypoints.enabled, TermSetting::kOn);
 }
 
 TEST_F(DetectionsTest, SaysThatTheModelIsMissing) {
   const Scene without = scene("  - {name: a, video: a.mp4, calibration: a.yaml}\n");
-  const KeypointConfig config{.enabled = KeypointSwitch::kOn, .every = 1, .model = "none.onnx"};
+  const KeypointConfig config{.enabled = TermSetting::kOn, .every = 1, .model = "none.onnx"};
   EXPECT_FALSE(message_of<std::runtime_error>([&] { of(without, config); }).empty());
 }
 
@@ -93,7 +105,7 @@ TEST_F(DetectionsTest, NetworkLooksAtEveryNthFrame) {
   if (!has_pose_net()) GTEST_SKIP() << "built without OpenCV's dnn module";
   ASSERT_TRUE(pose_model_file(std::string(kShippedModel)));
   const Scene without = scene("  - {name: a, video: a.mp4, calibration: a.yaml}\n");
-  Detections detections = of(without, {.enabled = KeypointSwitch::kOn, .every = 2});
+  Detections detections = of(without, {.enabled = TermSetting::kOn, .every = 2});
   EXPECT_TRUE(detections.uses_network());
   const Region around{{10, 5, 40, 45}, 0.04, false};
   EXPECT_EQ(detections.look(0, {picture_, 0, 0, around, true}).size(), 1u);

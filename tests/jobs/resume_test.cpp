@@ -129,7 +129,7 @@ TEST_F(Resume, WithoutABackground) {
 }
 
 TEST_F(Resume, WithFlow) {
-  change_ = [](Config& config) { config.observation.flow.enabled = true; };
+  change_ = [](Config& config) { config.observation.flow.enabled = TermSetting::kOn; };
   expect_same_after_kill(15);
 }
 

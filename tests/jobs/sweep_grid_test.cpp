@@ -89,9 +89,9 @@ TEST(SweepSetting, SwitchesKeypoints) {
   ConfigWithOrigin config;
   const std::vector<SweepKnob> knobs{{"keypoints", {"off", "on"}}};
   apply_sweep_setting(knobs, {"on"}, scene, config);
-  EXPECT_EQ(config.values.observation.keypoints.enabled, KeypointSwitch::kOn);
+  EXPECT_EQ(config.values.observation.keypoints.enabled, TermSetting::kOn);
   apply_sweep_setting(knobs, {"off"}, scene, config);
-  EXPECT_EQ(config.values.observation.keypoints.enabled, KeypointSwitch::kOff);
+  EXPECT_EQ(config.values.observation.keypoints.enabled, TermSetting::kOff);
   EXPECT_THAT(richest_setting(knobs), ElementsAre("on"));
 }
 
@@ -108,7 +108,7 @@ TEST(SweepSetting, ReachesSceneAndConfiguration) {
   EXPECT_EQ(config.values.observation.person_px, 80);
   EXPECT_TRUE(config.values.observation.background.enabled);
   EXPECT_FALSE(config.values.observation.foreground.enabled);
-  EXPECT_TRUE(config.values.observation.flow.enabled);
+  EXPECT_EQ(config.values.observation.flow.enabled, TermSetting::kOn);
   EXPECT_TRUE(config.values.body.arms);
   ASSERT_EQ(scene.cameras.size(), 1u);
   EXPECT_EQ(scene.cameras[0].name, "front");

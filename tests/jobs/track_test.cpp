@@ -271,7 +271,7 @@ TEST_F(Track, ACompleteResultIsNotOverwrittenUnasked) {
 TEST_F(Track, TermsThatAreOffTakeNoPartNoTimeAndNoHarm) {
   for (const bool background : {true, false}) {
     TrackJob each = job(40, background ? "no_flow" : "flow");
-    each.config.values.observation.flow.enabled = !background;
+    each.config.values.observation.flow.enabled = background ? TermSetting::kOff : TermSetting::kOn;
     each.config.values.observation.foreground.enabled = background;
     each.config.values.observation.background.enabled = background;
     EXPECT_NO_THROW(track_scene(each, {}));

@@ -35,7 +35,7 @@ struct SeenFromTheSide : testing::Test {
   static ObservationConfig keypoints_alone() {
     ObservationConfig out;
     out.background.enabled = out.foreground.enabled = false;
-    out.keypoints.enabled = KeypointSwitch::kOn;
+    out.keypoints.enabled = TermSetting::kOn;
     return out;
   }
   static Pose pose(double x) {
@@ -94,13 +94,13 @@ void swap_names(DetectedPerson& person, std::span<const KeypointName> names) {
 using KeypointTermTest = SeenFromTheSide;
 
 TEST_F(KeypointTermTest, OffOrUnseenCostsAndSaysNothing) {
-  config.keypoints.enabled = KeypointSwitch::kOff;
+  config.keypoints.enabled = TermSetting::kOff;
   const CameraEvidence off = evidence({seen(pose(0))});
   EXPECT_EQ(off.keypoints.people.capacity(), 0U);
   EXPECT_FALSE(KeypointTerm::says(off));
   EXPECT_EQ(score(off, pose(0)), 0);
   EXPECT_TRUE(KeypointTerm::cost(config, {}).empty());
-  config.keypoints.enabled = KeypointSwitch::kOn;
+  config.keypoints.enabled = TermSetting::kOn;
   const CameraEvidence nobody = evidence({});
   EXPECT_EQ(nobody.keypoints.people.capacity(), 0U);
   EXPECT_EQ(score(nobody, pose(0)), 0);

@@ -68,10 +68,8 @@ CapsuleList shanks(double left_depth, double left_x = 60) {
 
 double log_ratio(const GreyImage& before, const GreyImage& now, const CapsuleList& capsules_before,
                  const CapsuleList& capsules, const LogRatioPlanes& planes = everywhere(1)) {
-  FlowField flow;
-  pair_frames({}, before, now, leg_overlap(parts(), capsules), flow);
-  return leg_order_log_ratio({}, parts(), flow, {capsules_before, everywhere(1)},
-                             {capsules, planes});
+  const FramePair flow = pair_frames(before, now, leg_overlap(parts(), capsules));
+  return leg_order_log_ratio(parts(), flow, {capsules_before, everywhere(1)}, {capsules, planes});
 }
 
 double shanks_log_ratio(const GreyImage& now, double left_depth) {

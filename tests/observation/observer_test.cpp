@@ -85,13 +85,14 @@ struct World {
 TEST(Observer, TermsThatAreOffHoldNoMemory) {
   const World world;
   ObservationConfig config;
-  config.foreground.enabled = config.background.enabled = config.flow.enabled = false;
+  config.foreground.enabled = config.background.enabled = false;
   Observer observer(config, {world.camera, 1, appearances_of(world.body), std::nullopt, {}});
   CameraEvidence evidence;
   for (int i = 0; i < 2; ++i)
     observer.observe(world.frame(world.pose(0)), whole_image(observer.camera(), 0.01), evidence);
   EXPECT_EQ(evidence.planes.prefix.capacity(), 0U);
-  EXPECT_EQ(evidence.flow.pixels.capacity(), 0U);
+  EXPECT_EQ(evidence.flow.cells.capacity(), 0U);
+  EXPECT_EQ(evidence.flow.before.capacity(), 0U);
   const CapsuleList capsules = world.capsules(world.pose(0));
   EXPECT_EQ(log_likelihood(config, evidence, capsules, &capsules), 0);
 }
@@ -164,9 +165,11 @@ TEST(Observer, PreparingTheNextFrameEarlyChangesNothing) {
     early.complete(next, b);
     ASSERT_EQ(a.planes.prefix, b.planes.prefix) << f;
     ASSERT_EQ(a.planes.count, b.planes.count);
-    ASSERT_EQ(a.flow.pixels.size(), b.flow.pixels.size());
-    for (size_t i = 0; i < a.flow.pixels.size(); ++i)
-      ASSERT_EQ(a.flow.pixels[i].before, b.flow.pixels[i].before);
+    ASSERT_EQ(a.flow.cells.size(), b.flow.cells.size());
+    for (size_t i = 0; i < a.flow.cells.size(); ++i) {
+      ASSERT_EQ(a.flow.cells[i].now, b.flow.cells[i].now);
+      ASSERT_EQ(a.flow.cells[i].uncovered, b.flow.cells[i].uncovered);
+    }
     ASSERT_EQ(a.picture.pixels, b.picture.pixels);
     if (f < 2) {
       early.prepare(frames[f + 1], person_region(plain.camera(), {1, 0}, 1.75, 0.3), 1, next);
@@ -239,8 +242,12 @@ TEST(Observer, OccludersSayNothing) {
   for (int y = 0; y < 240; ++y)
     EXPECT_EQ(log_ratio_at(evidence.planes, Appearance::kTrunk, 150, y), 0);
   EXPECT_NE(log_ratio_at(evidence.planes, Appearance::kTrunk, 165, 120), 0);
-  EXPECT_EQ(evidence.flow.at(150, 120).precision, 0);
-  EXPECT_GT(evidence.flow.at(170, 120).precision, 0);
+  const auto seen = [&](int x) {
+    const FlowField& flow = evidence.flow;
+    return flow.cells[static_cast<size_t>(120 / flow.step * flow.columns + x / flow.step)].now;
+  };
+  EXPECT_LT(seen(150), 0);
+  EXPECT_GE(seen(170), 0);
 }
 
 // A prepared frame keeps its memory, but nothing of the flow before frames were dropped.
@@ -256,7 +263,7 @@ TEST(Observer, AfterDroppedFramesThereIsNoFlowForAnOccluderToBlock) {
                      frame);
     observer.complete(frame, evidence);
     EXPECT_EQ(evidence.flow.area.empty(), i == 0 || i == 3) << i;
-    EXPECT_EQ(evidence.flow.pixels.empty(), i == 0 || i == 3) << i;
+    EXPECT_EQ(evidence.flow.cells.empty(), i == 0 || i == 3) << i;
   }
 }
 
@@ -300,7 +307,7 @@ TEST_P(TermAlone, TruePoseBeatsPerturbedPoses) {
   ObservationConfig config;
   config.foreground.enabled = GetParam() == 0;
   config.background.enabled = GetParam() == 1;
-  config.flow.enabled = GetParam() == 2;
+  config.flow.enabled = GetParam() == 2 ? TermSetting::kOn : TermSetting::kOff;
   Observer observer = world.observer(config);
   CameraEvidence evidence;
   const double step = 0.04;  // m a frame
@@ -336,7 +343,7 @@ TEST_P(TermAlone, TruePoseBeatsPerturbedPoses) {
 TEST(Observer, LevelsOfThePyramidWeighTheSameArea) {
   const World world;
   ObservationConfig config;
-  config.foreground.enabled = config.flow.enabled = false;
+  config.foreground.enabled = false;
   const auto gain = [&](int factor) {  // of the true pose over one 10 cm ahead
     BackgroundSampler sampler(config.background, factor);
     sampler.add(world.empty);

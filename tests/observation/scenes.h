@@ -17,7 +17,7 @@ namespace walktrack {
 
 inline ObservationConfig every_term() {
   ObservationConfig config;
-  config.flow.enabled = true;
+  config.flow.enabled = TermSetting::kOn;
   return config;
 }
 

@@ -30,7 +30,8 @@ TEST(Terms, SayNothingOfNothing) {
 
 TEST(Terms, ThatAreOffCostNothing) {
   ObservationConfig off;
-  off.background.enabled = off.foreground.enabled = off.flow.enabled = false;
+  off.background.enabled = off.foreground.enabled = false;
+  off.flow.enabled = TermSetting::kOff;
   const TermWork work{1e4, 120, 1e3, 11, 4};
   Terms::each([&]<typename Term>() { EXPECT_TRUE(Term::cost(off, work).empty()) << Term::kName; });
   for (const TermSwitch& each : term_switches()) EXPECT_FALSE(each.on(off)) << each.key;
@@ -54,9 +55,26 @@ TEST(Terms, AddUp) {
   });
   const CapsuleList capsules_before = project_parts(camera, before.parts);
   const double by_hand =
-      log_likelihood({}, evidence, project_parts(camera, now.parts), &capsules_before);
+      particle_log_likelihood({}, evidence, project_parts(camera, now.parts), &capsules_before);
   EXPECT_NE(by_hand, 0);
   EXPECT_NEAR(sum, by_hand, 1e-12 * std::abs(by_hand));
+}
+
+// Arms that a body has change nothing, and neither do those that it has not.
+TEST(Terms, FlowAsksLegsAndFeetAlone) {
+  const CameraEvidence evidence = made_evidence(0.7, true);
+  const Camera camera = camera_at({0, -4, 1}, {0, 0, 1}, 300, kEvidenceWidth, kEvidenceHeight);
+  Pose pose;
+  pose.root = {0, 0, 0.95};
+  Pose earlier = pose;
+  earlier.root.x() -= 0.03;
+  const auto said = [&](bool all) {
+    const Body body = make_body(Subject{}, {.head = all, .arms = all});
+    const PosedBody now(body, pose), before(body, earlier);
+    return FlowTerm::log_likelihood({}, evidence, camera, now, &before);
+  };
+  EXPECT_NE(said(true), 0);
+  EXPECT_EQ(said(true), said(false));
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ cv::Mat image(const Plane<Colour>& light, uint32_t frame) {
 Observer observer_of(const Stage& stage, const View& view, const BackgroundConfig& background) {
   ObservationConfig config;
   config.background = background;
-  config.foreground.enabled = config.flow.enabled = false;
+  config.foreground.enabled = false;
   BackgroundSampler sampler(background, 1);
   for (uint32_t i = 0; i < 10; ++i) sampler.add(image(view.empty, i));
   return Observer(config,

@@ -33,8 +33,8 @@ struct Seen : testing::Test {
     double sum = 0;
     for (size_t c = 0; c < evidence.size(); ++c) {
       const CapsuleList before = capsules(c, particles[0].pose_before);
-      sum += log_likelihood(scene.observation, evidence[c], capsules(c, particles[0].pose),
-                            with_motion ? &before : nullptr);
+      sum += particle_log_likelihood(scene.observation, evidence[c], capsules(c, particles[0].pose),
+                                     with_motion ? &before : nullptr);
     }
     return sum;
   }

@@ -24,11 +24,16 @@ inline CameraEvidence made_evidence(double nats, bool flow) {
     set_row(out.planes, 0, y, row, 4);
   }
   if (!flow) return out;
-  out.flow.area = {0, 0, kEvidenceWidth, kEvidenceHeight};
-  const auto stripe = [](int x) { return 100 + 10 * std::sin(0.3F * static_cast<float>(x)); };
-  for (int y = 0; y < kEvidenceHeight; ++y)
-    for (int x = 0; x < kEvidenceWidth; ++x)
-      out.flow.pixels.push_back({stripe(x - 2), stripe(x), 0.05F});
+  const auto stripes = [](int shift) {
+    GreyImage image{kEvidenceWidth, kEvidenceHeight, {}};
+    for (int y = 0; y < kEvidenceHeight; ++y)
+      for (int x = 0; x < kEvidenceWidth; ++x)
+        image.pixels.push_back(static_cast<uint8_t>(100 + 10 * std::sin(0.3 * (x - shift))));
+    return image;
+  };
+  make_flow_field({}, stripes(0), stripes(2), {}, {0, 0, kEvidenceWidth, kEvidenceHeight}, 0.015,
+                  out.flow);
+  finish_flow_field(out.flow);
   return out;
 }
 

@@ -233,11 +233,11 @@ std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& c
     return saving(total_ms(scene, changed.values), all);
   };
   const ObservationConfig& images = values.observation;
-  if (images.flow.enabled && (images.background.enabled || images.foreground.enabled))
+  if (is_on(images.flow) && (images.background.enabled || images.foreground.enabled))
     out.push_back(
         fmt::format("Flow: silhouettes hold the track of a walker who stands out from the "
-                    "scene; observation.flow.enabled=false {}.",
-                    without("observation.flow.enabled=false")));
+                    "scene; observation.flow.enabled=off {}.",
+                    without("observation.flow.enabled=off")));
   if (is_on(images.keypoints) && scene.cameras.size() > kCamerasInDoubt)
     out.push_back(
         fmt::format("Keypoints: with {} cameras silhouettes alone tell left from right; "
@@ -266,7 +266,7 @@ std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& c
 
 Plan plan_scene(const Scene& scene, const ConfigWithOrigin& given) {
   ConfigWithOrigin config = given;
-  config.values.observation.keypoints = decided_keypoints(scene, given.values);
+  config.values.observation = decided_terms(scene, given.values);
   Plan plan;
   plan.scene = scene.file;
   plan.frame_rate = SceneVideo(scene).frame_rate();

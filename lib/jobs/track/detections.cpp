@@ -40,7 +40,7 @@ KeypointFrames checked_keypoints(const SceneCamera& camera) {
 
 bool keypoints_wanted(const Scene& scene, const Config& config) {
   const KeypointConfig& keypoints = config.observation.keypoints;
-  if (keypoints.enabled != KeypointSwitch::kAuto) return keypoints.enabled == KeypointSwitch::kOn;
+  if (keypoints.enabled != TermSetting::kAuto) return keypoints.enabled == TermSetting::kOn;
   if (all_have_files(scene)) return true;
   const bool network = has_pose_net() && pose_model_file(keypoints.model);
   return network && scene.cameras.size() <= kCamerasInDoubt &&
@@ -50,9 +50,15 @@ bool keypoints_wanted(const Scene& scene, const Config& config) {
          });
 }
 
-KeypointConfig decided_keypoints(const Scene& scene, const Config& config) {
-  KeypointConfig out = config.observation.keypoints;
-  out.enabled = keypoints_wanted(scene, config) ? KeypointSwitch::kOn : KeypointSwitch::kOff;
+bool flow_wanted(const Config& config) {
+  return config.observation.flow.enabled == TermSetting::kOn;
+}
+
+ObservationConfig decided_terms(const Scene& scene, const Config& config) {
+  ObservationConfig out = config.observation;
+  const auto setting = [](bool on) { return on ? TermSetting::kOn : TermSetting::kOff; };
+  out.flow.enabled = setting(flow_wanted(config));
+  out.keypoints.enabled = setting(keypoints_wanted(scene, config));
   return out;
 }
 

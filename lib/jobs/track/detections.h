@@ -33,8 +33,11 @@ struct WorkingScale {
 // built-in network where there is one camera, with a video that shows people large enough, and the
 // program has the network.
 bool keypoints_wanted(const Scene& scene, const Config& config);
-// The configuration's keypoints with that decided: on or off.
-KeypointConfig decided_keypoints(const Scene& scene, const Config& config);
+// Whether flow is: as configured; `auto` is off, for it has not been seen to gain
+// (observation/README.md, Flow).
+bool flow_wanted(const Config& config);
+// The configuration's terms with all that decided: on or off.
+ObservationConfig decided_terms(const Scene& scene, const Config& config);
 
 // What is asked for a frame of one camera.
 struct FrameToLookAt {

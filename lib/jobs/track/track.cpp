@@ -325,7 +325,7 @@ bool follow_film(TrackRun& run, const SceneVideo& video, const JobControl& contr
 TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const auto start = Clock::now();
   TrackJob job = given;
-  job.config.values.observation.keypoints = decided_keypoints(job.scene, job.config.values);
+  job.config.values.observation = decided_terms(job.scene, job.config.values);
   const Moment looking;
   require_a_term(job.config.values.observation);
   TrackOutcome outcome;

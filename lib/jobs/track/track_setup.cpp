@@ -90,7 +90,7 @@ void set_beginning(const Scene& scene, double frame_rate, TrackerScene& out) {
 }
 
 Detections detections_of(const Scene& scene, const Config& config) {
-  if (config.observation.keypoints.enabled == KeypointSwitch::kOff) return {};
+  if (config.observation.keypoints.enabled == TermSetting::kOff) return {};
   std::vector<WorkingScale> scales;
   for (const SceneCamera& camera : scene.cameras)
     scales.push_back(working_scale(scene, camera.camera, config));
@@ -139,7 +139,8 @@ double search_window_bytes(const Scene& scene, const Config& config, double fram
     const double shrink = working_scale(scene, each.camera, config).shrink;
     pixels += each.camera.width_px / shrink * (each.camera.height_px / shrink);
   }
-  const double flow_bytes = config.observation.flow.enabled ? sizeof(FlowPixel) : 0;
+  const double flow_bytes =
+      is_on(config.observation.flow) ? sizeof(FlowCell) + sizeof(EarlierPixel) : 0;
   return std::ceil(config.tracker.detector.window * frame_rate) * pixels *
          (sizeof(int32_t) + flow_bytes);
 }

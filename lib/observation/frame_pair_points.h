@@ -1,5 +1,5 @@
-// Points on the capsules of a pose and the two frames that they are looked up in, as flow and
-// leg_order ask about them. Pixels throughout.
+// Points on the capsules of a pose and the two frames that they are looked up in, as
+// leg_order asks about them. Pixels throughout.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "observation/capsules.h"
-#include "observation/flow.h"
+#include "observation/frame_pair.h"
 
 namespace walktrack {
 
@@ -77,11 +77,11 @@ inline bool meet(const Box& a, const Box& b) {
 
 // A place between four pixels.
 struct Between {
-  const FlowPixel* corner;  // of lower x and y
-  const FlowPixel* below;   // the one under it
+  const PairPixel* corner;  // of lower x and y
+  const PairPixel* below;   // the one under it
   float right, down;        // shares
 
-  float mix(float FlowPixel::*value) const {
+  float mix(float PairPixel::*value) const {
     const float top = corner->*value + right * (corner[1].*value - corner->*value);
     const float bottom = below->*value + right * (below[1].*value - below->*value);
     return top + down * (bottom - top);
@@ -90,12 +90,12 @@ struct Between {
 };
 
 // nullopt outside the field.
-inline std::optional<Between> between(const FlowField& flow, const Eigen::Vector2d& point) {
-  const double x = point.x() - flow.area.x0, y = point.y() - flow.area.y0;
-  if (!(x >= 0 && y >= 0 && x < flow.area.width() - 1 && y < flow.area.height() - 1)) return {};
+inline std::optional<Between> between(const FramePair& pair, const Eigen::Vector2d& point) {
+  const double x = point.x() - pair.area.x0, y = point.y() - pair.area.y0;
+  if (!(x >= 0 && y >= 0 && x < pair.area.width() - 1 && y < pair.area.height() - 1)) return {};
   const auto i = static_cast<int>(x), j = static_cast<int>(y);
-  const FlowPixel* const corner = &flow.at(flow.area.x0 + i, flow.area.y0 + j);
-  return Between{corner, corner + flow.area.width(), static_cast<float>(x - i),
+  const PairPixel* const corner = &pair.at(pair.area.x0 + i, pair.area.y0 + j);
+  return Between{corner, corner + pair.area.width(), static_cast<float>(x - i),
                  static_cast<float>(y - j)};
 }
 
