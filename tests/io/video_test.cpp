@@ -1,5 +1,6 @@
 #include "io/video/video.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -285,8 +286,7 @@ TEST(VideoWriter, EncodesByItsPreset) {
       for (int frame = 0; frame < 50; ++frame) writer.write(sample_frame(frame));
       writer.close();
       const std::string bytes = read_file(folder / "v.mp4");
-      if (i == 0) EXPECT_THAT(files, testing::Not(testing::Contains(bytes))) << name;
-      if (i == 1) EXPECT_EQ(bytes, files.back()) << name;
+      EXPECT_EQ(std::count(files.begin(), files.end(), bytes), i) << name;
       files.push_back(bytes);
     }
     FrameSource source(folder / "v.mp4");

@@ -19,9 +19,9 @@ constexpr double kRate = 30;
 FrameRecord standing_at(const Eigen::Vector2d& place) {
   FrameRecord record;
   record.tracked = true;
-  record.estimate.joints = unknown_joints();
+  record.estimate.joint_count = kJointCountWithoutArms;
   const auto at = [&](double z) { return Eigen::Vector3d(place.x(), place.y(), z); };
-  record.estimate.joints[Joint::kPelvis] = at(0.95);
+  record.estimate.joints.at.fill(at(0.95));
   record.estimate.joints[Joint::kNeck] = at(1.5);
   record.estimate.joints[Joint::kHead] = at(1.65);
   return record;
@@ -116,9 +116,9 @@ TEST_F(OverlayVideo, DrawsIntoAPictureThatIsShownTwiceAnew) {
 TEST_F(OverlayVideo, LeavesNoHalfFile) {
   JobControl control;
   control.report = [](const Progress& progress) {
-    if (progress.done == 4) throw std::runtime_error("stopped");
+    if (progress.done == 4) throw std::logic_error("stopped");
   };
-  EXPECT_THROW(write(frames(std::vector<bool>(8, true)), 2, control), std::runtime_error);
+  EXPECT_THROW(write(frames(std::vector<bool>(8, true)), 2, control), std::logic_error);
   EXPECT_TRUE(files().empty());
 }
 
