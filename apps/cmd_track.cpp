@@ -95,8 +95,11 @@ int run_track(const Arguments& arguments) {
   const bool cut_short = outcome.status == TrackStatus::kCutShort;
   if (!outcome.trouble.empty() && !cut_short) control.say(outcome.trouble);
   if (outcome.resumable) control.say("interrupted; run again with --resume to go on from here");
-  control.say(fmt::format("{} of {} frames tracked, {:.1f} frames/s; open {}", outcome.tracked,
-                          outcome.frames, outcome.frames_per_second, outcome.look_at.string()));
+  const auto& stride = outcome.stride_frames_per_second;
+  control.say(fmt::format("{} of {} frames tracked, {:.1f} frames/s{}; open {}", outcome.tracked,
+                          outcome.frames, outcome.frames_per_second,
+                          stride ? fmt::format(" ({:.1f} in the stride)", *stride) : "",
+                          outcome.look_at.string()));
   // Said last, and even with --quiet, though what came before it is kept.
   if (cut_short) throw InputError(outcome.trouble);
   return exit_code(outcome.status);

@@ -36,8 +36,12 @@ function keyFigures() {
     mean('step_width_m', 2, 'm', 'step width'),
     mean('stance_percent', 0, '%', 'stance of the stride'),
     figure(`${run.numbers.tracked_frames}`, `of ${run.numbers.frames}`, analysed ? 'frames with both legs' : 'frames tracked'));
-  if (!analysed)
-    byId('key-figures').append(figure(fixed(run.numbers.frames / run.timing.seconds, 1), '/s', `frames, ${plural(run.timing.threads, 'thread')}`));
+  if (!analysed) {
+    const speed = figure(fixed(run.timing.frames_per_second, 1), '/s', `frames, ${plural(run.timing.threads, 'thread')}`);
+    const stride = run.timing.stride_frames_per_second;
+    if (stride !== null) speed.append(element('span', {}, `${fixed(stride, 1)} in the stride`));
+    byId('key-figures').append(speed);
+  }
 }
 
 const summaryRows = [

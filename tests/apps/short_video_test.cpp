@@ -1,6 +1,8 @@
 // Videos that are shorter than the window in which a walk is looked for, and what is said of those
 // in which nobody is found.
+#include <chrono>
 #include <filesystem>
+#include <iomanip>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -61,6 +63,35 @@ TEST_F(ShortVideo, IsSearchedFromHalfASecondOn) {
     EXPECT_THAT(result.err, testing::Not(HasSubstr("nobody"))) << frames << ": " << result.err;
     EXPECT_GE(numbers().at("tracked_frames"), frames - 6);
   }
+}
+
+// Frames over the time of the whole command, the same in the terminal and in the files.
+TEST_F(ShortVideo, StatesOneSpeedAndThatInTheStride) {
+  constexpr int kFrames = 50;  // longer than the search looks ahead, so that some are followed
+  const auto start = std::chrono::steady_clock::now();
+  const ProgramResult result = track(demo(kFrames));
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+  const std::string text = read_file(folder_ / "out/run.json");
+  const nlohmann::json timing = nlohmann::json::parse(text).at("timing");
+  const double speed = timing.at("frames_per_second");
+  const double stride = timing.at("stride_frames_per_second");
+  EXPECT_NEAR(speed, kFrames / timing.at("seconds").get<double>(), 1e-9);
+  EXPECT_GE(speed, kFrames / passed.count());
+  EXPECT_LT(speed, 2 * kFrames / passed.count());  // start and report take no half of it
+  EXPECT_GT(stride, speed);
+  std::ostringstream words;
+  words << std::fixed << std::setprecision(1) << speed << " frames/s (" << stride
+        << " in the stride); open";
+  EXPECT_THAT(result.err, HasSubstr(words.str()));
+  EXPECT_THAT(read_file(folder_ / "out/report.html"),
+              HasSubstr("\"frames_per_second\":" + timing.at("frames_per_second").dump()));
+}
+
+TEST_F(ShortVideo, OfAnEmptyRoomStatesNoSpeedInTheStride) {
+  const ProgramResult result = track(demo(20, "_background"));
+  const nlohmann::json run = nlohmann::json::parse(read_file(folder_ / "out/run.json"));
+  EXPECT_TRUE(run.at("timing").at("stride_frames_per_second").is_null());
+  EXPECT_THAT(result.err, testing::ContainsRegex("0 of 20 frames tracked, [0-9.]+ frames/s; open"));
 }
 
 TEST_F(ShortVideo, OfLessThanThatSaysSo) {

@@ -127,6 +127,14 @@ TEST(ConfigFile, NamesKeysInsideGroups) {
               HasSubstr("found '[1, 2]', allowed: a list of 5 whole numbers from 0 to 4"));
 }
 
+TEST(ConfigFile, RefusesEncoderPresetsThatThereAreNot) {
+  EXPECT_THAT(message_for_file("overlay:\n  preset: placebo\n"),
+              HasSubstr("c.yaml:2: overlay.preset: found 'placebo', allowed: ultrafast, superfast, "
+                        "veryfast, faster, fast, medium"));
+  EXPECT_THAT(message_for_file("overlay: {width: -1}\n"),
+              HasSubstr("overlay.width: found '-1', allowed: a whole number from 0 to 8192"));
+}
+
 TEST(Parameters, TextBecomesAValueOnlyWithinItsRange) {
   double number = -1;
   EXPECT_TRUE(number_in_range("2.5e-1", 0, 1, number));

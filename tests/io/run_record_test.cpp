@@ -34,6 +34,19 @@ TEST(RunRecord, IsJsonWithEverythingInIt) {
   EXPECT_EQ(json["timing"]["threads"], 2);
 }
 
+TEST(RunRecord, StatesSpeedsOnlyWhereFramesWereFollowed) {
+  const auto timing = [](const RunRecord& record) {
+    return nlohmann::json::parse(run_json(record))["timing"];
+  };
+  RunRecord record = sample_record();
+  EXPECT_FALSE(timing(record).contains("frames_per_second"));
+  record.frames_per_second = 40;
+  EXPECT_EQ(timing(record)["frames_per_second"], 40);
+  EXPECT_TRUE(timing(record)["stride_frames_per_second"].is_null());
+  record.stride_frames_per_second = 60;
+  EXPECT_EQ(timing(record)["stride_frames_per_second"], 60);
+}
+
 TEST(RunRecord, OnlyTheTimingBlockKnowsTheThreads) {
   RunRecord one = sample_record(), two = sample_record();
   apply_setting(one.config, "threads=1", "--threads");

@@ -1,5 +1,6 @@
 #include "io/video/video.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -238,6 +239,19 @@ TEST(FrameSource, TurnsPhoneVideoUprightUnlessTheCalibrationIsRaw) {
   EXPECT_THAT(message_for(file, cv::Size(30, 30)), HasSubstr("found 48x64 px"));
 }
 
+TEST(FrameSource, GivesBackItsDecoderAndKeepsItsFacts) {
+  const TemporaryFolder folder;
+  write_sample_video(folder / "v.mp4", 5);
+  FrameSource source(folder / "v.mp4");
+  cv::Mat frame;
+  ASSERT_TRUE(source.read(frame));
+  source.close();
+  EXPECT_FALSE(source.read(frame));
+  EXPECT_FALSE(source.skip(1));
+  EXPECT_EQ(source.facts().frame_count, 5);
+  EXPECT_EQ(source.trouble(), "");
+}
+
 TEST(VideoWriter, LeavesNothingWithoutClose) {
   const TemporaryFolder folder;
   {
@@ -260,6 +274,39 @@ TEST(VideoWriter, WritesTheSameBytesAgain) {
   write_sample_video(folder / "a.mp4", 30);
   write_sample_video(folder / "b.mp4", 30);
   EXPECT_EQ(read_file(folder / "a.mp4"), read_file(folder / "b.mp4"));
+}
+
+// Each makes another file of the same frames, and the same again.
+TEST(VideoWriter, EncodesByItsPreset) {
+  const TemporaryFolder folder;
+  std::vector<std::string> files;
+  for (const auto& [name, preset] : encoder_presets()) {
+    for (int i = 0; i < 2; ++i) {
+      VideoWriter writer(folder / "v.mp4", {64, 48}, 25, preset);
+      for (int frame = 0; frame < 50; ++frame) writer.write(sample_frame(frame));
+      writer.close();
+      const std::string bytes = read_file(folder / "v.mp4");
+      EXPECT_EQ(std::count(files.begin(), files.end(), bytes), i) << name;
+      files.push_back(bytes);
+    }
+    FrameSource source(folder / "v.mp4");
+    EXPECT_EQ(source.facts().frame_count, 50);
+    EXPECT_EQ(source.facts().frame_rate, 25);
+    cv::Mat frame;
+    for (int i = 0; i < 50; ++i) {
+      ASSERT_TRUE(source.read(frame));
+      EXPECT_LT(cv::norm(frame, sample_frame(i), cv::NORM_L1) / double(frame.total() * 3), 6);
+    }
+  }
+}
+
+TEST(VideoWriter, WithAPresetLeavesNothingWithoutClose) {
+  const TemporaryFolder folder;
+  {
+    VideoWriter writer(folder / "v.mp4", {65, 49}, 29.97, EncoderPreset::kUltrafast);
+    for (int i = 0; i < 5; ++i) writer.write(cv::Mat(49, 65, CV_8UC3, cv::Scalar::all(i)));
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST(VideoWriter, SaysWhereItCannotWrite) {

@@ -103,6 +103,11 @@ TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {
   // Two views fix the place; 60 particles still leave the limbs a hand's breadth or two off.
   EXPECT_LT(joint_errors(truth, found).by_joint[size_t(Joint::kPelvis)].absolute.median, 0.15);
   const nlohmann::json run = run_json("demo");
+  const nlohmann::json& timing = run.at("timing");
+  EXPECT_EQ(timing.at("frames_per_second"), outcome.frames_per_second);
+  EXPECT_NEAR(outcome.frames_per_second * timing.at("seconds").get<double>(), outcome.frames, 1e-6);
+  EXPECT_EQ(timing.at("stride_frames_per_second"), outcome.stride_frames_per_second.value());
+  EXPECT_GT(outcome.stride_frames_per_second, outcome.frames_per_second);
   for (const nlohmann::json& speed : run.at("by_frame").at("speed")) {
     if (speed.is_null()) continue;
     EXPECT_LT(speed, 3) << "nobody walks so fast, in the first frames either";

@@ -118,6 +118,11 @@ std::string run_json(const RunRecord& record) {
                     {"resumed_at_frame", record.resumed_at_frame},
                     {"stage_seconds", object_of(record.stage_seconds)},
                     {"stage_cpu_seconds", object_of(record.stage_cpu_seconds)}};
+  if (record.frames_per_second) {
+    const auto& stride = record.stride_frames_per_second;
+    root["timing"]["frames_per_second"] = *record.frames_per_second;
+    root["timing"]["stride_frames_per_second"] = stride ? Json(*stride) : Json();
+  }
   // Names come from outside and may be no UTF-8.
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -48,7 +48,10 @@ struct RunRecord {
   int threads = 1;  // in fact used
   // In order of the stages: passed on the clock, and worked by all threads together.
   std::vector<std::pair<std::string, double>> stage_seconds, stage_cpu_seconds;
-  double seconds = 0;        // altogether
+  double seconds = 0;  // altogether
+  // Of the whole command; and of the frames in which somebody who was found is followed, without
+  // start and output. Only where there are frames to follow.
+  std::optional<double> frames_per_second, stride_frames_per_second;
   int resumed_at_frame = 0;  // that these times begin with
 };
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "body/body.h"
+#include "io/video/encoder_preset.h"
 #include "kinetics/kinetics.h"
 #include "observation/config.h"
 #include "tracker/smooth/smoothing.h"
@@ -48,6 +49,13 @@ struct BudgetConfig {
   int most_particles = 2000;  // never more
 };
 
+// The videos with the tracked figure in them.
+struct OverlayConfig {
+  int width = 1280;   // px at most; 0 = as the video
+  bool crop = false;  // to a window that follows the walker
+  EncoderPreset preset = EncoderPreset::kSuperfast;
+};
+
 // The page to look at.
 struct ReportConfig {
   double embed_mb = 24;  // of overlay films inside it; larger ones are played from beside it
@@ -68,6 +76,7 @@ struct Config {
   KineticsConfig kinetics;
   GateConfig gates;
   BudgetConfig budget;
+  OverlayConfig overlay;
   ReportConfig report;
   CheckpointConfig checkpoint;
 };

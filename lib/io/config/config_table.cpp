@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "io/video/video.h"
 #include "observation/terms.h"
 
 namespace walktrack {
@@ -181,6 +182,13 @@ void add_budget(ParameterTable& table) {
 }
 
 void add_report(ParameterTable& table) {
+  using V = OverlayConfig;
+  ParameterGroup<V> v(table, "overlay", "videos with the tracked figure", &Config::overlay);
+  v.integer("width", &V::width, 0, kMostPixelsAlongASide,
+            "larger pictures are shrunk to it, px; 0 = as the video");
+  v.flag("crop", &V::crop, "show a window that follows the walker instead of the whole picture");
+  v.choice("preset", &V::preset, encoder_presets(),
+           "of the encoder: slower ones make smaller files");
   using R = ReportConfig;
   ParameterGroup<R> r(table, "report", "report.html", &Config::report);
   r.number("embed_mb", &R::embed_mb, 0, 1000, "overlay films inside it; larger ones beside it, MB");

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 
 #include "body/motion.h"
@@ -18,7 +19,8 @@ using Eigen::Vector3d;
 const cv::Scalar kLeft(178, 114, 0), kRight(0, 94, 213), kTrunk(255, 255, 255),
     kGrid(150, 150, 150);
 
-constexpr int kPieces = 12;             // that a bent line is drawn in
+constexpr int kMostPieces = 12;         // that a bent line is drawn in
+constexpr double kPiece = 32;           // px; no lens bends so little by as much as a pixel
 constexpr int kFractionBits = 4;        // of OpenCV's sub-pixel coordinates
 constexpr double kFarOutside = 10'000;  // px; beyond it OpenCV's coordinates overflow
 
@@ -28,11 +30,21 @@ cv::Point fixed_point(const Vector2d& pixel) {
           static_cast<int>(std::lround(kScale * pixel.y()))};
 }
 
+bool far_outside(const Vector2d& px) { return px.cwiseAbs().maxCoeff() > kFarOutside; }
+
 void draw_piece(cv::Mat& image, const Vector2d& from, const Vector2d& to, const cv::Scalar& bgr,
                 int thickness_px) {
-  if (from.cwiseAbs().maxCoeff() > kFarOutside || to.cwiseAbs().maxCoeff() > kFarOutside) return;
+  if (far_outside(from) || far_outside(to)) return;
   cv::line(image, fixed_point(from), fixed_point(to), bgr, thickness_px, cv::LINE_AA,
            kFractionBits);
+}
+
+// Those that a line between these pixels is drawn in; one that comes from behind the camera or from
+// far outside is cut into many, some of which may be in the picture.
+int pieces_between(const std::optional<Vector2d>& from, const std::optional<Vector2d>& to) {
+  if (!from || !to || far_outside(*from) || far_outside(*to)) return kMostPieces;
+  return static_cast<int>(
+      std::clamp<double>(std::ceil((*to - *from).norm() / kPiece), 1, kMostPieces));
 }
 
 struct Bone {
@@ -68,6 +80,26 @@ void draw_bones(cv::Mat& image, const Camera& camera, const JointPositions& join
   }
 }
 
+// The part of the image in which skeletons lie. Lenses bend bones beyond their joints by less than
+// its margin.
+cv::Rect place_of(std::span<const JointPositions> skeletons, const Camera& camera,
+                  const cv::Mat& image) {
+  Eigen::AlignedBox2d box;
+  for (const JointPositions& joints : skeletons) {
+    for (const Vector3d& joint : joints.at) {
+      const auto px = known(joint) ? project(camera, joint) : std::nullopt;
+      if (px) box.extend(*px);
+    }
+  }
+  if (box.isEmpty()) return {};
+  const Vector2d size(image.cols, image.rows);
+  const Vector2d margin = Vector2d::Constant(4) + box.sizes() / 4;
+  const Vector2d low = (box.min() - margin).cwiseMax(0).cwiseMin(size);
+  const Vector2d high = (box.max() + margin).cwiseMax(0).cwiseMin(size);
+  return {cv::Point(static_cast<int>(low.x()), static_cast<int>(low.y())),
+          cv::Point(static_cast<int>(std::ceil(high.x())), static_cast<int>(std::ceil(high.y())))};
+}
+
 double text_scale(const cv::Mat& image) { return std::max(0.35, image.rows / 960.0); }
 
 void draw_text(cv::Mat& image, const std::string& text, const cv::Point& at) {
@@ -86,8 +118,9 @@ int line_thickness(const cv::Mat& image) { return std::max(1, (image.rows + 240)
 void draw_line(cv::Mat& image, const Camera& camera, const Vector3d& from, const Vector3d& to,
                const cv::Scalar& bgr, int thickness_px) {
   std::optional<Vector2d> last = project(camera, from);
-  for (int i = 1; i <= kPieces; ++i) {
-    const double share = static_cast<double>(i) / kPieces;
+  const int pieces = pieces_between(last, project(camera, to));
+  for (int i = 1; i <= pieces; ++i) {
+    const double share = static_cast<double>(i) / pieces;
     const std::optional<Vector2d> next = project(camera, from + share * (to - from));
     if (last && next) draw_piece(image, *last, *next, bgr, thickness_px);
     last = next;
@@ -125,10 +158,12 @@ void draw_skeleton(cv::Mat& image, const Camera& camera, const JointPositions& j
 
 void draw_spread(cv::Mat& image, const Camera& camera, std::span<const JointPositions> skeletons,
                  bool arms, double opacity) {
-  if (skeletons.empty()) return;
-  cv::Mat drawn = image.clone();
-  for (const JointPositions& joints : skeletons) draw_skeleton(drawn, camera, joints, arms, 1);
-  cv::addWeighted(drawn, opacity, image, 1 - opacity, 0, image);
+  const cv::Rect place = place_of(skeletons, camera, image);
+  if (place.empty()) return;
+  cv::Mat drawn = image(place);
+  const cv::Mat plain = drawn.clone();
+  for (const JointPositions& joints : skeletons) draw_skeleton(image, camera, joints, arms, 1);
+  cv::addWeighted(drawn, opacity, plain, 1 - opacity, 0, drawn);
 }
 
 void draw_cross(cv::Mat& image, const Vector2d& px, const cv::Scalar& bgr, double arm_px) {

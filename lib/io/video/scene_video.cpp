@@ -148,4 +148,8 @@ bool SceneVideo::read(SceneFrames& frames) {
   return true;
 }
 
+void SceneVideo::close() {
+  for (FrameSource& source : sources_) source.close();
+}
+
 }  // namespace walktrack

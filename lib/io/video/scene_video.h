@@ -49,6 +49,8 @@ class SceneVideo {
   // before it should.
   bool read(SceneFrames& frames);
   const std::string& trouble() const { return trouble_; }
+  // Gives back what decoding holds; what is known of the videos stays.
+  void close();
 
  private:
   void place_frames(size_t camera, const Scene& scene);

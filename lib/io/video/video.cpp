@@ -117,7 +117,7 @@ void FrameSource::check_size(std::optional<cv::Size> expected_px) const {
 }
 
 bool FrameSource::read(cv::Mat& frame) {
-  if (!trouble_.empty()) return false;
+  if (closed_ || !trouble_.empty()) return false;
   if (!images_.empty()) return read_image(frame);
   if (!plain_.empty()) {
     if (next_frame_ >= facts_.frame_count) return false;
@@ -158,7 +158,14 @@ bool FrameSource::read_image(cv::Mat& frame) {
   return true;
 }
 
+void FrameSource::close() {
+  capture_.reset();
+  unturned_.release();
+  closed_ = true;
+}
+
 bool FrameSource::skip(int frames) {
+  if (closed_) return false;
   for (int i = 0; i < frames; ++i) {
     if (!images_.empty()) {
       if (next_frame_ >= std::ssize(images_)) return false;

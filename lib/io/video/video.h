@@ -53,6 +53,8 @@ class FrameSource {
   bool skip(int frames);
   // Why the source ended before its announced end; empty if it did not.
   const std::string& trouble() const { return trouble_; }
+  // Gives back what decoding holds: tens of pictures. No frame can be read any more.
+  void close();
 
  private:
   void open_video(std::optional<cv::Size> expected_px);
@@ -69,6 +71,7 @@ class FrameSource {
   cv::Mat unturned_;                           // the decoded frame where frames are turned
   VideoFacts facts_;
   int next_frame_ = 0;
+  bool closed_ = false;
   std::string trouble_;
 };
 

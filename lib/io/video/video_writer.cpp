@@ -6,6 +6,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "io/archive/files.h"
+#include "io/video/h264_file.h"
 
 namespace walktrack {
 
@@ -26,10 +27,13 @@ std::unique_ptr<cv::VideoWriter> open_encoder(const fs::path& path, cv::Size siz
 
 }  // namespace
 
-VideoWriter::VideoWriter(const fs::path& path, cv::Size size_px, double frame_rate)
+VideoWriter::VideoWriter(const fs::path& path, cv::Size size_px, double frame_rate,
+                         std::optional<EncoderPreset> preset)
     : path_(path), temporary_(new_temporary(path, ".mp4")) {
   try {
-    writer_ = open_encoder(temporary_, size_px, frame_rate);
+    const cv::Size even(size_px.width & ~1, size_px.height & ~1);
+    if (preset) chosen_ = H264File::open(temporary_, even, frame_rate, *preset);
+    if (!chosen_) writer_ = open_encoder(temporary_, size_px, frame_rate);
   } catch (...) {
     std::error_code ignored;
     fs::remove(temporary_, ignored);
@@ -38,8 +42,9 @@ VideoWriter::VideoWriter(const fs::path& path, cv::Size size_px, double frame_ra
 }
 
 VideoWriter::~VideoWriter() {
-  if (!writer_) return;
-  writer_->release();
+  if (!writer_ && !chosen_) return;
+  chosen_.reset();
+  writer_.reset();
   std::error_code ignored;
   fs::remove(temporary_, ignored);
 }
@@ -47,18 +52,29 @@ VideoWriter::~VideoWriter() {
 VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 
 void VideoWriter::write(const cv::Mat& frame) {
-  writer_->write(frame);
   ++frames_;
+  if (writer_) return writer_->write(frame);
+  try {
+    chosen_->write(frame);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}: {}", path_.string(), error.what()));
+  }
 }
 
 void VideoWriter::close() {
-  writer_->release();
-  // The encoder reports nothing, so the file is asked.
+  try {
+    if (chosen_) chosen_->finish();
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}: {}", path_.string(), error.what()));
+  }
+  if (writer_) writer_->release();
+  // OpenCV's encoder reports nothing, so the file is asked.
   cv::VideoCapture check(temporary_.string(), cv::CAP_FFMPEG);
   const bool complete = check.isOpened() && check.get(cv::CAP_PROP_FRAME_COUNT) == frames_;
   if (frames_ > 0 && !complete) {
     throw std::runtime_error(fmt::format("{}: cannot be written completely", path_.string()));
   }
+  chosen_.reset();
   writer_.reset();
   publish_file(temporary_, path_);
 }

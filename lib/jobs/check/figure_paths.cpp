@@ -26,11 +26,14 @@ struct SmallVideo {
   int factor = 1;
   std::vector<cv::Mat> frames;
 
+  // Row by row of the small picture, for a grey copy of a large one is a needless one.
   void add(const cv::Mat& frame) {
-    cv::Mat grey;
-    cv::cvtColor(frame, grey, cv::COLOR_BGR2GRAY);
-    const cv::Size size(frame.cols / factor, frame.rows / factor);
-    if (factor > 1) cv::resize(grey({{0, 0}, size * factor}), grey, size, 0, 0, cv::INTER_AREA);
+    cv::Mat grey(frame.rows / factor, frame.cols / factor, CV_8U), strip;
+    for (int y = 0; y < grey.rows; ++y) {
+      cv::cvtColor(frame.rowRange(y * factor, (y + 1) * factor), strip, cv::COLOR_BGR2GRAY);
+      cv::Mat row = grey.row(y);
+      cv::resize(strip.colRange(0, grey.cols * factor), row, row.size(), 0, 0, cv::INTER_AREA);
+    }
     frames.push_back(grey);
   }
 };

@@ -90,12 +90,13 @@ std::vector<std::pair<std::string, double>> keypoint_numbers(
   return out;
 }
 
-void draw_keypoints(const KeypointEvidence& seen, int shrink, cv::Mat& image) {
+void draw_keypoints(const KeypointEvidence& seen, int shrink, const OverlayView& view,
+                    cv::Mat& image) {
   const double arm_px = 3.0 * line_thickness(image);
   for (const KeypointEvidence::Person& person : seen.people)
     for (size_t i = 0; i < kBodyPoints; ++i)
       if (person[i].precision > 0)
-        draw_cross(image, picture_px(person[i].px, shrink), colour_of(i), arm_px);
+        draw_cross(image, in_view(view, picture_px(person[i].px, shrink)), colour_of(i), arm_px);
 }
 
 }  // namespace walktrack

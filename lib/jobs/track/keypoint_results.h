@@ -11,6 +11,7 @@
 
 #include "body/body.h"
 #include "io/config/config.h"
+#include "io/drawing/overlay_view.h"
 #include "io/scene/scene.h"
 #include "jobs/track/track_results.h"
 #include "observation/keypoint_term.h"
@@ -33,7 +34,9 @@ std::vector<std::pair<std::string, std::vector<double>>> keypoint_residuals(
 std::vector<std::pair<std::string, double>> keypoint_numbers(
     std::span<const KeypointTerm::State> cameras);
 
-// Thin crosses where points were seen, of all people; `seen` is of an image shrunk by `shrink`.
-void draw_keypoints(const KeypointEvidence& seen, int shrink, cv::Mat& image);
+// Thin crosses where points were seen, of all people, in a view of the camera's picture; `seen` is
+// of that picture shrunk by `shrink`.
+void draw_keypoints(const KeypointEvidence& seen, int shrink, const OverlayView& view,
+                    cv::Mat& image);
 
 }  // namespace walktrack

@@ -74,4 +74,11 @@ void NextFrame::complete(double time, int threads, SceneEvidence& out) {
   fetched_ = false;
 }
 
+void NextFrame::close() {
+  video_.close();
+  images_ = {};
+  for (PreparedFrame& frame : prepared_) frame = PreparedFrame();
+  there_ = false;
+}
+
 }  // namespace walktrack

@@ -40,6 +40,9 @@ class NextFrame {
   // then.
   void complete(double time, int threads, SceneEvidence& out);
 
+  // After the last frame: gives back pictures and decoders.
+  void close();
+
  private:
   const Scene& scene_;
   SceneVideo& video_;

@@ -14,6 +14,7 @@
 #include "jobs/check/check.h"
 #include "jobs/track/keypoint_results.h"
 #include "jobs/track/named_track.h"
+#include "jobs/track/overlay_video.h"
 #include "jobs/track/planted_track.h"
 #include "jobs/track/quality_words.h"
 #include "jobs/track/report.h"
@@ -209,6 +210,8 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
   out.stage_seconds = run.watch().stages();
   out.stage_cpu_seconds = run.watch().cpu_stages();
   out.seconds = seconds;
+  out.frames_per_second = outcome.frames_per_second;
+  out.stride_frames_per_second = outcome.stride_frames_per_second;
   return out;
 }
 
@@ -310,13 +313,12 @@ bool follow_film(TrackRun& run, const SceneVideo& video, const JobControl& contr
                  TrackOutcome& outcome) {
   const auto total = static_cast<size_t>(std::max(0, video.frame_count()));
   run.skip(control);
-  const auto start = Clock::now();
   bool stopped = false;
   while (!(stopped = control.stopping()) && run.step())
     control.progress("tracking", static_cast<size_t>(run.frames_read()), total);
   outcome.resumable = run.finish(stopped);
   outcome.frames = run.frames_read();
-  outcome.frames_per_second = (outcome.frames - run.first_frame()) / seconds_since(start);
+  outcome.stride_frames_per_second = run.stride_frames_per_second();
   return stopped;
 }
 
@@ -370,9 +372,11 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   forces.cutoff_hz = forces.tracked_cutoff_hz;
   const WrittenTables tables = write_tables(analysed, uncertainty, forces, folder);
   std::vector<ReportClip> clips;
-  if (job.overlay && outcome.frames > 0) clips = write_overlays(job, frames, folder, control);
+  if (job.overlay && outcome.frames > 0)
+    clips = write_overlays(job, frames, folder, run.threads(), control);
   run.watch().add("output", spent_since(writing));
   const double seconds = seconds_since(start);
+  outcome.frames_per_second = (outcome.frames - run.first_frame()) / seconds;
   const std::string record =
       run_json(record_of(job, inputs, run, frames, outcome, quality, tables, seconds));
   outcome.look_at = write_report(

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,8 @@ enum class TrackStatus {
 struct TrackOutcome {
   TrackStatus status = TrackStatus::kTracked;
   int frames = 0, tracked = 0;
-  double frames_per_second = 0;     // of tracking, without the overlay
+  double frames_per_second = 0;  // of the whole command, until the report is written
+  std::optional<double> stride_frames_per_second;  // see TrackRun
   bool resumable = false;           // for kInterrupted: there is a checkpoint to go on from
   std::vector<std::string> checks;  // what the scene's checks found
   std::string trouble;              // for kCutShort and kBelowGates: what happened

@@ -6,42 +6,20 @@
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
-#include <opencv2/core.hpp>
 
 #include "io/archive/run_record.h"
-#include "io/drawing/overlay.h"
 #include "io/tables/motion_file.h"
-#include "io/video/scene_video.h"
-#include "io/video/video_writer.h"
-#include "jobs/track/keypoint_results.h"
+#include "jobs/track/overlay_video.h"
 #include "jobs/track/report.h"
 #include "jobs/track/track_run.h"
-#include "jobs/track/track_setup.h"
 #include "tracker/smooth/model_error.h"
 
 namespace walktrack {
 
 namespace {
 
-std::string overlay_name(const SceneCamera& camera) {
-  return fmt::format("overlay_{}.mp4", camera.name);
-}
-
 double time_of(const TrackedFrames& frames, size_t i) {
   return static_cast<double>(i) / frames.frame_rate;
-}
-
-// `shrink`: of the images that `seen` is of.
-void draw_record(const FrameRecord& record, const Camera& camera, bool arms, double time,
-                 const KeypointEvidence* seen, int shrink, cv::Mat& image) {
-  if (seen) draw_keypoints(*seen, shrink, image);
-  if (record.tracked) {
-    draw_spread(image, camera, record.samples, arms, 0.35);
-    draw_skeleton(image, camera, record.estimate.joints, arms, 2 * line_thickness(image));
-    draw_caption(image, fmt::format("{:.2f} s  {:.2f} m/s", time, record.estimate.speed));
-  } else {
-    draw_caption(image, fmt::format("{:.2f} s  not tracked", time));
-  }
 }
 
 std::vector<AngleRow> angles_of(const TrackedFrames& frames) {
@@ -225,38 +203,6 @@ WrittenTables write_tables(const AnalysedMotion& analysed, const JointUncertaint
   folder.write("uncertainty.csv", bands);
   const KineticsTotals totals = write_motion_tables(analysed, config, folder);
   return {result_digest(joints, bands), totals};
-}
-
-std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames& frames,
-                                       const ResultFolder& folder, const JobControl& control) {
-  SceneVideo video(job.scene);
-  std::vector<VideoWriter> writers;
-  std::vector<ReportClip> clips;
-  for (size_t c = 0; c < job.scene.cameras.size(); ++c) {
-    const Camera& camera = job.scene.cameras[c].camera;
-    const std::string& name = job.scene.cameras[c].name;
-    clips.push_back({name, folder.file(overlay_name(job.scene.cameras[c]))});
-    writers.emplace_back(clips.back().file, cv::Size(camera.width_px, camera.height_px),
-                         frames.frame_rate);
-  }
-  std::vector<int> shrinks;
-  for (const SceneCamera& camera : job.scene.cameras)
-    shrinks.push_back(working_scale(job.scene, camera.camera, job.config.values).shrink);
-  SceneFrames images;
-  const bool arms = job.config.values.body.arms;
-  for (size_t i = 0; i < frames.records.size() && video.read(images); ++i) {
-    const FrameRecord record = frames.records[i];
-    for (size_t c = 0; c < writers.size(); ++c) {
-      const bool any = images.fresh[c] && !record.keypoints.empty();
-      draw_record(record, job.scene.cameras[c].camera, arms, time_of(frames, i),
-                  any ? &record.keypoints[c] : nullptr, shrinks[c], images.images[c]);
-      writers[c].write(images.images[c]);
-    }
-    control.progress("drawing", i + 1, frames.records.size());
-  }
-  for (VideoWriter& writer : writers) writer.close();
-  choose_embedded(clips, static_cast<uintmax_t>(1e6 * job.config.values.report.embed_mb));
-  return clips;
 }
 
 int foot_changes(const TrackedFrames& frames) {

@@ -1,13 +1,11 @@
-// What tracking leaves behind: tables of joints and angles, overlay videos, the record of the run.
+// What tracking leaves behind: tables of joints and angles, the record of the run.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "core/job_control.h"
 #include "io/archive/frame_file.h"
 #include "io/archive/result_folder.h"
-#include "io/drawing/report_page.h"
 #include "jobs/track/motion_tables.h"
 #include "jobs/track/track.h"
 #include "metrics/coverage.h"
@@ -51,11 +49,6 @@ struct WrittenTables {
 AnalysedMotion analysed_motion(const TrackedFrames& frames, const Scene& scene, double model_error);
 WrittenTables write_tables(const AnalysedMotion& analysed, const JointUncertainty& uncertainty,
                            const KineticsConfig& config, const ResultFolder& folder);
-
-// Reads the film again and draws the pose and the particles' spread into it, one video a
-// camera; marks those that the report has room for.
-std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames& frames,
-                                       const ResultFolder& folder, const JobControl& control);
 
 // Feet that took over from each other: how often the likelier stance side changed while walking.
 int foot_changes(const TrackedFrames& frames);

@@ -93,6 +93,7 @@ void TrackRun::skip(const JobControl& control) {
 
 bool TrackRun::step() {
   const Moment start;
+  const bool tracked = tracker_.tracking();
   if (!next_.fetched()) fetch();
   if (!next_.there()) return false;
   complete();
@@ -102,6 +103,10 @@ bool TrackRun::step() {
   pace(start);
   ++frames_read_;
   if (tracker_.tracking() && timer_.due()) write_checkpoint();
+  if (tracked && tracker_.tracking()) {
+    stride_.seconds += seconds_since(start.clock);
+    ++stride_.frames;
+  }
   return true;
 }
 
@@ -109,6 +114,7 @@ bool TrackRun::finish(bool resumable) {
   const bool noted = resumable && tracker_.tracking() && frames_read_ > first_frame_;
   if (noted) write_checkpoint();
   keep(tracker_.finish());
+  next_.close();
   return noted || (resumable && std::filesystem::exists(checkpoint_file_));
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -73,6 +74,10 @@ class TrackRun {
   std::vector<std::string> notes() const;
   // By frame, NaN while not tracking; empty without a budget.
   const std::vector<double>& particles_used() const { return particles_used_; }
+  // In the stride: frames before and after which the walker was tracked. Nothing without one.
+  std::optional<double> stride_frames_per_second() const {
+    return stride_.frames > 0 ? std::optional(stride_.frames / stride_.seconds) : std::nullopt;
+  }
   Stopwatch& watch() { return watch_; }
   const Stopwatch& watch() const { return watch_; }
 
@@ -112,6 +117,10 @@ class TrackRun {
   uint64_t first_frame_, frames_read_;  // of the film
   CheckpointTimer timer_;
   double filter_seconds_ = 0;  // of the newest frame
+  struct {
+    int frames = 0;
+    double seconds = 0;
+  } stride_;
   std::vector<double> particles_used_;
 };
 

@@ -1,0 +1,19 @@
+// How much time the H.264 encoder takes for a smaller file, by x264's names.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace walktrack {
+
+enum class EncoderPreset { kUltrafast, kSuperfast, kVeryfast, kFaster, kFast, kMedium };
+
+// Fastest first.
+inline std::vector<std::pair<std::string, EncoderPreset>> encoder_presets() {
+  return {{"ultrafast", EncoderPreset::kUltrafast}, {"superfast", EncoderPreset::kSuperfast},
+          {"veryfast", EncoderPreset::kVeryfast},   {"faster", EncoderPreset::kFaster},
+          {"fast", EncoderPreset::kFast},           {"medium", EncoderPreset::kMedium}};
+}
+
+}  // namespace walktrack
