@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "core/errors.h"
@@ -55,6 +56,26 @@ int list_work(const BatchJob& job) {
   return kDone;
 }
 
+int exit_code(const BatchOutcome& outcome) {
+  if (outcome.interrupted || stop_request()) return kInterrupted;
+  if (outcome.failed + outcome.waiting > 0) return kFailed;
+  return outcome.degraded > 0 ? kDegraded : kDone;
+}
+
+std::string result_line(const BatchJob& job, const BatchOutcome& outcome, int code) {
+  const nlohmann::ordered_json line = {{"format", "walktrack result 1"},
+                                       {"command", "batch"},
+                                       {"status", outcome.interrupted ? "interrupted" : "done"},
+                                       {"exit", code},
+                                       {"result", job.output.string()},
+                                       {"open", (job.output / "batch.html").string()},
+                                       {"complete", outcome.complete},
+                                       {"degraded", outcome.degraded},
+                                       {"failed", outcome.failed},
+                                       {"waiting", outcome.waiting}};
+  return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 // What the whole output folder holds by now, whoever did it.
 int report(const BatchJob& job) {
   const std::vector<Sequence> all = sequences_of(job);
@@ -73,7 +94,7 @@ int run_batch(const Arguments& arguments) {
   BatchJob job;
   std::string folder, scene_template, shard = "1/1";
   bool list_only = false, dry_run = false, report_only = false, resume = false;
-  bool ignore_checks = false;
+  bool ignore_checks = false, json_line = false;
   CommandLine line(
       {.name = "batch",
        .operands = "FOLDER",
@@ -96,7 +117,9 @@ int run_batch(const Arguments& arguments) {
       "dry-run", po::bool_switch(&dry_run), "print the sequences that would be done, do nothing")(
       "ignore-checks", po::bool_switch(&ignore_checks),
       "track scenes though their checks fail (see walktrack check); their reports say so")(
-      "report", po::bool_switch(&report_only), "do nothing but the summary of what there is");
+      "report", po::bool_switch(&report_only), "do nothing but the summary of what there is")(
+      "json-line", po::bool_switch(&json_line),
+      "print how many sequences came out how, or what went wrong, as one line of JSON");
   line.operand("FOLDER", &folder);
   if (!line.parse(arguments)) return kDone;
   if (job.jobs < 1) throw UsageError("--jobs: found less than 1, allowed: from 1");
@@ -120,15 +143,15 @@ int run_batch(const Arguments& arguments) {
   control.say(fmt::format("{} complete, {} degraded, {} failed, {} left; see {}", outcome.complete,
                           outcome.degraded, outcome.failed, outcome.waiting,
                           (job.output / "batch.html").string()));
-  if (outcome.interrupted) return kInterrupted;
-  if (outcome.changed > 0) {
+  if (outcome.changed > 0 && !outcome.interrupted) {
     throw UsageError(fmt::format(
         "{} sequences are left as they are, for they are of other settings or inputs; -y does them "
         "again{}",
         outcome.changed, outcome.changes));
   }
-  if (outcome.failed + outcome.waiting > 0) return kFailed;
-  return outcome.degraded > 0 ? kDegraded : kDone;
+  const int code = exit_code(outcome);
+  if (json_line) fmt::print("{}", result_line(job, outcome, code));
+  return code;
 }
 
 }  // namespace walktrack

@@ -53,7 +53,7 @@ void set_budget(const std::string& fps, const std::string& budget_ms, ConfigWith
 
 int run_track(const Arguments& arguments) {
   std::string scene;
-  bool no_overlay = false, resume = false, ignore_checks = false;
+  bool no_overlay = false, resume = false, ignore_checks = false, json_line = false;
   std::string fps, budget_ms;
   CommandLine line(
       {.name = "track",
@@ -76,6 +76,8 @@ int run_track(const Arguments& arguments) {
   add("resume", po::bool_switch(&resume),
       "go on from the last checkpoint of a run that was killed or interrupted, to the same bytes; "
       "with -y, one that does not fit is left behind");
+  add("json-line", po::bool_switch(&json_line),
+      "print the result, or what went wrong, as one line of JSON");
   line.operand("SCENE.yaml", &scene);
   if (!line.parse(arguments)) return kDone;
   TrackJob job;
@@ -93,16 +95,15 @@ int run_track(const Arguments& arguments) {
   const JobControl control = terminal.control();
   const TrackOutcome outcome = track_scene(job, control);
   const bool cut_short = outcome.status == TrackStatus::kCutShort;
-  if (!outcome.trouble.empty() && !cut_short) control.say(outcome.trouble);
+  const bool listed = !outcome.failed_checks.empty();  // in the summary
+  if (!outcome.trouble.empty() && !cut_short && !listed) control.say(outcome.trouble);
   if (outcome.resumable) control.say("interrupted; run again with --resume to go on from here");
-  const auto& stride = outcome.stride_frames_per_second;
-  control.say(fmt::format("{} of {} frames tracked, {:.1f} frames/s{}; open {}", outcome.tracked,
-                          outcome.frames, outcome.frames_per_second,
-                          stride ? fmt::format(" ({:.1f} in the stride)", *stride) : "",
-                          outcome.look_at.string()));
+  control.say(summary_text(outcome));
   // Said last, and even with --quiet, though what came before it is kept.
   if (cut_short) throw InputError(outcome.trouble);
-  return exit_code(outcome.status);
+  const int code = stop_request() ? kInterrupted : exit_code(outcome.status);
+  if (json_line) fmt::print("{}", summary_json(outcome, job.output.string(), code));
+  return code;
 }
 
 }  // namespace walktrack

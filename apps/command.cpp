@@ -72,6 +72,9 @@ po::options_description common_options(CommonOptions& common) {
       "threads, 0 = all that the process may use");
   add("yes,y", po::bool_switch(&common.overwrite),
       "overwrite a complete result, but no file that walktrack did not write");
+  add("progress", po::value(&common.progress)->value_name("HOW"),
+      "auto: a bar on a terminal, else a line every half minute; json: progress, messages and "
+      "errors as lines of JSON on stderr; none");
   add("quiet", po::bool_switch(&common.quiet), "errors only");
   add("verbose", po::bool_switch(&common.verbose), "say more");
   add("help,h", "this text");
@@ -126,6 +129,11 @@ bool CommandLine::parse(const Arguments& arguments) {
     if (!value.defaulted()) given_.insert(name);
   if (common_.quiet && common_.verbose)
     throw UsageError("--quiet and --verbose exclude each other");
+  const std::string& progress = common_.progress;
+  if (progress != "auto" && progress != "json" && progress != "none")
+    throw UsageError(describe({"", 0, "--progress"}, progress, "auto, json or none"));
+  if (common_.quiet && progress == "json")
+    throw UsageError("--quiet and --progress json exclude each other");
   take_operands(values.count(kWords) > 0 ? values[kWords].as<std::vector<std::string>>()
                                          : std::vector<std::string>{});
   return true;

@@ -40,6 +40,7 @@ struct CommonOptions {
   std::vector<std::string> settings;  // key=value
   std::string output;
   std::string seed, threads;
+  std::string progress = "auto";  // auto, json, none
   bool overwrite = false;
   bool quiet = false;
   bool verbose = false;

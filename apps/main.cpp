@@ -14,6 +14,7 @@
 #include "core/errors.h"
 #include "core/version.h"
 #include "manual.h"
+#include "progress_pace.h"
 #include "terminal.h"
 
 namespace walktrack {
@@ -94,9 +95,26 @@ int run(const Arguments& words) {
   return run_command(words[0], {words.begin() + 1, words.end()});
 }
 
-int complain(const std::exception& error, ExitCode code) {
+// Whether these words ask for errors as JSON: also words that are no valid command line.
+bool has_option(const Arguments& words, std::string_view option, std::string_view value = "") {
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (value.empty() && words[i] == option) return true;
+    if (!value.empty() && words[i] == fmt::format("{}={}", option, value)) return true;
+    if (!value.empty() && words[i] == option && i + 1 < words.size() && words[i + 1] == value)
+      return true;
+  }
+  return false;
+}
+
+int complain(const Arguments& words, const std::exception& error, ExitCode code) {
   // Not fmt::print, which throws where stderr is a file on a full disk.
-  std::fputs(fmt::format("walktrack: {}\n", error.what()).c_str(), stderr);
+  std::fputs(has_option(words, "--progress", "json")
+                 ? error_json(error.what(), code).c_str()
+                 : fmt::format("walktrack: {}\n", error.what()).c_str(),
+             stderr);
+  if (has_option(words, "--json-line"))
+    std::fputs(failed_result_json(words.empty() ? "" : words[0], error.what(), code).c_str(),
+               stdout);
   return code;
 }
 
@@ -108,13 +126,14 @@ int main(int argc, char** argv) {
   // Decoders write their own complaints to stderr; ours name file and frame.
   setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   setenv("OPENCV_LOG_LEVEL", "SILENT", 0);
+  const Arguments words(argv + std::min(argc, 1), argv + argc);
   try {
-    return run({argv + std::min(argc, 1), argv + argc});
+    return run(words);
   } catch (const UsageError& error) {
-    return complain(error, kUsage);
+    return complain(words, error, kUsage);
   } catch (const InputError& error) {
-    return complain(error, kUnreadable);
+    return complain(words, error, kUnreadable);
   } catch (const std::exception& error) {
-    return complain(error, kFailed);
+    return complain(words, error, kFailed);
   }
 }

@@ -20,21 +20,15 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 extern "C" void request_stop(int) { stop_requested.store(true); }
 
-constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
+constexpr auto kRedrawInterval = std::chrono::milliseconds(100),
+               kJsonInterval = std::chrono::milliseconds(500),
+               kLogInterval = std::chrono::milliseconds(30000);
 constexpr size_t kBarWidth = 30;
 
 // https://no-color.org: set and not empty.
 bool wants_colour() {
   const char* no_colour = std::getenv("NO_COLOR");
   return no_colour == nullptr || *no_colour == '\0';
-}
-
-// "45 s", "12 min", "3 h 20 min".
-std::string duration(double seconds) {
-  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
-  const int minutes = static_cast<int>(std::lround(seconds / 60));
-  return minutes < 120 ? fmt::format("{} min", minutes)
-                       : fmt::format("{} h {:02d} min", minutes / 60, minutes % 60);
 }
 
 }  // namespace
@@ -51,10 +45,20 @@ void watch_signals() {
 
 const std::atomic<bool>& stop_request() { return stop_requested; }
 
+Terminal::Style Terminal::style_of(const CommonOptions& options) {
+  if (options.progress == "json") return Style::kJson;
+  if (options.quiet || options.progress == "none") return Style::kNone;
+  return isatty(STDERR_FILENO) != 0 ? Style::kBar : Style::kLog;
+}
+
 Terminal::Terminal(const CommonOptions& options)
     : quiet_(options.quiet),
-      interactive_(!options.quiet && isatty(STDERR_FILENO) != 0),
-      colour_(wants_colour()) {}
+      colour_(wants_colour()),
+      style_(style_of(options)),
+      pace_(style_ == Style::kBar    ? kRedrawInterval
+            : style_ == Style::kJson ? kJsonInterval
+                                     : kLogInterval,
+            style_ == Style::kLog) {}
 
 Terminal::~Terminal() { finish_line(); }
 
@@ -62,46 +66,38 @@ JobControl Terminal::control() {
   JobControl control;
   control.stop_request = &stop_requested;
   if (!quiet_) control.message = [this](std::string_view text) { say(text); };
-  if (interactive_) control.report = [this](const Progress& progress) { draw(progress); };
+  if (style_ != Style::kNone) control.report = [this](const Progress& progress) { show(progress); };
   return control;
 }
 
 void Terminal::say(std::string_view text) {
   finish_line();
-  std::fputs(fmt::format("walktrack: {}\n", text).c_str(), stderr);
+  std::fputs(style_ == Style::kJson ? message_json(text).c_str()
+                                    : fmt::format("walktrack: {}\n", text).c_str(),
+             stderr);
 }
 
-void Terminal::draw(const Progress& progress) {
-  const auto now = Clock::now();
-  const bool complete = progress.total > 0 && progress.done >= progress.total;
-  if (progress.what != what_) {
-    finish_line();
-    what_ = progress.what;
-    start_ = now;
-    done_before_ = progress.done;
-  } else if (now - drawn_ < kRedrawInterval && !complete) {
-    return;
+void Terminal::show(const Progress& progress) {
+  const bool due = pace_.due(progress, ProgressPace::Clock::now());
+  if (pace_.new_stage()) finish_line();
+  if (!due) return;
+  if (style_ == Style::kJson) {
+    std::fputs(progress_json(progress, pace_).c_str(), stderr);
+  } else if (style_ == Style::kLog) {
+    std::fputs(fmt::format("walktrack: {}\n", progress_text(progress, pace_)).c_str(), stderr);
+  } else {
+    std::fputs(fmt::format("\r\033[K{}", progress_text(progress, pace_, bar(progress))).c_str(),
+               stderr);
+    line_open_ = true;
+    if (progress.total > 0 && progress.done >= progress.total) finish_line();
   }
-  drawn_ = now;
-  std::fputs(fmt::format("\r\033[K{}", line(progress)).c_str(), stderr);
-  line_open_ = true;
-  if (complete) finish_line();
 }
 
-std::string Terminal::line(const Progress& progress) const {
-  const double seconds = std::chrono::duration<double>(drawn_ - start_).count();
-  // What a run that is gone on with had done before took none of this time.
-  const auto since = static_cast<double>(progress.done - std::min(progress.done, done_before_));
-  const double rate = seconds > 0 ? since / seconds : 0;
-  const std::string pace = rate > 0 ? fmt::format("  {:.1f}/s", rate) : "";
-  if (progress.total == 0) return fmt::format("{} {}{}", what_, progress.done, pace);
-  const size_t done = std::min(progress.done, progress.total);
-  const size_t full = kBarWidth * done / progress.total;
-  const double left = static_cast<double>(progress.total - done) / rate;
-  return fmt::format("{} [{}{}{}{}] {}/{}{}{}", what_, colour_ ? "\033[32m" : "",
-                     std::string(full, '='), colour_ ? "\033[0m" : "",
-                     std::string(kBarWidth - full, ' '), done, progress.total, pace,
-                     rate > 0 ? fmt::format("  {} left", duration(left)) : "");
+std::string Terminal::bar(const Progress& progress) const {
+  if (progress.total == 0) return "";
+  const size_t full = kBarWidth * std::min(progress.done, progress.total) / progress.total;
+  return fmt::format("[{}{}{}{}] ", colour_ ? "\033[32m" : "", std::string(full, '='),
+                     colour_ ? "\033[0m" : "", std::string(kBarWidth - full, ' '));
 }
 
 void Terminal::finish_line() {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <string>
 #include <string_view>
 
 #include "command.h"
 #include "core/job_control.h"
+#include "progress_pace.h"
 
 namespace walktrack {
 
@@ -17,8 +17,10 @@ void watch_signals();
 // Raised by a signal; jobs look at it between frames.
 const std::atomic<bool>& stop_request();
 
-// Shows a job on stderr: messages unless --quiet, and on a terminal one line of progress drawn over
-// itself, "tracking [=====>    ] 41/84  12.3/s  3 s left" (plain with NO_COLOR).
+// Shows a job on stderr: messages unless --quiet, and how far it is. On a terminal that is one line
+// drawn over itself, "tracking [=====>    ] 41/84  12.3/s  3 s left" (plain with NO_COLOR);
+// elsewhere a line every half minute, so that a log shows a long run at work. With --progress json
+// everything is a line of JSON (progress_pace.h).
 class Terminal {
  public:
   explicit Terminal(const CommonOptions& options);
@@ -30,17 +32,17 @@ class Terminal {
   JobControl control();
 
  private:
-  using Clock = std::chrono::steady_clock;
+  enum class Style { kNone, kBar, kLog, kJson };
+  static Style style_of(const CommonOptions& options);
   void say(std::string_view text);
-  void draw(const Progress& progress);
-  std::string line(const Progress& progress) const;
+  void show(const Progress& progress);
+  std::string bar(const Progress& progress) const;
   void finish_line();  // so that a message can follow
 
-  bool quiet_, interactive_, colour_;
+  bool quiet_, colour_;
+  Style style_;
+  ProgressPace pace_;
   bool line_open_ = false;
-  std::string what_;
-  Clock::time_point start_, drawn_;
-  size_t done_before_ = 0;  // at start_
 };
 
 }  // namespace walktrack

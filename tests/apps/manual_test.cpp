@@ -55,7 +55,7 @@ std::vector<std::string> offered(const std::string& words, int at) {
 TEST(Completion, OffersCommandsOptionsAndParameters) {
   EXPECT_THAT(offered("walktrack tra", 1), testing::ElementsAre("track"));
   EXPECT_THAT(offered("walktrack ''", 1), testing::Contains("batch"));
-  EXPECT_THAT(offered("walktrack batch --j", 2), testing::ElementsAre("--jobs"));
+  EXPECT_THAT(offered("walktrack batch --jo", 2), testing::ElementsAre("--jobs"));
   EXPECT_THAT(offered("walktrack track --se", 2), testing::ElementsAre("--set", "--seed"));
   EXPECT_THAT(offered("walktrack track --set filter.par", 3),
               testing::ElementsAre("filter.particles="));

@@ -91,7 +91,8 @@ TEST_F(ShortVideo, OfAnEmptyRoomStatesNoSpeedInTheStride) {
   const ProgramResult result = track(demo(20, "_background"));
   const nlohmann::json run = nlohmann::json::parse(read_file(folder_ / "out/run.json"));
   EXPECT_TRUE(run.at("timing").at("stride_frames_per_second").is_null());
-  EXPECT_THAT(result.err, testing::ContainsRegex("0 of 20 frames tracked, [0-9.]+ frames/s; open"));
+  EXPECT_THAT(result.err,
+              testing::ContainsRegex("0 of 20 frames tracked, [0-9.]+ frames/s\n  open"));
 }
 
 TEST_F(ShortVideo, OfLessThanThatSaysSo) {

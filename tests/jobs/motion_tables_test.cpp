@@ -9,6 +9,7 @@
 #include "io/archive/files.h"
 #include "io/tables/csv.h"
 #include "io/tables/motion_file.h"
+#include "tests/io/c3d_reader.h"
 #include "tests/io/opensim_reader.h"
 #include "tests/run_program.h"
 
@@ -45,7 +46,8 @@ class MotionTables : public testing::Test {
  protected:
   void write(const AnalysedMotion& analysed) {
     totals_ = write_motion_tables(analysed, {},
-                                  ResultFolder({folder_, "test", motion_table_files()}, true));
+                                  ResultFolder({folder_, "test", motion_table_files()}, true))
+                  .forces;
   }
   const TemporaryFolder temporary_;
   const fs::path folder_ = temporary_.path() / "tables";
@@ -120,6 +122,54 @@ TEST_F(MotionTables, OpenSimShowsFeetOnTheGroundAndForcesAtThem) {
     }
   }
   EXPECT_GT(loaded, 20);
+}
+
+// In a laboratory's viewer joints, angles and events are those of the tables, and the plates carry
+// the person under the feet.
+TEST_F(MotionTables, LaboratoriesSeeTheSameWalk) {
+  AnalysedMotion demo;
+  demo.motion = read_motion(kDemo / "truth.csv");
+  demo.angles = angle_rows(demo.motion, body_lengths(demo.subject));
+  write(demo);
+  const ReadC3d file = read_c3d(read_text_file(folder_ / "joints.c3d", 1u << 24));
+  EXPECT_EQ(file.rate, 30);
+  ASSERT_EQ(file.frames.size(), demo.motion.time.size());
+  const auto& labels = file.at("POINT:LABELS").texts;
+  const auto point = [&](const std::string& name, size_t frame) {
+    const auto at = std::find(labels.begin(), labels.end(), name) - labels.begin();
+    return file.frames.at(frame).at(static_cast<size_t>(at)).at;
+  };
+  const CsvTable angles = read_csv(folder_ / "angles.csv");
+  for (const size_t frame : {5u, 40u}) {
+    EXPECT_LT(
+        (point("rankle", frame) - 1000 * demo.motion.joints[frame][Joint::kRightAnkle]).norm(),
+        0.01);
+    EXPECT_NEAR(point("RKneeAngles", frame).x(),
+                angles.number(angles.rows[frame], angles.column("knee_angle_r_deg")), 1e-3);
+  }
+  const auto gait = nlohmann::json::parse(read_text_file(folder_ / "gait.json", 1u << 20));
+  const auto contexts = file.all_texts("EVENT:CONTEXTS"), kinds = file.all_texts("EVENT:LABELS");
+  const auto times = file.all_numbers("EVENT:TIMES");
+  ASSERT_EQ(contexts.size(), gait.at("events").size());
+  ASSERT_GT(contexts.size(), 8u);
+  for (size_t i = 0; i < contexts.size(); ++i) {
+    const auto& event = gait.at("events")[i];
+    EXPECT_EQ(contexts[i], event.at("side") == "left" ? "Left" : "Right");
+    EXPECT_EQ(kinds[i], event.at("event") == "toe_off" ? "Foot Off" : "Foot Strike");
+    EXPECT_NEAR(times[2 * i + 1], event.at("time_s").at("value").get<double>(), 1e-3);
+  }
+  int loaded = 0;
+  for (size_t frame = 0; frame < file.frames.size(); ++frame)
+    for (const size_t plate : {0u, 1u}) {
+      const PlateReading reading = read_plate(file, plate, frame);
+      if (!(reading.force.z() > 50)) continue;
+      const std::string side = plate == 0 ? "l" : "r";
+      const Eigen::Vector3d middle =
+          0.5 * (point(side + "ankle", frame) + point(side + "toe", frame));
+      EXPECT_LT((reading.centre - middle).head<2>().norm(), 220) << side << " in " << frame;
+      ++loaded;
+    }
+  EXPECT_GT(loaded, 100);
 }
 
 // Spreadsheets and pandas take the first line for the header.

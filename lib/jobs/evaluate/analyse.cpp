@@ -82,7 +82,7 @@ AnalyseOutcome analyse(const AnalyseJob& job) {
   const ResultFolder folder(outputs, job.overwrite);
   KineticsConfig forces = job.config.values.kinetics;
   if (was_tracked(file)) forces.cutoff_hz = forces.tracked_cutoff_hz;
-  const KineticsTotals totals = write_motion_tables(analysed, forces, folder);
+  const KineticsTotals totals = write_motion_tables(analysed, forces, folder).forces;
   RunRecord record = record_of(job, file, analysed, totals);
   record.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const std::string text = run_json(record);

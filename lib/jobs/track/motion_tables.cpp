@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/export/c3d_file.h"
 #include "io/tables/gait_file.h"
 #include "io/tables/kinetics_file.h"
 #include "io/tables/opensim.h"
@@ -44,6 +45,15 @@ void write_angles(const AnalysedMotion& analysed, const ResultFolder& folder) {
                  mot_from_poses(times, poses, body_lengths(analysed.subject), "angles"));
 }
 
+void write_c3d(const AnalysedMotion& analysed, const Gait& gait, const Kinetics& forces,
+               const ResultFolder& folder) {
+  if (analysed.motion.time.empty()) return;
+  const bool any = std::any_of(forces.frames.begin(), forces.frames.end(),
+                               [](const KineticsFrame& frame) { return frame.known; });
+  folder.write("joints.c3d", c3d_from_motion({analysed.motion, analysed.rate, analysed.angles,
+                                              gait.events, any ? &forces : nullptr}));
+}
+
 }  // namespace
 
 std::vector<FootContact> foot_contacts(const Gait& gait) {
@@ -66,22 +76,24 @@ std::vector<FootContact> foot_contacts(const Gait& gait) {
 }
 
 std::vector<std::string> motion_table_files() {
-  return {"joints.trc",   "angles.csv",          "angles.mot",        "gait.json",  "gait.csv",
-          "kinetics.csv", "ground_reaction.mot", "joint_moments.sto", "tables.json"};
+  return {"joints.trc", "joints.c3d",   "angles.csv",          "angles.mot",        "gait.json",
+          "gait.csv",   "kinetics.csv", "ground_reaction.mot", "joint_moments.sto", "tables.json"};
 }
 
-KineticsTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsConfig& config,
-                                   const ResultFolder& folder) {
+TableTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsConfig& config,
+                                const ResultFolder& folder) {
   write_angles(analysed, folder);
   GaitTable gait = gait_table(analysed.motion, analysed.members, analysed.transfers);
   add_gait_error(analysed.figure_error, analysed.model_error, gait);
   folder.write("gait.json", gait_json(gait));
   folder.write("gait.csv", gait_csv(gait));
-  const auto contacts = foot_contacts(gait_from_motion(analysed.motion));
+  const Gait events = gait_from_motion(analysed.motion);
+  const auto contacts = foot_contacts(events);
   const auto forces = [&](const Motion& motion) {
     return kinetics(motion, contacts, analysed.subject, analysed.gravity, config);
   };
   const Kinetics result = forces(analysed.motion);
+  write_c3d(analysed, events, result, folder);
   const double weight = analysed.subject.mass * analysed.gravity.norm();
   KineticsBands bands(analysed.world, analysed.model_error * kTrackedLoadError * weight);
   for (size_t m = 0; m < analysed.members.size; ++m) bands.add(forces(analysed.members.member(m)));
@@ -91,7 +103,7 @@ KineticsTotals write_motion_tables(const AnalysedMotion& analysed, const Kinetic
                                       kinetics_notes(result, analysed.subject, config)}));
   folder.write("ground_reaction.mot", mot_from_ground_reactions(result));
   folder.write("joint_moments.sto", sto_from_joint_moments(result));
-  return result.totals;
+  return {result.totals, walk_summary(gait)};
 }
 
 }  // namespace walktrack

@@ -1,6 +1,6 @@
 // The tables that follow from a motion, whether it was tracked or measured: gait.json, gait.csv,
-// angles.csv, kinetics.csv with tables.json, and for OpenSim joints.trc, angles.mot,
-// ground_reaction.mot and joint_moments.sto.
+// angles.csv, kinetics.csv with tables.json, for OpenSim joints.trc, angles.mot,
+// ground_reaction.mot and joint_moments.sto, and for laboratories joints.c3d.
 #pragma once
 
 #include <string>
@@ -9,6 +9,7 @@
 #include "camera/world_frame.h"
 #include "io/archive/result_folder.h"
 #include "io/tables/angles_file.h"
+#include "jobs/track/walk_summary.h"
 #include "kinetics/kinetics.h"
 #include "metrics/gait_error.h"
 
@@ -35,8 +36,14 @@ std::vector<FootContact> foot_contacts(const Gait& gait);
 // All files that the tables may be.
 std::vector<std::string> motion_table_files();
 
-// Writes the tables; hands back the totals of the kinetics.
-KineticsTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsConfig& config,
-                                   const ResultFolder& folder);
+// What the tables come to.
+struct TableTotals {
+  KineticsTotals forces;
+  WalkSummary walk;
+};
+
+// Writes the tables.
+TableTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsConfig& config,
+                                const ResultFolder& folder);
 
 }  // namespace walktrack

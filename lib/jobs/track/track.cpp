@@ -117,22 +117,6 @@ std::vector<double> pelvis_speeds(const TrackedFrames& frames) {
   return out;
 }
 
-std::string_view status_word(TrackStatus status) {
-  switch (status) {
-    case TrackStatus::kTracked:
-      return "tracked";
-    case TrackStatus::kNotFound:
-      return "not found";
-    case TrackStatus::kBelowGates:
-      return "below gates";
-    case TrackStatus::kInterrupted:
-      return "interrupted";
-    case TrackStatus::kCutShort:
-      return "cut short";
-  }
-  return "";
-}
-
 std::string pace_note(const BudgetConfig& budget) {
   return fmt::format(
       "not deterministic: {} to {} particles, as many as {:g} ms a frame allowed on this machine",
@@ -324,6 +308,22 @@ bool follow_film(TrackRun& run, const SceneVideo& video, const JobControl& contr
 
 }  // namespace
 
+std::string_view status_word(TrackStatus status) {
+  switch (status) {
+    case TrackStatus::kTracked:
+      return "tracked";
+    case TrackStatus::kNotFound:
+      return "not found";
+    case TrackStatus::kBelowGates:
+      return "below gates";
+    case TrackStatus::kInterrupted:
+      return "interrupted";
+    case TrackStatus::kCutShort:
+      return "cut short";
+  }
+  return "";
+}
+
 TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const auto start = Clock::now();
   TrackJob job = given;
@@ -371,6 +371,8 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   KineticsConfig forces = job.config.values.kinetics;
   forces.cutoff_hz = forces.tracked_cutoff_hz;
   const WrittenTables tables = write_tables(analysed, uncertainty, forces, folder);
+  outcome.walk = tables.walk;
+  if (outcome.status == TrackStatus::kBelowGates) outcome.failed_checks = failures(quality);
   std::vector<ReportClip> clips;
   if (job.overlay && outcome.frames > 0)
     clips = write_overlays(job, frames, folder, run.threads(), control);

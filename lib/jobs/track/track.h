@@ -15,11 +15,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/job_control.h"
 #include "io/config/config.h"
 #include "io/scene/scene.h"
+#include "jobs/track/walk_summary.h"
 
 namespace walktrack {
 
@@ -47,11 +49,16 @@ struct TrackOutcome {
   int frames = 0, tracked = 0;
   double frames_per_second = 0;  // of the whole command, until the report is written
   std::optional<double> stride_frames_per_second;  // see TrackRun
-  bool resumable = false;           // for kInterrupted: there is a checkpoint to go on from
-  std::vector<std::string> checks;  // what the scene's checks found
-  std::string trouble;              // for kCutShort and kBelowGates: what happened
-  std::filesystem::path look_at;    // the file to open first
+  bool resumable = false;  // for kInterrupted: there is a checkpoint to go on from
+  WalkSummary walk;
+  std::vector<QualityMeasure> failed_checks;  // for kBelowGates
+  std::vector<std::string> checks;            // what the scene's checks found
+  std::string trouble;                        // for kCutShort and kBelowGates: what happened
+  std::filesystem::path look_at;              // the file to open first
 };
+
+// As run.json has it.
+std::string_view status_word(TrackStatus status);
 
 // Throws UsageError, InputError for what cannot be started, also for a checkpoint that does not fit
 // and for a scene whose checks fail.

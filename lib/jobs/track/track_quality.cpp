@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
@@ -130,14 +131,22 @@ std::vector<double> mean_overlaps(const TrackedFrames& frames) {
   return sums;
 }
 
+Quality failures(const Quality& quality) {
+  Quality out;
+  std::copy_if(quality.begin(), quality.end(), std::back_inserter(out),
+               [](const QualityMeasure& each) { return !each.passed(); });
+  return out;
+}
+
+std::string failure_text(const QualityMeasure& m) {
+  return fmt::format("{}: {:.{}f}{}{} (allowed: {} {:g})", m.what, m.value, m.digits,
+                     m.unit.empty() ? "" : " ", m.unit, m.at_most ? "at most" : "at least",
+                     *m.gate);
+}
+
 std::string first_failure(const Quality& quality) {
-  for (const QualityMeasure& m : quality) {
-    if (m.passed()) continue;
-    return fmt::format("{}: {:.{}f}{}{} (allowed: {} {:g})", m.what, m.value, m.digits,
-                       m.unit.empty() ? "" : " ", m.unit, m.at_most ? "at most" : "at least",
-                       *m.gate);
-  }
-  return {};
+  const Quality failed = failures(quality);
+  return failed.empty() ? std::string() : failure_text(failed.front());
 }
 
 }  // namespace walktrack

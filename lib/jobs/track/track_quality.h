@@ -34,6 +34,11 @@ Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
 // (FigureFit::overlap); NaN for a camera that tells nothing.
 std::vector<double> mean_overlaps(const TrackedFrames& frames);
 
+Quality failures(const Quality& quality);
+
+// What a failed gate says: the measure, its value and what is allowed.
+std::string failure_text(const QualityMeasure& failed);
+
 // What the first failed gate says against the result; empty if all passed.
 std::string first_failure(const Quality& quality);
 

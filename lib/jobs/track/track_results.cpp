@@ -201,8 +201,8 @@ WrittenTables write_tables(const AnalysedMotion& analysed, const JointUncertaint
   const std::string bands = uncertainty_csv(analysed.motion, uncertainty, analysed.world);
   folder.write("joints.csv", joints);
   folder.write("uncertainty.csv", bands);
-  const KineticsTotals totals = write_motion_tables(analysed, config, folder);
-  return {result_digest(joints, bands), totals};
+  const TableTotals totals = write_motion_tables(analysed, config, folder);
+  return {result_digest(joints, bands), totals.forces, totals.walk};
 }
 
 int foot_changes(const TrackedFrames& frames) {

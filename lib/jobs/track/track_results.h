@@ -44,6 +44,7 @@ Scene with_stature(const Scene& scene, const std::optional<Stature>& stature);
 struct WrittenTables {
   std::string digest;  // of joints.csv and uncertainty.csv
   KineticsTotals totals;
+  WalkSummary walk;
 };
 // `model_error` multiplies what gait's bands hold beyond the particles' spread.
 AnalysedMotion analysed_motion(const TrackedFrames& frames, const Scene& scene, double model_error);

@@ -1,0 +1,49 @@
+// The parameter section of a C3D file: named values in groups (C3D User Guide, c3d.org, "The
+// Parameter Section"), little-endian.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace walktrack {
+
+inline constexpr size_t kC3dBlock = 512;  // bytes: all sections are whole blocks
+inline constexpr size_t kC3dMostInList = 255;
+
+struct C3dParameter {
+  std::string name, description;
+  int8_t type;                      // -1 characters, 1 bytes, 2 16-bit, 4 32-bit float
+  std::vector<uint8_t> dimensions;  // none: one value; fastest first
+  std::string data;                 // dimensions' product times |type| bytes
+};
+
+struct C3dGroup {
+  std::string name, description;
+  std::vector<C3dParameter> parameters{};
+
+  void text(std::string_view key, std::string_view value);
+  // Lists of more than kC3dMostInList go on under the same name with 2, 3, … behind it, as the
+  // guide has it for POINT:LABELS2.
+  void texts(const std::string& key, std::span<const std::string> values);
+  // Unsigned where a reader takes it so: 0 to 65535.
+  void whole(std::string_view key, int value);
+  void wholes(const std::string& key, std::span<const int> values);
+  void real(std::string_view key, double value);
+  // `shape`: the dimensions before the last one, which may be as long as wanted.
+  void reals(const std::string& key, std::span<const double> values,
+             const std::vector<uint8_t>& shape = {});
+  void wholes(const std::string& key, std::span<const int> values,
+              const std::vector<uint8_t>& shape);
+};
+
+// Whole blocks. std::length_error where they are more than the format can count (255).
+std::string c3d_parameter_section(std::span<const C3dGroup> groups);
+
+// Little-endian bytes of numbers.
+void append_c3d_whole(std::string& bytes, int value);
+void append_c3d_real(std::string& bytes, double value);
+
+}  // namespace walktrack

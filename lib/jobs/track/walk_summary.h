@@ -1,0 +1,34 @@
+// What a person wants to know when a track has ended, as lines for the terminal and as one line of
+// JSON for programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/archive/run_record.h"
+#include "metrics/gait_table.h"
+
+namespace walktrack {
+
+struct TrackOutcome;
+
+// A walk in four numbers, those of gait.json. NaN: not known.
+struct WalkSummary {
+  size_t steps = 0;    // that have a length
+  Banded speed;        // m/s
+  Banded cadence;      // steps a minute
+  Banded step_length;  // m
+};
+WalkSummary walk_summary(const GaitTable& table);
+
+// Some lines: frames and pace, the four numbers with their bands, quality checks that failed with
+// what to do, and the page to open.
+std::string summary_text(const TrackOutcome& outcome);
+
+// {"format": "walktrack result 1", "command": "track", "status", "exit", "result", "open",
+//  "frames", "tracked_frames", "frames_per_second", "steps", "speed_m_s", "cadence_steps_per_min",
+//  "step_length_m", "failed_checks", "resumable", "trouble"} in one line; numbers as {"value",
+// "p05", "p95"}, null where there is none.
+std::string summary_json(const TrackOutcome& outcome, const std::string& result, int exit_code);
+
+}  // namespace walktrack
