@@ -2,13 +2,16 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "commands.h"
 #include "core/errors.h"
+#include "io/calibration/calibration_checks.h"
 #include "jobs/calibrate/calibrate.h"
+#include "jobs/calibrate/import_calibration.h"
 #include "terminal.h"
 
 namespace walktrack {
@@ -20,7 +23,21 @@ constexpr const char* kAbout =
     "Finds a camera's lens from views of a board (--views), and its place from a board on the "
     "floor\n(--floor) or from points measured on it (--points: u,v,x,y,z; pixels, metres, z up). "
     "Writes the\ncalibration for scenes and for Pose2Sim, the residuals and pictures to judge it "
-    "by.";
+    "by. Or takes over\n(--import) what another tool has calibrated.";
+
+// "9x6": two whole numbers within these limits.
+std::optional<std::array<int, 2>> two_whole_numbers(std::string_view text, int least, int most) {
+  std::array<int, 2> out{};
+  const size_t x = text.find('x');
+  if (x == std::string_view::npos) return std::nullopt;
+  const std::array<std::string_view, 2> parts{text.substr(0, x), text.substr(x + 1)};
+  for (size_t i = 0; i < 2; ++i) {
+    const auto end = parts[i].data() + parts[i].size();
+    const auto [at, error] = std::from_chars(parts[i].data(), end, out[i]);
+    if (error != std::errc{} || at != end || out[i] < least || out[i] > most) return std::nullopt;
+  }
+  return out;
+}
 
 struct BoardOptions {
   std::string kind, size;
@@ -35,12 +52,6 @@ struct BoardOptions {
         "between neighbours (rows of asymmetric circles), m, e.g. 0.025");
   }
 
-  static bool read_whole(std::string_view text, int& value) {
-    const auto end = text.data() + text.size();
-    const auto [at, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc{} && at == end && value >= 3 && value <= 100;
-  }
-
   std::optional<Board> board() const {
     constexpr std::array<std::string_view, 3> kKinds{"chessboard", "circles", "asymmetric-circles"};
     const auto known = std::find(kKinds.begin(), kKinds.end(), kind);
@@ -49,11 +60,12 @@ struct BoardOptions {
           describe({"", 0, "--board"}, kind, "chessboard, circles or asymmetric-circles"));
     if (size.empty() && spacing == 0) return std::nullopt;
     Board out{static_cast<BoardKind>(known - kKinds.begin()), 0, 0, spacing};
-    const size_t x = size.find('x');
-    if (x == std::string::npos || !read_whole(std::string_view(size).substr(0, x), out.columns) ||
-        !read_whole(std::string_view(size).substr(x + 1), out.rows))
+    const auto counts = two_whole_numbers(size, 3, 100);
+    if (!counts)
       throw UsageError(describe({"", 0, "--size"}, fmt::format("'{}'", size),
                                 "COLUMNSxROWS of inner corners or circles, 3 to 100, e.g. 9x6"));
+    out.columns = (*counts)[0];
+    out.rows = (*counts)[1];
     if (!(spacing > 0 && spacing <= 10))
       throw UsageError(describe({"", 0, "--spacing"}, fmt::format("{}", spacing),
                                 "metres between neighbouring points, above 0, at most 10"));
@@ -68,6 +80,47 @@ LensModel lens_model(const std::string& name) {
   if (name == "fisheye") return LensModel::kFisheye;
   throw UsageError(describe({"", 0, "--model"}, name, "pinhole, brown, rational or fisheye"));
 }
+
+struct ImportOptions {
+  std::string file, size;
+
+  void declare(CommandLine& line) {
+    auto add = line.options().add_options();
+    add("import", po::value(&file)->value_name("FILE"),
+        "take over all cameras of a calibration (or that of --name): OpenCap .pickle, Qualisys "
+        ".qca.txt, EasyMocap intri.yml, Pose2Sim or Anipose .toml, Tsai .xml, OpenCV .yaml");
+    add("image-size", po::value(&size)->value_name("WxH"),
+        "of the images, px, for an imported file that does not say");
+  }
+
+  std::optional<ImageSize> image_size() const {
+    if (size.empty()) return std::nullopt;
+    const auto sides = two_whole_numbers(size, 1, kMostPixels);
+    if (!sides)
+      throw UsageError(describe({"", 0, "--image-size"}, fmt::format("'{}'", size),
+                                "WIDTHxHEIGHT in pixels, e.g. 1920x1080"));
+    return ImageSize{(*sides)[0], (*sides)[1]};
+  }
+
+  // Done or not: whether the line asks for it.
+  bool run(const CommandLine& line, const std::string& name, const Arguments& arguments) const {
+    if (file.empty()) {
+      line.refuse({"image-size"}, "it with --import");
+      return false;
+    }
+    line.refuse({"views", "camera", "model", "floor", "points", "board", "size", "spacing"},
+                "it without --import");
+    ImportJob job{.file = file,
+                  .name = line.given("name") ? name : "",
+                  .size = image_size(),
+                  .output = line.required_output(),
+                  .overwrite = line.common().overwrite,
+                  .command_line = {"walktrack", "calibrate"}};
+    job.command_line.insert(job.command_line.end(), arguments.begin(), arguments.end());
+    fmt::print("{}", import_text(import_calibration(job)));
+    return true;
+  }
+};
 
 }  // namespace
 
@@ -92,7 +145,10 @@ int run_calibrate(const Arguments& arguments) {
       "picture or video of the camera in its place");
   add("points", po::value(&points)->value_name("FILE"), "measured points, CSV");
   board.declare(line);
+  ImportOptions import;
+  import.declare(line);
   if (!line.parse(arguments)) return kDone;
+  if (import.run(line, name, arguments)) return kDone;
   CalibrateJob job{.name = name,
                    .board = board.board(),
                    .model = lens_model(model),

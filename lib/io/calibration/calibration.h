@@ -11,11 +11,15 @@
 //   (Tsai, IEEE J. Robotics and Automation 3(4), 1987). Its distortion is turned into OpenCV's by a
 //   fit over the image.
 //
+// Qualisys (.qca.txt), EasyMocap (intri.yml with extri.yml beside it) and OpenCap (.pickle of one
+// camera) are described where they are read, calibration_<tool>.cpp.
+//
 // All readers throw InputError naming file, line where the format has lines, key, what was found
 // and what is allowed. A rotation may be rounded (kRotationTolerance) and is made exact.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,14 +30,38 @@
 
 namespace walktrack {
 
-// Reads the camera called `name` (which matters for files that hold several).
-Camera read_calibration(const std::filesystem::path& path, const std::string& name);
+struct ImageSize {
+  int width_px, height_px;
+};
+
+// Reads the camera called `name` (which matters for files that hold several). `size`: of the
+// images, for files that do not say.
+Camera read_calibration(const std::filesystem::path& path, const std::string& name,
+                        const std::optional<ImageSize>& size = std::nullopt);
+
+// The cameras of a file that holds several, in its order; empty for a file of one.
+std::vector<std::string> calibration_names(const std::filesystem::path& path);
 
 // One format each; `file` is what messages call it.
 Camera camera_from_opencv(const std::string& text, const std::string& file);
 
 Camera camera_from_toml(const std::string& text, const std::string& file, const std::string& name);
+std::vector<std::string> toml_names(const std::string& text, const std::string& file);
 Camera camera_from_tsai(const std::string& text, const std::string& file);
+Camera camera_from_qualisys(const std::string& text, const std::string& file,
+                            const std::string& name);
+std::vector<std::string> qualisys_names(const std::string& text, const std::string& file);
+Camera camera_from_opencap(const std::string& bytes, const std::string& file);
+
+struct FileText {
+  std::string text, file;
+};
+// Whether a YAML file is EasyMocap's intri.yml.
+bool is_easymocap(const std::string& text, const std::string& file);
+Camera camera_from_easymocap(const FileText& intrinsic, const FileText& extrinsic,
+                             const std::string& name,
+                             const std::optional<ImageSize>& size = std::nullopt);
+std::vector<std::string> easymocap_names(const std::string& text, const std::string& file);
 
 // The OpenCV file of a camera; reading it back gives the same camera, bit for bit.
 std::string opencv_from_camera(const Camera& camera);

@@ -6,40 +6,12 @@
 #include "io/archive/files.h"
 #include "io/calibration/calibration.h"
 #include "io/calibration/calibration_checks.h"
+#include "io/calibration/yaml_matrix.h"
 #include "io/config/yaml.h"
 
 namespace walktrack {
 
 namespace {
-
-// The numbers of a matrix: OpenCV's {rows, cols, dt, data}, a flat list or a list of rows.
-std::vector<double> matrix_numbers(const YamlValue& value) {
-  if (value.is_map()) return matrix_numbers(value.at("data"));
-  if (!value.is_list()) value.fail(value.describe_found(), "a matrix");
-  std::vector<double> numbers;
-  for (const YamlValue& item : value.items()) {
-    if (item.is_list()) {
-      const std::vector<double> row = item.numbers();
-      numbers.insert(numbers.end(), row.begin(), row.end());
-    } else {
-      numbers.push_back(item.number());
-    }
-  }
-  return numbers;
-}
-
-std::vector<double> matrix_numbers(const YamlValue& value, std::initializer_list<size_t> counts) {
-  std::vector<double> numbers = matrix_numbers(value);
-  if (std::find(counts.begin(), counts.end(), numbers.size()) == counts.end()) {
-    value.fail(fmt::format("{} numbers", numbers.size()),
-               fmt::format("{} numbers", fmt::join(counts, " or ")));
-  }
-  return numbers;
-}
-
-Eigen::Matrix3d matrix3(const std::vector<double>& numbers) {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(numbers.data());
-}
 
 void read_distortion(Camera& camera, const YamlValue& root) {
   if (!root.has("distortion_coefficients")) return;
@@ -66,10 +38,7 @@ std::string matrix_text(std::string_view key, int rows, int cols, std::span<cons
 }  // namespace
 
 Camera camera_from_opencv(const std::string& text, const std::string& file) {
-  // OpenCV writes "%YAML:1.0", which is no YAML; the line stays, so that lines keep their numbers.
-  std::string yaml = text;
-  if (yaml.starts_with("%YAML:")) yaml[0] = '#';
-  const YamlValue root = YamlValue::from_text(yaml, file);
+  const YamlValue root = opencv_yaml(text, file);
   const Complain complain = [&](std::string_view key, std::string_view found,
                                 std::string_view allowed) {
     root.at(std::string(key)).fail(found, allowed);

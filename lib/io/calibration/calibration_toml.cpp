@@ -169,6 +169,16 @@ Camera camera_from_toml(const std::string& text, const std::string& file, const 
   return camera;
 }
 
+std::vector<std::string> toml_names(const std::string& text, const std::string& file) {
+  std::vector<std::string> out;
+  for (const auto& [key, node] : parse(text, file)) {
+    const toml::table* table = node.as_table();
+    if (!table || !table->contains("matrix")) continue;
+    out.push_back((*table)["name"].value_or(std::string(key.str())));
+  }
+  return out;
+}
+
 std::string toml_from_cameras(const std::vector<std::pair<std::string, Camera>>& cameras) {
   std::string text;
   for (const auto& [name, camera] : cameras) text += camera_table(name, camera);

@@ -1,68 +1,17 @@
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 
-#include "core/errors.h"
-#include "io/archive/files.h"
 #include "io/calibration/calibration.h"
-#include "io/calibration/calibration_checks.h"
+#include "io/calibration/xml_element.h"
 
 namespace walktrack {
 
 namespace {
 
-// The attributes of one element, found by its name. Enough of XML for a file of three elements.
-class Element {
- public:
-  Element(const std::string& text, std::string file, std::string name)
-      : file_(std::move(file)), name_(std::move(name)) {
-    const size_t start = text.find(fmt::format("<{} ", name_));
-    const size_t end = start == std::string::npos ? start : text.find('>', start);
-    if (end == std::string::npos) {
-      throw InputError(describe({file_, 0, ""}, fmt::format("no <{}> element", name_),
-                                "a Tsai calibration with Geometry, Intrinsic and Extrinsic"));
-    }
-    line_ = 1 + static_cast<int>(std::count(text.begin(), text.begin() + ptrdiff_t(start), '\n'));
-    attributes_ = text.substr(start, end - start);
-  }
-
-  [[noreturn]] void fail(const std::string& key, std::string_view found,
-                         std::string_view allowed) const {
-    throw InputError(describe({file_, line_, name_ + "." + key}, found, allowed));
-  }
-
-  double number(const std::string& key) const {
-    const size_t start = attributes_.find(fmt::format(" {}=\"", key));
-    if (start == std::string::npos) fail(key, "nothing", "a number");
-    const size_t first = start + key.size() + 3;
-    const std::string text = attributes_.substr(first, attributes_.find('"', first) - first);
-    const auto value = number_from_text(text);
-    if (!value) fail(key, fmt::format("'{}'", text), "a number");
-    return *value;
-  }
-
-  double positive(const std::string& key) const {
-    const double value = number(key);
-    if (!(value > 0)) fail(key, fmt::format("{:g}", value), "a positive number");
-    return value;
-  }
-
-  int pixels(const std::string& key) const {
-    const double value = number(key);
-    if (value != std::floor(value) || value < 1 || value > kMostPixels) {
-      fail(key, fmt::format("{:g}", value), "a whole number of pixels");
-    }
-    return static_cast<int>(value);
-  }
-
- private:
-  std::string file_, name_, attributes_;
-  int line_ = 0;
-};
+constexpr const char* kTsai = "a Tsai calibration with Geometry, Intrinsic and Extrinsic";
 
 // Tsai undistorts, r_u = r_d (1 + kappa r_d^2); OpenCV distorts, r_d = r_u (1 + k1 r_u^2 + k2 r_u^4
 // + k3 r_u^6). Least squares of r_d / r_u - 1 over the radii of the image (normalised).
@@ -89,7 +38,7 @@ double corner_radius(const Camera& camera) {
   return far.cwiseQuotient(camera.focal_px).norm();
 }
 
-Eigen::Matrix3d tsai_rotation(const Element& extrinsic) {
+Eigen::Matrix3d tsai_rotation(const XmlElement& extrinsic) {
   using Eigen::AngleAxisd, Eigen::Vector3d;
   return (AngleAxisd(extrinsic.number("rz"), Vector3d::UnitZ()) *
           AngleAxisd(extrinsic.number("ry"), Vector3d::UnitY()) *
@@ -103,9 +52,9 @@ constexpr double kMetresPerMillimetre = 1e-3;
 
 // Symbols as in Tsai: focal length f and pixel pitches dpx, dpy in mm, scale sx, kappa1 in 1/mm^2.
 Camera camera_from_tsai(const std::string& text, const std::string& file) {
-  const Element geometry(text, file, "Geometry");
-  const Element intrinsic(text, file, "Intrinsic");
-  const Element extrinsic(text, file, "Extrinsic");
+  const XmlElement geometry(text, file, "Geometry", kTsai);
+  const XmlElement intrinsic(text, file, "Intrinsic", kTsai);
+  const XmlElement extrinsic(text, file, "Extrinsic", kTsai);
   Camera camera;
   camera.width_px = geometry.pixels("width");
   camera.height_px = geometry.pixels("height");

@@ -1,0 +1,24 @@
+// Matrices in YAML files as OpenCV writes them.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "io/config/yaml.h"
+
+namespace walktrack {
+
+// The numbers of a matrix, row by row: OpenCV's {rows, cols, dt, data}, a flat list or a list of
+// rows. InputError for anything else or, in the second form, for another count than allowed.
+std::vector<double> matrix_numbers(const YamlValue& value);
+std::vector<double> matrix_numbers(const YamlValue& value, std::initializer_list<size_t> counts);
+
+Eigen::Matrix3d matrix3(const std::vector<double>& numbers);
+
+// OpenCV writes "%YAML:1.0", which is no YAML; the line stays, so that lines keep their numbers.
+YamlValue opencv_yaml(std::string text, const std::string& file);
+
+}  // namespace walktrack
