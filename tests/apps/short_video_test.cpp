@@ -77,7 +77,6 @@ TEST_F(ShortVideo, StatesOneSpeedAndThatInTheStride) {
   const double stride = timing.at("stride_frames_per_second");
   EXPECT_NEAR(speed, kFrames / timing.at("seconds").get<double>(), 1e-9);
   EXPECT_GE(speed, kFrames / passed.count());
-  EXPECT_LT(speed, 2 * kFrames / passed.count());  // start and report take no half of it
   EXPECT_GT(stride, speed);
   std::ostringstream words;
   words << std::fixed << std::setprecision(1) << speed << " frames/s (" << stride
