@@ -73,6 +73,8 @@ struct H264File::State {
     codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;             // as MP4 wants it
     codec->log_level_offset = AV_LOG_VERBOSE - AV_LOG_INFO;  // settings and statistics
     av_opt_set(codec->priv_data, "preset", name_of(preset).c_str(), 0);
+    // x264 164 reads memory that it has not written when it spreads bits over frames with AVX-512.
+    av_opt_set(codec->priv_data, "mbtree", "0", 0);
     return avcodec_open2(codec.get(), encoder, nullptr) >= 0;
   }
 
