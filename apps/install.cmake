@@ -25,8 +25,8 @@ set(CPACK_PACKAGE_NAME walktrack)
 set(CPACK_PACKAGE_CONTACT "the walktrack authors <walktrack@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "tracks a walking person in calibrated video")
 set(CPACK_PACKAGE_DESCRIPTION "A particle filter whose motion model is a simulated kneed walker follows one person
-through the films of one or more calibrated cameras. It writes joints, angles, gait and
-forces with their uncertainty, files for OpenSim, overlay films and a report.")
+through the videos of one or more calibrated cameras. It writes joints, angles, gait and
+forces with their uncertainty, files for OpenSim, overlay videos and a report.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

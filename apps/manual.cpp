@@ -51,9 +51,10 @@ void print_beginning() {
   fmt::print(
       ".SH NAME\nwalktrack \\- tracks a walking person in calibrated video with a physical gait "
       "model\n.SH SYNOPSIS\n.B walktrack\n.I COMMAND\n[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n"
-      "walktrack follows one walking person through the films of one or more calibrated cameras\n"
+      "walktrack follows one walking person through the videos of one or more calibrated cameras\n"
       "with a particle filter whose motion model is a simulated walker. It writes joints, angles,\n"
-      "gait and forces with their uncertainty, overlay films and a report to look at and send on.\n"
+      "gait and forces with their uncertainty, overlay videos and a report to look at and send "
+      "on.\n"
       ".SH COMMANDS\n");
 }
 

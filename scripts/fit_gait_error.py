@@ -124,11 +124,11 @@ def crosswise(halves):
 
 
 def groups_of(out, scenes):
-    """{name of a group: {(kind, column): {cameras: [rows of one walk]}}}: halves 0 and 1, gaits, films."""
-    groups = {0: {}, 1: {}, "gaits": {}, "films": {}}
+    """{name of a group: {(kind, column): {cameras: [rows of one walk]}}}: halves 0 and 1, gaits, videos."""
+    groups = {0: {}, 1: {}, "gaits": {}, "videos": {}}
     for folder in [*sorted((out / "scenes").iterdir()), *scenes]:
         number = -1 if folder in scenes else int(folder.name.removeprefix("walk"))
-        group = "films" if number < 0 else "gaits" if number % 2 else number // 2 % 2
+        group = "videos" if number < 0 else "gaits" if number % 2 else number // 2 % 2
         for kind in KINDS:
             scene, result = folder / f"{kind}.yaml", out / "results" / folder.name / kind
             if not (result / "gait.json").exists():
@@ -156,7 +156,7 @@ def main():
         both = joined(*halves)
         sd = fitted(both)
         said = {"footprints": (mean_held(both, 0), mean_held(both, sd)), "halves": (math.nan, crosswise(halves))}
-        for group, kind in ((g, k) for g in ("films", "gaits") for k in KINDS):
+        for group, kind in ((g, k) for g in ("videos", "gaits") for k in KINDS):
             rows = {kind: groups[group].get(key, {}).get(kind)}
             said[f"{group}, {kind}"] = (mean_held(rows, 0), mean_held(rows, sd)) if rows[kind] else (math.nan, math.nan)
         print(f"{' '.join(key)}: {sd:.4f}; " + "; ".join(f"{what} {percent(b)} ({percent(a)})" for what, (a, b) in said.items()))

@@ -6,7 +6,7 @@
 
 Reads what measure_gait.py left: rendered scenes with truth, and tracks whose bands are the particles' alone.
 For each joint, over the ground and upwards, and for each angle, prints the standard deviation that, added to the
-particles', makes 90 % bands hold the truth 90 % of the time: the mean over four kinds of film, made walks and
+particles', makes 90 % bands hold the truth 90 % of the time: the mean over four kinds of video, made walks and
 FOLDERs, all cameras and the side camera alone, which count alike. Angles that only made walks have a truth of are to be held
 in 94 %: people stray further. Failures count. Standard library only.
 """

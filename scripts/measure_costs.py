@@ -36,7 +36,7 @@ SETTINGS = [("particles=40", "cameras=3"), ("particles=120", "cameras=1"), ("par
             ("particles=60", "cameras=3", "terms=background"), ("particles=60", "cameras=2", "terms=flow"), ("particles=200", "cameras=2", "moves=0", "terms=background+flow"),
             ("particles=40", "cameras=1", "arms=true", "scale=240", "terms=background+foreground")]
 KEYS = {"particles": ["filter.particles"], "moves": ["filter.moves"], "scale": ["observation.person_px"], "arms": ["body.arms"]}
-PART_POSED_NS = 60  # of a profile: these films cannot tell it from projecting
+PART_POSED_NS = 60  # of a profile: these videos cannot tell it from projecting
 PASSED = 0.57  # of the moves, by the first camera; counted in runs with three (kPassed of the cost model)
 TERMS = ("background", "foreground", "flow")
 

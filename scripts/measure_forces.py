@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares ground reactions with force plates: those of motion capture, and those of a film rendered of it and
+"""Compares ground reactions with force plates: those of motion capture, and those of a video rendered of it and
 tracked.
 
     scripts/measure_forces.py WALKTRACK OUT MOTION.csv PLATES.mot [MOTION.csv PLATES.mot ...] [--from S]
@@ -100,7 +100,7 @@ def measure(walktrack, out, motion, plates, first):
         run(walktrack, "render", motion, "--options", folder / "options.yaml", "-o", folder / "scene", "-y", "--threads", 1)
     if not (folder / "tracked/run.json").exists():
         run(walktrack, "track", folder / "scene/scene.yaml", "-o", folder / "tracked", "-y", "--no-overlay", "--threads", 1, allowed=(0, 4))
-    for name, result in (("motion capture", "captured"), ("tracked film", "tracked")):
+    for name, result in (("motion capture", "captured"), ("tracked video", "tracked")):
         reaction, weight = storage(folder / result / "ground_reaction.mot"), mass * GRAVITY
         whole = list(pairs(plates, reaction, first))
         feet = [rmse(pairs(plates, reaction, first, foot), weight) for foot in ("r", "l")]

@@ -44,7 +44,7 @@ const frames = data.joints.mean_mm.length;
 const lastFrame = Math.max(0, frames - 1);
 const times = data.times;
 const frameAt = (time) => (time - (times[0] ?? 0)) * data.rate;
-// Of a motion that came from elsewhere there is no film, no filter and no gate.
+// Of a motion that came from elsewhere there is no video, no filter and no gate.
 const analysed = run.command === 'analyse';
 const jointIndex = Object.fromEntries(data.joints.names.map((name, i) => [name, i]));
 
@@ -55,7 +55,7 @@ function joint(frame, name, which = 'mean_mm') {
   return row && at + 2 < row.length && row[at] !== null ? [row[at] / 1000, row[at + 1] / 1000, row[at + 2] / 1000] : null;
 }
 
-// The one frame that film, figure and charts show. Listeners are told of changes.
+// The one frame that video, figure and charts show. Listeners are told of changes.
 const clock = {
   frame: 0,
   listeners: [],

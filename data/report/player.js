@@ -1,8 +1,8 @@
-// The film with its scrubber. The page's clock leads; the video follows it, and drives it while it
+// The video with its scrubber. The page's clock leads; the video follows it, and drives it while it
 // plays.
 function startPlayer() {
   const clips = [...document.querySelectorAll('script.clip')];
-  const film = byId('film');
+  const screen = byId('video');
   const video = element('video', {muted: true, playsInline: true, preload: 'auto', tabIndex: -1});
   let playing = false, started = 0, startFrame = 0;
 
@@ -19,7 +19,7 @@ function startPlayer() {
     stop();
     clip.url ??= source(clip);
     video.src = clip.url;
-    byId('film-note').textContent =
+    byId('video-note').textContent =
       clip.dataset.file ? `played from ${clip.dataset.file} beside this page, too large to be inside it` : '';
   }
 
@@ -56,7 +56,7 @@ function startPlayer() {
   }
 
   if (clips.length) {
-    film.append(video);
+    screen.append(video);
     for (const clip of clips) {
       const button = element('button', {type: 'button'}, clip.dataset.name);
       button.onclick = () => choose(clip, button);
@@ -64,11 +64,11 @@ function startPlayer() {
     }
     choose(clips[0], byId('cameras').firstChild);
     video.onerror = () => {
-      byId('film-note').textContent = 'This browser cannot play the film; it is in the file overlay_' +
+      byId('video-note').textContent = 'This browser cannot play the video; it is in the file overlay_' +
         clips[0].dataset.name + '.mp4.';
     };
   } else {
-    film.append(element('div', {className: 'message'}, 'This run wrote no overlay film.'));
+    screen.append(element('div', {className: 'message'}, 'This run wrote no overlay video.'));
   }
 
   const scrubber = byId('scrubber');
@@ -96,7 +96,7 @@ function startPlayer() {
   return clips.length ? drawStrip(clips[0]) : Promise.resolve();
 }
 
-// Five moments of the first film: to jump to, and for paper.
+// Five moments of the first video: to jump to, and for paper.
 async function drawStrip(clip) {
   const video = element('video', {muted: true, preload: 'auto', src: clip.url});
   const once = (name) => new Promise((done, fail) => {
@@ -125,5 +125,5 @@ async function drawStrip(clip) {
       button.onclick = () => clock.show(frame);
       byId('strip').append(button);
     }
-  } catch { /* the player says that the film cannot be played */ }
+  } catch { /* the player says that the video cannot be played */ }
 }

@@ -20,7 +20,7 @@ struct Motion {
 inline bool known(const Eigen::Vector3d& point) { return point.allFinite(); }
 
 // Motions over the same times that are as likely as another one, handed out one at a time: each is
-// as long as the film.
+// as long as the video.
 struct Ensemble {
   size_t size = 0;
   std::function<Motion(size_t index)> member{};

@@ -55,7 +55,7 @@ struct TimeSpan {
   double from = 0, to = 0;  // s of the scene
 };
 
-// What is wrong with the keypoints of a film.
+// What is wrong with the keypoints of a video.
 struct KeypointFaults {
   double noise = 0.01;              // deviation of a coordinate at full confidence, share of height
   double dropout = 0;               // share of the points that are missing

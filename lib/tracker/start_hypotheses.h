@@ -2,7 +2,7 @@
 // side by side for a while and compete by evidence, so that no single frame decides.
 //
 // A second round between the best and the best of those half a stride away (legs exchanged) was
-// tried: it lost blurred films that the first round decides rightly, and won nothing for it.
+// tried: it lost blurred videos that the first round decides rightly, and won nothing for it.
 #pragma once
 
 #include <cstdint>

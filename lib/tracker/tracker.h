@@ -81,7 +81,7 @@ class Tracker {
 
   // Takes the next frame; hands back the records of all frames that are finished now, in order.
   std::vector<FrameRecord> push(const SceneEvidence& evidence);
-  // The records of frames that still wait at the end of the film.
+  // The records of frames that still wait at the end of the video.
   std::vector<FrameRecord> finish();
 
   // From the next frame on, so many particles: those there are become more or fewer in proportion

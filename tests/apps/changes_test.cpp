@@ -30,10 +30,10 @@ class Changes : public testing::Test {
  protected:
   using Words = std::vector<std::string>;
 
-  Changes() { film("in/a", 1), film("in/b", 2); }
+  Changes() { record("in/a", 1), record("in/b", 2); }
 
   // Other seeds, other noise in the pictures.
-  void film(const std::string& name, int seed) const {
+  void record(const std::string& name, int seed) const {
     const std::string options = folder_.write("walk.yaml", kWalk);
     const ProgramResult made = run_walktrack({"render", "--options", options, "--seed",
                                               std::to_string(seed), "-o", folder_ / name, "-y"});
@@ -81,7 +81,7 @@ TEST_F(Changes, ATrackSaysWhatHasChanged) {
   config_ = kAnyQuality;
   append("in/a/side.yaml", "# measured again\n");
   refused({}, "(side.yaml has changed)");
-  film("in/a", 3);
+  record("in/a", 3);
   refused({}, "side.mp4 has changed");
   const ProgramResult done = track({"-y"});
   EXPECT_EQ(done.exit_code, 0);
@@ -102,7 +102,7 @@ TEST_F(Changes, AVersionIsOneOfThem) {
 TEST_F(Changes, ABatchKeepsNamesAndDoesTheRest) {
   ASSERT_EQ(batch().exit_code, 0);
   const std::string a = record("out/a"), b = record("out/b");
-  film("in/c", 4);
+  record("in/c", 4);
   const ProgramResult preset = batch({"--seed", "2"});
   EXPECT_EQ(preset.exit_code, 2);
   EXPECT_THAT(preset.err, AllOf(HasSubstr("3 complete, 0 degraded, 0 failed, 0 left"),
@@ -119,7 +119,7 @@ TEST_F(Changes, ABatchDoesAgainWhatHasChangedAndNothingElse) {
   ASSERT_EQ(batch().exit_code, 0);
   const std::string a = record("out/a"), b = record("out/b");
   const auto made = fs::last_write_time(folder_.path() / "out/b/run.json");
-  film("in/a", 3);
+  record("in/a", 3);
   EXPECT_EQ(batch({"-y", "--dry-run"}).out, "a\n");
   EXPECT_EQ(batch({"-y"}).exit_code, 0);
   EXPECT_NE(record("out/a"), a);
@@ -130,31 +130,31 @@ TEST_F(Changes, ABatchDoesAgainWhatHasChangedAndNothingElse) {
 TEST_F(Changes, ABatchSeesAnotherVideoAndAnotherCalibration) {
   ASSERT_EQ(batch().exit_code, 0);
   const std::string a = joints("out/a");
-  film("in/a", 3);
+  record("in/a", 3);
   append("in/b/side.yaml", "# measured again\n");
   const ProgramResult again = batch();
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_THAT(again.err, AllOf(HasSubstr("side.mp4 has changed"), HasSubstr(": a\n"),
                                HasSubstr("\n  side.yaml has changed: b\n")));
   EXPECT_EQ(joints("out/a"), a);
-  // Also where the film has kept its size and its time, as only its content tells.
+  // Also where the video has kept its size and its time, as only its content tells.
   EXPECT_EQ(batch({"-y"}).exit_code, 0);
-  const fs::path film = folder_.path() / "in/a/side_background.mp4";
-  const auto time = fs::last_write_time(film);
-  std::string bytes = read_file(film);
+  const fs::path video = folder_.path() / "in/a/side_background.mp4";
+  const auto time = fs::last_write_time(video);
+  std::string bytes = read_file(video);
   bytes[bytes.size() / 2] ^= 1;
   folder_.write("in/a/side_background.mp4", bytes);
-  fs::last_write_time(film, time);
+  fs::last_write_time(video, time);
   EXPECT_THAT(batch().err, HasSubstr("\n  side_background.mp4 has changed: a\n"));
 }
 
 TEST_F(Changes, ABatchOfVideosSeesAnotherTemplate) {
-  fs::create_directory(folder_.path() / "films");
-  fs::copy(folder_.path() / "in/a/side.mp4", folder_.path() / "films/a.mp4");
+  fs::create_directory(folder_.path() / "videos");
+  fs::copy(folder_.path() / "in/a/side.mp4", folder_.path() / "videos/a.mp4");
   folder_.write("in/a/room.yaml",
                 "cameras: [{name: side, video: side.mp4, calibration: side.yaml, "
                 "background: side_background.mp4}]\nsubject: {height: 1.75}\n");
-  const Words words{"batch", folder_ / "films", "--scene", folder_ / "in/a/room.yaml",
+  const Words words{"batch", folder_ / "videos", "--scene", folder_ / "in/a/room.yaml",
                     "-o",    folder_ / "out"};
   EXPECT_THAT(run(words, {}).exit_code, AnyOf(0, 4));
   EXPECT_THAT(run(words, {}).err, Not(HasSubstr("left as they are")));
@@ -184,7 +184,7 @@ TEST_F(Changes, ASweepSeesAnotherVideo) {
       "1"};
   ASSERT_EQ(run(words, {}).exit_code, 0);
   ASSERT_EQ(run(words, {}).exit_code, 0);
-  film("in/a", 3);
+  record("in/a", 3);
   const ProgramResult again = run(words, {});
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_THAT(again.err, HasSubstr("side.mp4 has changed"));

@@ -115,7 +115,7 @@ TEST_F(OwnFiles, RenderReplacesOnlyItsOwnScenes) {
   foreign_scene("mine");
   expect_refused(render(folder_ / "mine"), "mine: found a scene");
   fs::remove(folder_.path() / "mine/scene.yaml");
-  expect_refused(render(folder_ / "mine"), "/mine/");  // films of the same names
+  expect_refused(render(folder_ / "mine"), "/mine/");  // videos of the same names
   expect_refused({"render", folder_ / "walk/truth.csv", "-o", folder_ / "walk"},
                  "walk: found 'truth.csv', which the command reads");
   Words again = render(folder_ / "walk");
@@ -180,7 +180,7 @@ TEST_F(OwnFiles, FilesAreNoOutputsOfWhatReadsThem) {
 }
 
 TEST_F(OwnFiles, TheSelftestWorksInAFolderOfItsOwn) {
-  folder_.write("mine/00/film", "mine");
+  folder_.write("mine/00/video", "mine");
   folder_.write("mine/00.log", "mine");
   {
     StartedProgram program(WALKTRACK_BINARY, {"selftest", "-o", folder_ / "mine"});
@@ -192,7 +192,7 @@ TEST_F(OwnFiles, TheSelftestWorksInAFolderOfItsOwn) {
     program.send(SIGTERM);
     program.wait();
   }
-  EXPECT_EQ(read_file(folder_ / "mine/00/film"), "mine");
+  EXPECT_EQ(read_file(folder_ / "mine/00/video"), "mine");
   EXPECT_EQ(read_file(folder_ / "mine/00.log"), "mine");
   const ProgramResult trial =
       run_walktrack({"selftest", "--trial", "a single frame", "-o", folder_ / "mine"});

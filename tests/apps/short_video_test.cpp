@@ -41,15 +41,15 @@ class ShortVideo : public testing::Test {
   // One camera's view of a motion, 2 s.
   std::string filmed(const std::string& motion, double distance) const {
     const std::string options =
-        folder_.write("film.yaml",
+        folder_.write("video.yaml",
                       "frame_rate: 30\nduration: 2\nbackground_frames: 10\ncameras:\n"
                       "  - {name: side, azimuth_deg: -90, height: 1.2, focal_px: 300, size: [320, "
                       "240], distance: " +
                           std::to_string(distance) + "}\n");
     const ProgramResult made =
-        run_walktrack({"render", motion, "--options", options, "-o", folder_ / "film"});
+        run_walktrack({"render", motion, "--options", options, "-o", folder_ / "video"});
     EXPECT_EQ(made.exit_code, 0) << made.err;
-    return folder_ / "film/scene.yaml";
+    return folder_ / "video/scene.yaml";
   }
   nlohmann::json numbers() const {
     return nlohmann::json::parse(read_file(folder_ / "out/run.json")).at("numbers");

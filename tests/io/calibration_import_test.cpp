@@ -206,12 +206,12 @@ TEST(ImportedCalibration, IsTakenByAScene) {
   const TemporaryFolder folder;
   folder.write("rig.qca.txt", corpus("qualisys/two.xml"));
   folder.write("phone.pickle", corpus("opencap/protocol4.pickle"));
-  folder.write("film.mp4", "");
+  folder.write("video.mp4", "");
   const Scene scene =
       read_scene(folder.write("scene.yaml",
                               "cameras:\n"
-                              "  - {name: '21002', video: film.mp4, calibration: rig.qca.txt}\n"
-                              "  - {name: phone, video: film.mp4, calibration: phone.pickle}\n"));
+                              "  - {name: '21002', video: video.mp4, calibration: rig.qca.txt}\n"
+                              "  - {name: phone, video: video.mp4, calibration: phone.pickle}\n"));
   ASSERT_EQ(scene.cameras.size(), 2u);
   EXPECT_TRUE(camera_centre(scene.cameras[0].camera).isApprox(Vector3d(4, 0, 1.2), 1e-12));
   EXPECT_EQ(scene.cameras[1].camera.width_px, 720);

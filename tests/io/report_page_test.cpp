@@ -57,7 +57,7 @@ TEST(NormalGait, IsATableOfRangesOverTheCycle) {
   }
 }
 
-TEST(ChooseEmbedded, TakesFilmsAsLongAsThereIsRoom) {
+TEST(ChooseEmbedded, TakesVideosAsLongAsThereIsRoom) {
   const TemporaryFolder folder;
   std::vector<ReportClip> clips;
   for (const auto& [name, size] : {std::pair{"a", 60}, {"b", 50}, {"c", 40}})
@@ -70,25 +70,25 @@ TEST(ChooseEmbedded, TakesFilmsAsLongAsThereIsRoom) {
   EXPECT_FALSE(clips[3].embedded);
 }
 
-TEST(WriteReportPage, HoldsTitleDataAndFilms) {
+TEST(WriteReportPage, HoldsTitleDataAndVideos) {
   const TemporaryFolder folder;
-  std::string film(100'001, '\0');  // longer than a block, no multiple of three
+  std::string video(100'001, '\0');  // longer than a block, no multiple of three
   std::mt19937 random(7);
-  for (char& c : film) c = static_cast<char>(random());
+  for (char& c : video) c = static_cast<char>(random());
   ReportPage page;
   page.title = "<b>\"A\" & 'B'\n";
   page.data_json = R"({"x": "</script>"})";
-  page.clips = {{"si\"de", folder.write("film.mp4", film)},
-                {"front", folder.write("a b<.mp4", film), false}};
+  page.clips = {{"si\"de", folder.write("video.mp4", video)},
+                {"front", folder.write("a b<.mp4", video), false}};
   write_report_page(folder / "report.html", page);
   const std::string text = read_file(folder / "report.html");
   EXPECT_THAT(text, HasSubstr("<title>&lt;b&gt;&quot;A&quot; &amp; &#39;B&#39; </title>"));
   EXPECT_THAT(text, HasSubstr(R"(id="data">{"x": "\u003c/script>"}</script>)"));
-  EXPECT_THAT(text, HasSubstr("data-name=\"si&quot;de\">" + base64(film) + "</script>"));
+  EXPECT_THAT(text, HasSubstr("data-name=\"si&quot;de\">" + base64(video) + "</script>"));
   EXPECT_THAT(text, HasSubstr("data-name=\"front\" data-file=\"a%20b%3C.mp4\"></script>"));
 }
 
-TEST(WriteReportPage, LeavesNothingWhenAFilmIsMissing) {
+TEST(WriteReportPage, LeavesNothingWhenAVideoIsMissing) {
   const TemporaryFolder folder;
   ReportPage page;
   page.clips = {{"side", folder / "none.mp4"}};

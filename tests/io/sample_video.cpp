@@ -72,7 +72,7 @@ void write_timed_video(const std::string& path, const std::vector<cv::Mat>& fram
     const size_t at = bytes.find(box) - 4;
     bytes.replace(at, 4, big_endian(number_at(bytes, at) + size - old_size));
   }
-  bytes.replace(bytes.find("edts"), 4, "free");  // which would end the film where it ended before
+  bytes.replace(bytes.find("edts"), 4, "free");  // which would end the video where it ended before
   std::ofstream(path, std::ios::binary) << bytes;
 }
 

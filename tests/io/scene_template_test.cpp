@@ -10,20 +10,20 @@ namespace walktrack {
 namespace {
 
 TEST(SceneForVideo, KeepsAllButTheVideoAndReadsFromAnywhere) {
-  const TemporaryFolder room, films;
+  const TemporaryFolder room, videos;
   room.write("cal.yaml", kCalibrationText);
   room.write("empty.png", "");
   room.write("a.mp4", "");
   room.write("truth.csv", "");
-  const std::string film = films.write("one \"two\": three.mp4", "");
+  const std::string video = videos.write("one \"two\": three.mp4", "");
   const std::string scene_template = room.write(
       "scene.yaml",
       "cameras: [{name: a, video: a.mp4, calibration: cal.yaml, background: empty.png}]\n"
       "frame_rate: 50\nsubject: {height: 1.6}\ntruth: truth.csv\n"
       "occluders: {a: [[[0, 0], [1, 0], [1, 1.5]]]}\n");
   const Scene scene =
-      read_scene(films.write("deep/scene.yaml", scene_for_video(scene_template, film)));
-  EXPECT_EQ(scene.cameras[0].video, film);
+      read_scene(videos.write("deep/scene.yaml", scene_for_video(scene_template, video)));
+  EXPECT_EQ(scene.cameras[0].video, video);
   EXPECT_EQ(scene.cameras[0].calibration, room.path() / "cal.yaml");
   EXPECT_EQ(scene.cameras[0].background, room.path() / "empty.png");
   EXPECT_EQ(scene.frame_rate, 50);

@@ -16,7 +16,7 @@
 #include "io/archive/files.h"
 #include "io/calibration/calibration.h"
 #include "tests/camera/made_camera.h"
-#include "tests/observation/board_film.h"
+#include "tests/observation/board_video.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -40,19 +40,19 @@ Camera brown_lens() { return small_lens(std::array{-0.15, 0.03, 0.001, -0.001}, 
 Camera placed(const Camera& camera) { return looking_at(camera, {0.4, -2.4, 1.0}, {0.1, 0, 0}); }
 
 // A board on the floor: x along its rows, z up.
-cv::Mat floor_picture(const BoardFilm& film, const Camera& camera, const Board& board) {
+cv::Mat floor_picture(const BoardVideo& video, const Camera& camera, const Board& board) {
   const Eigen::Matrix3d world_from_board = Eigen::AngleAxisd(kPi, Vector3d::UnitX()).matrix();
-  return film.picture(board, camera.rotation * world_from_board, camera.translation);
+  return video.picture(board, camera.rotation * world_from_board, camera.translation);
 }
 
 class Calibrate : public testing::Test {
  protected:
   CalibrateJob views_job(const Camera& camera, const std::vector<BoardPose>& poses) {
-    const BoardFilm film(camera);
+    const BoardVideo video(camera);
     fs::create_directories(folder_.path() / "views");
     for (size_t i = 0; i < poses.size(); ++i)
       cv::imwrite(folder_ / fmt::format("views/{:02}.png", i),
-                  film.picture(kBoard, poses[i].rotation, poses[i].translation));
+                  video.picture(kBoard, poses[i].rotation, poses[i].translation));
     CalibrateJob job;
     job.board = kBoard;
     job.views = folder_ / "views";
@@ -130,7 +130,7 @@ TEST_F(Calibrate, FindsLensAndPlaceTogetherAndWritesWhatOtherProgramsRead) {
   CalibrateJob job = views_job(camera, board_poses(camera, kBoard));
   Board large = kBoard;  // the same board seen from 2.6 m would be too small
   large.spacing = 0.16;
-  cv::imwrite(folder_ / "floor.png", floor_picture(BoardFilm(camera), camera, large));
+  cv::imwrite(folder_ / "floor.png", floor_picture(BoardVideo(camera), camera, large));
   calibrate(job, {});
   CalibrateJob place;
   place.name = "cam0";

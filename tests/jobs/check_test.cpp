@@ -349,7 +349,7 @@ TEST_F(CheckTest, FindsTheCameraThatIsOutOfStep) {
   }
 }
 
-// From the films to the cure: four cameras about a walk, one of which began six frames early.
+// From the videos to the cure: four cameras about a walk, one of which began six frames early.
 TEST_F(CheckTest, NamesTheStartFrameThatPutsCamerasInStep) {
   RenderJob job;
   MadeWalk walk;

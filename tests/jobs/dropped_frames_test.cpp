@@ -24,7 +24,7 @@ constexpr int kFrames = 75;
 class DroppedFrames : public testing::Test {
  protected:
   // The front camera's video without some of its frames.
-  void film(int first, int count) const {
+  void record(int first, int count) const {
     FrameSource source(kDemo / "front.mp4");
     std::vector<cv::Mat> frames;
     std::vector<double> durations;
@@ -63,9 +63,9 @@ class DroppedFrames : public testing::Test {
 };
 
 TEST_F(DroppedFrames, CostHardlyAnyAccuracy) {
-  film(0, 0);
+  record(0, 0);
   const double clean = tracked();
-  film(40, 6);
+  record(40, 6);
   EXPECT_LT(tracked(), 1.5 * clean);
 }
 

@@ -27,8 +27,8 @@ constexpr double kFrame = 1.0 / 30;  // s
 constexpr uint32_t kFrames = 36;
 
 // A stride of somebody with arms, filmed from one side; everything looks like the walker.
-struct Film {
-  explicit Film(double azimuth_deg) {
+struct Video {
+  explicit Video(double azimuth_deg) {
     MadeWalk walk;
     walk.to = 2;
     walk.rate = 30;
@@ -73,20 +73,20 @@ struct Film {
 
 TEST(LegNames, AreToldFromEitherSide) {
   for (const double azimuth_deg : {-90.0, 90.0}) {
-    const Film film(azimuth_deg);
-    EXPECT_GT(legs_log_odds(film.scene, film.window, film.truth), 0.5) << azimuth_deg;
-    EXPECT_LT(legs_log_odds(film.scene, film.window, film.exchanged()), -0.5) << azimuth_deg;
+    const Video video(azimuth_deg);
+    EXPECT_GT(legs_log_odds(video.scene, video.window, video.truth), 0.5) << azimuth_deg;
+    EXPECT_LT(legs_log_odds(video.scene, video.window, video.exchanged()), -0.5) << azimuth_deg;
   }
 }
 
 TEST(LegNames, AreUnknownWithoutPicturesOrTracks) {
-  Film film(-90);
-  std::vector<FrameRecord> lost = film.truth;
+  Video video(-90);
+  std::vector<FrameRecord> lost = video.truth;
   for (FrameRecord& record : lost) record.tracked = false;
-  EXPECT_EQ(legs_log_odds(film.scene, film.window, lost), 0);
-  EXPECT_EQ(legs_log_odds(film.scene, film.window, {}), 0);
-  for (SceneEvidence& each : film.window) each[0].picture = {};
-  EXPECT_EQ(legs_log_odds(film.scene, film.window, film.truth), 0);
+  EXPECT_EQ(legs_log_odds(video.scene, video.window, lost), 0);
+  EXPECT_EQ(legs_log_odds(video.scene, video.window, {}), 0);
+  for (SceneEvidence& each : video.window) each[0].picture = {};
+  EXPECT_EQ(legs_log_odds(video.scene, video.window, video.truth), 0);
 }
 
 // In black trousers, which show nothing of which leg is in front.
@@ -108,11 +108,11 @@ cameras:
 TEST(LegNames, OutlastTheirPassing) {
   const TemporaryFolder folder;
   const RenderFile file = read_render_file(folder.write("options.yaml", kBlackTrousers));
-  RenderJob film;
-  film.options = file.options;
-  film.walker = file.subject;
-  film.output = folder / "scene";
-  render_scene(film, {});
+  RenderJob video;
+  video.options = file.options;
+  video.walker = file.subject;
+  video.output = folder / "scene";
+  render_scene(video, {});
   const Motion truth = read_motion(folder / "scene/truth.csv");
   TrackJob job;
   job.scene = read_scene(folder / "scene/scene.yaml");

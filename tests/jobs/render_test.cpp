@@ -191,13 +191,13 @@ TEST_F(Render, AStrongerCodecLosesMore) {
   job_.options.images = true;
   job_.options.duration = 0;
   job_.overwrite = true;
-  const auto film = [&](int quality) {
+  const auto video = [&](int quality) {
     job_.options.jpeg_quality = quality;
     render_scene(job_, {});
     return cv::imread((job_.output / "side/000000.png").string());
   };
-  const cv::Mat exact = film(0);
-  const double fine = cv::norm(exact, film(95)), coarse = cv::norm(exact, film(10));
+  const cv::Mat exact = video(0);
+  const double fine = cv::norm(exact, video(95)), coarse = cv::norm(exact, video(10));
   EXPECT_GT(fine, 0);
   EXPECT_GT(coarse, 1.5 * fine);
 }

@@ -48,14 +48,14 @@ TEST(Selftest, ToldToStopItLeavesNothing) {
   const TemporaryFolder folder;
   SelftestJob job;
   const std::string script = folder.write(
-      "trial.sh", "#!/bin/sh\nmkdir -p \"$3\" && touch \"$3/film\" && exec sleep 60\n");
+      "trial.sh", "#!/bin/sh\nmkdir -p \"$3\" && touch \"$3/video\" && exec sleep 60\n");
   fs::permissions(script, fs::perms::owner_all);
   job.command = {script};
   job.folder = folder.path() / "work";
   std::atomic<bool> stop = false;
   JobControl control{.stop_request = &stop};
   control.report = [&](const Progress&) {
-    if (fs::exists(job.folder / "00/film")) stop = true;
+    if (fs::exists(job.folder / "00/video")) stop = true;
   };
   EXPECT_THAT(run_selftest(job, control), IsEmpty());
   EXPECT_TRUE(fs::is_empty(job.folder));

@@ -75,7 +75,7 @@ TEST_F(Track, SameSeedSameBytesForAnyThreadCount) {
   EXPECT_NE(run_json("other").at("digest"), digest);
 }
 
-// What it holds is bounded, whatever rates and sizes a film has.
+// What it holds is bounded, whatever rates and sizes a video has.
 TEST(SearchWindow, TooLargeForMemoryIsRefusedWithItsCure) {
   Scene scene = read_scene(kDemo / "scene.yaml");
   Config fine, coarse;

@@ -41,7 +41,7 @@ constexpr const char* kPost = "occluders: {side: [[[105, 0], [134, 0], [134, 179
 
 class UnevenCameras : public testing::Test {
  protected:
-  void film() const {
+  void record() const {
     write_file_atomically(folder_ / "options.yaml", kOptions);
     const RenderFile file = read_render_file(folder_ / "options.yaml");
     RenderJob job;
@@ -55,7 +55,7 @@ class UnevenCameras : public testing::Test {
       ASSERT_TRUE(fs::remove(folder_ / "scene" / camera / ("0000" + std::to_string(i) + ".png")));
   }
   // Nobody has filmed the room without the walker.
-  void forget_empty_films() const {
+  void forget_empty_videos() const {
     std::string scene = read_text_file(folder_ / "scene/scene.yaml", size_t{1} << 20);
     for (const std::string camera : {"side", "front"})
       scene = replaced(scene, ", background: " + camera + "_background", "");
@@ -82,7 +82,7 @@ class UnevenCameras : public testing::Test {
 };
 
 TEST_F(UnevenCameras, FollowAWalkerPastANamedPostThroughLostFrames) {
-  film();
+  record();
   lose("front", 14, 19);
   const JointErrors errors = track(kPost);
   EXPECT_GT(errors.filled_share, 0.95);
@@ -92,11 +92,11 @@ TEST_F(UnevenCameras, FollowAWalkerPastANamedPostThroughLostFrames) {
   EXPECT_LT(errors.swapped_share, 0.1);
 }
 
-// Seeds 1 to 3 end with 35 to 42 mm, as near as with the empty films.
-TEST_F(UnevenCameras, TheFilmItselfIsBackgroundEnough) {
-  film();
+// Seeds 1 to 3 end with 35 to 42 mm, as near as with the empty videos.
+TEST_F(UnevenCameras, TheVideoItselfIsBackgroundEnough) {
+  record();
   lose("front", 14, 19);
-  forget_empty_films();
+  forget_empty_videos();
   const JointErrors errors = track(kPost);
   EXPECT_GT(errors.filled_share, 0.95);
   EXPECT_LT(errors.absolute.mean, 0.08);

@@ -111,7 +111,7 @@ TEST_F(UnknownSize, IsReadOffAWalkThatTheSceneSaysWhereToFind) {
   EXPECT_EQ(track_scene(placed, {}).status, TrackStatus::kTracked);
   EXPECT_NEAR(run_json().at("numbers").at("estimated_height_m"), 1.58, 0.05);
   EXPECT_EQ(run_json().at("numbers").at("first_tracked_frame"), 0);
-  // Also where the film ends before the window of the search is full.
+  // Also where the video ends before the window of the search is full.
   placed.scene.last_frame = 20;
   track_scene(placed, {});
   EXPECT_NEAR(run_json().at("numbers").at("estimated_height_m"), 1.58, 0.08);

@@ -46,7 +46,7 @@ TEST(Gait, PutsTheStrikesOfEachFootInTime) {
     EXPECT_NE(gait.stances[i].side, gait.stances[i - 1].side);
 }
 
-// A foot that the film's beginning finds on its way, or half off the ground, has no place yet.
+// A foot that the video's beginning finds on its way, or half off the ground, has no place yet.
 TEST(Gait, AStepNeedsBothStrikes) {
   for (const double phase : {0.05, 0.2, 0.35, 0.45, 0.55, 0.8}) {
     const TestWalk walk{.phase = phase};

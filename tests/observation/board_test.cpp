@@ -7,7 +7,7 @@
 
 #include "core/conventions.h"
 #include "tests/camera/made_camera.h"
-#include "tests/observation/board_film.h"
+#include "tests/observation/board_video.h"
 
 namespace walktrack {
 namespace {
@@ -26,9 +26,9 @@ constexpr Board kUneven{BoardKind::kChessboard, 8, 5, 0.04};
 
 // Largest distance between found points and where the board's points are projected, from whichever
 // end where both are alike; infinite when the board is not found.
-double worst_miss(const Camera& camera, const BoardFilm& film, const Board& board,
+double worst_miss(const Camera& camera, const BoardVideo& video, const Board& board,
                   const BoardPose& pose) {
-  const auto found = find_board(film.picture(board, pose.rotation, pose.translation), board);
+  const auto found = find_board(video.picture(board, pose.rotation, pose.translation), board);
   if (!found) return std::numeric_limits<double>::infinity();
   Camera placed = camera;
   placed.rotation = pose.rotation;
@@ -49,19 +49,19 @@ constexpr double kWorstCorner = 0.3;  // px
 
 TEST(Board, CornersAreFoundToAFractionOfAPixelInTheirOrder) {
   const Camera camera = usual_lens();
-  const BoardFilm film(camera);
+  const BoardVideo video(camera);
   for (const BoardPose& pose : board_poses(camera, kUneven))
-    EXPECT_LT(worst_miss(camera, film, kUneven, pose), kWorstCorner);
+    EXPECT_LT(worst_miss(camera, video, kUneven, pose), kWorstCorner);
 }
 
 // The centre of a circle's picture is not the picture of its centre: at 40 px a circle and tilts of
 // 35 degrees they lie up to a quarter of a pixel apart.
 TEST(Board, CirclesAreFoundToAThirdOfAPixelInTheirOrder) {
   const Camera camera = usual_lens();
-  const BoardFilm film(camera);
+  const BoardVideo video(camera);
   int found = 0;
   for (const BoardPose& pose : board_poses(camera, kCircles)) {
-    const double miss = worst_miss(camera, film, kCircles, pose);
+    const double miss = worst_miss(camera, video, kCircles, pose);
     if (std::isinf(miss)) continue;
     ++found;
     EXPECT_LT(miss, 0.35);
@@ -72,12 +72,12 @@ TEST(Board, CirclesAreFoundToAThirdOfAPixelInTheirOrder) {
 // Rows are shifted in turn, so the ends of an odd number of rows differ and the order is one.
 TEST(Board, ShiftedCirclesAreFoundInTheirOrderHoweverTheyLie) {
   const Camera camera = usual_lens();
-  const BoardFilm film(camera);
+  const BoardVideo video(camera);
   EXPECT_TRUE(has_one_origin(kShifted));
   EXPECT_FALSE(has_one_origin({BoardKind::kAsymmetricCircles, 4, 10, 0.03}));
   int found = 0;
   for (const BoardPose& pose : board_poses(camera, kShifted)) {
-    const double miss = worst_miss(camera, film, kShifted, pose);
+    const double miss = worst_miss(camera, video, kShifted, pose);
     if (std::isinf(miss)) continue;
     ++found;
     EXPECT_LT(miss, 0.35);
@@ -85,40 +85,40 @@ TEST(Board, ShiftedCirclesAreFoundInTheirOrderHoweverTheyLie) {
   EXPECT_GE(found, 10);
   for (const double roll : {0.0, 0.5 * kPi, kPi, 1.5 * kPi}) {
     const BoardPose pose = board_pose(camera, kShifted, {240, 180}, 0.9, 0.2, 0.3, roll);
-    EXPECT_LT(worst_miss(camera, film, kShifted, pose), 0.35) << "turned by " << roll;
+    EXPECT_LT(worst_miss(camera, video, kShifted, pose), 0.35) << "turned by " << roll;
   }
 }
 
 TEST(Board, AnUnevenChessboardKeepsItsOriginHoweverItLies) {
   const Camera camera = usual_lens();
-  const BoardFilm film(camera);
+  const BoardVideo video(camera);
   EXPECT_TRUE(has_one_origin(kUneven));
   EXPECT_FALSE(has_one_origin(kChess));
   EXPECT_FALSE(has_one_origin(kCircles));
   for (const double roll : {0.0, 0.5 * kPi, kPi, 1.5 * kPi, 2.0}) {
     const BoardPose pose = board_pose(camera, kUneven, {240, 180}, 0.9, 0.2, 0.3, roll);
-    EXPECT_LT(worst_miss(camera, film, kUneven, pose), kWorstCorner) << "turned by " << roll;
+    EXPECT_LT(worst_miss(camera, video, kUneven, pose), kWorstCorner) << "turned by " << roll;
   }
 }
 
 TEST(Board, ABoardThatIsCutIsNotFound) {
   const Camera camera = usual_lens();
-  const BoardFilm film(camera);
+  const BoardVideo video(camera);
   for (const Board& board : {kUneven, kCircles}) {
     const BoardPose whole = board_pose(camera, board, {240, 180}, 0.9, 0.2, 0.2, 0);
-    EXPECT_LT(worst_miss(camera, film, board, whole), 0.35);
+    EXPECT_LT(worst_miss(camera, video, board, whole), 0.35);
     const BoardPose half = board_pose(camera, board, {475, 180}, 0.9, 0.2, 0.2, 0);
-    EXPECT_TRUE(std::isinf(worst_miss(camera, film, board, half)));
+    EXPECT_TRUE(std::isinf(worst_miss(camera, video, board, half)));
   }
 }
 
 TEST(Board, AnotherSizeIsNotFoundNorOneInAnEmptyPicture) {
   const Camera camera = usual_lens();
-  const BoardFilm film(camera);
+  const BoardVideo video(camera);
   const BoardPose pose = board_pose(camera, kUneven, {240, 180}, 0.9, 0.2, 0.2, 0);
   Board other = kUneven;
   other.columns = 9;
-  EXPECT_FALSE(find_board(film.picture(kUneven, pose.rotation, pose.translation), other));
+  EXPECT_FALSE(find_board(video.picture(kUneven, pose.rotation, pose.translation), other));
   const cv::Mat empty(360, 480, CV_8UC3, cv::Scalar(120, 120, 120));
   EXPECT_FALSE(find_board(empty, kUneven));
   EXPECT_FALSE(find_board(empty, kCircles));

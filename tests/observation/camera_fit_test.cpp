@@ -8,7 +8,7 @@
 
 #include "core/rng.h"
 #include "tests/camera/made_camera.h"
-#include "tests/observation/board_film.h"
+#include "tests/observation/board_video.h"
 
 namespace walktrack {
 namespace {

@@ -101,14 +101,14 @@ class Report(unittest.TestCase):
         self.assertEqual(len(self.texts("#gait-tables table:last-of-type tbody tr")) > 0, bool(gait["contacts"]))
         settings = dict(zip(self.texts("#settings tbody th"), self.texts("#settings tbody td:nth-child(2)")))
         self.assertEqual(settings["filter.particles"], "60")
-        self.film_and_figure()
+        self.video_and_figure()
         self.keys()
         self.small_and_on_paper("report", range(2, 9))
         self.check_quiet(out / "report.html")
 
-    def film_and_figure(self):
+    def video_and_figure(self):
         value = self.browser.value
-        self.assertEqual(value("document.querySelector('#film video').videoWidth"), 640)
+        self.assertEqual(value("document.querySelector('#video video').videoWidth"), 640)
         self.assertEqual(len(self.texts("#strip button")), 5)
         opaque = "[...document.querySelectorAll('#strip canvas')].map((c) => c.getContext('2d').getImageData(9, 9, 1, 1).data[3])"
         self.assertEqual(value(opaque), [255] * 5)
@@ -137,9 +137,9 @@ class Report(unittest.TestCase):
         before = value("clock.frame")
         self.browser.key("ArrowLeft", "ArrowLeft")
         self.assertEqual(value("clock.frame"), before - 1)
-        # The film follows to the middle of that frame.
+        # The video follows to the middle of that frame.
         value("new Promise((done) => setTimeout(done, 300))")
-        shown = value("document.querySelector('#film video').currentTime")
+        shown = value("document.querySelector('#video video').currentTime")
         self.assertAlmostEqual(shown, (before - 1 + 0.5) / 30, delta=0.5 / 30)
 
     def small_and_on_paper(self, name, pages):
@@ -157,7 +157,7 @@ class Report(unittest.TestCase):
             shutil.copy(paper, pictures / f"{name}.pdf")
 
     def test_shows_an_analysed_motion(self):
-        """Motion capture has no film, no bands and, here, no zero in its times."""
+        """Motion capture has no video, no bands and, here, no zero in its times."""
         lines = (demo / "truth.csv").read_text().splitlines()
         motion = self.folder / "captured.csv"
         motion.write_text("\n".join([lines[0]] + [f"{float(t) + 7:.6f},{rest}" for t, rest in
@@ -171,7 +171,7 @@ class Report(unittest.TestCase):
         for tile, (column, digits) in zip(tiles, [("speed_m_s", 2), ("step_length_m", 2), ("cadence_steps_per_min", 0)]):
             self.assertTrue(tile.startswith(f"{summary['both'][column]['value']:.{digits}f} "), tile)
         self.assertIn("Analysed", self.texts("#verdict")[0])
-        self.assertEqual(self.browser.value("document.querySelector('.film').offsetHeight"), 0)
+        self.assertEqual(self.browser.value("document.querySelector('.video').offsetHeight"), 0)
         self.assertEqual(len(self.texts("#cycle-charts canvas")), 4)
         self.assertIn("4- to 17-year-olds", self.texts("#cycle-charts figcaption")[0])
         self.assertEqual(len(self.texts("#time-charts canvas")), 1)
@@ -185,7 +185,7 @@ class Report(unittest.TestCase):
         for name, frames in (("first walk", 30), ("broken", 20), ("third", 12)):
             scene(many / name, frames)
         (many / "broken/side.mp4").unlink()
-        (many / "broken/side.mp4").write_text("no film")
+        (many / "broken/side.mp4").write_text("no video")
         out = self.folder / "many_out"
         result = run("batch", many, "-o", out, "--jobs", 1, *QUICK)
         self.assertEqual(result.returncode, 1, result.stderr)
@@ -226,12 +226,12 @@ class Report(unittest.TestCase):
             self.browser.key("Enter", "Enter", "\r")
             self.assertEqual(self.texts("tbody th"), expected)
 
-    def test_large_films_are_played_from_beside_the_page(self):
+    def test_large_videos_are_played_from_beside_the_page(self):
         out = self.track(scene(self.folder / "large", 30), "large_out", "--set", "report.embed_mb=0")
         self.open(out / "report.html")
         self.assertLess((out / "report.html").stat().st_size, 500_000)
-        self.assertEqual(self.browser.value("document.querySelector('#film video').videoWidth"), 640)
-        self.assertIn("overlay_side.mp4", self.texts("#film-note")[0])
+        self.assertEqual(self.browser.value("document.querySelector('#video video').videoWidth"), 640)
+        self.assertIn("overlay_side.mp4", self.texts("#video-note")[0])
 
     def test_names_from_outside_stay_text(self):
         hostile = "<img src=x onerror=document.title='owned'> \" ' & </script> \n"
@@ -241,10 +241,10 @@ class Report(unittest.TestCase):
         self.assertEqual(self.texts("h1"), [hostile + " / scene.yaml"])
         self.assertEqual(self.browser.value("document.images.length"), 0)
         self.assertNotEqual(self.browser.value("document.title"), "owned")
-        self.assertIn("wrote no overlay", self.texts("#film")[0])
+        self.assertIn("wrote no overlay", self.texts("#video")[0])
         self.check_quiet(out / "report.html")
 
-    def test_a_film_of_nobody_makes_a_page_that_says_so(self):
+    def test_a_video_of_nobody_makes_a_page_that_says_so(self):
         out = self.track(scene(self.folder / "empty", 30, ("side_background", "front_background")), "nobody")
         self.open(out / "report.html")
         self.assertIn("Nobody was found walking", self.texts("#verdict")[0])

@@ -48,7 +48,7 @@ class TwoCameras {
     before.legs[1].hip_flexion -= 0.06;
     for (const Camera& camera :
          {camera_at({0, -5, 1.2}, {0, 0, 0.9}, 620), camera_at({4, -3.5, 1.8}, {0, 0, 0.9}, 640)})
-      film(camera, before, truth);
+      record(camera, before, truth);
   }
 
   double log_likelihood_of(const Pose& pose) const {
@@ -74,7 +74,7 @@ class TwoCameras {
     const std::vector<DressedParts> walkers{dress(parts(pose), worn_)};
     return noise_free(view, render(view, world_, walkers).colour);
   }
-  void film(const Camera& camera, const Pose& before, const Pose& now) {
+  void record(const Camera& camera, const Pose& before, const Pose& now) {
     constexpr int kShrink = 2;
     const View view = make_view(world_, camera, 2);
     BackgroundSampler sampler(config_.background, kShrink);
@@ -151,8 +151,8 @@ std::vector<Freedom> hardly_seen_freedoms() {
 }
 
 const TwoCameras& two_cameras() {
-  static const TwoCameras film(striding_pose());
-  return film;
+  static const TwoCameras cameras(striding_pose());
+  return cameras;
 }
 
 double log_likelihood_beside(const Freedom& freedom, double by) {
@@ -191,10 +191,10 @@ TEST(LikelihoodMaximum, IsFlatInWhatTwoViewsHardlySee) {
 }
 
 TEST(LikelihoodMaximum, TellsTheLegsApart) {
-  const TwoCameras& film = two_cameras();
+  const TwoCameras& cameras = two_cameras();
   Pose exchanged = striding_pose();
   std::swap(exchanged.legs[0], exchanged.legs[1]);
-  EXPECT_GT(film.log_likelihood_of(striding_pose()), film.log_likelihood_of(exchanged) + 100);
+  EXPECT_GT(cameras.log_likelihood_of(striding_pose()), cameras.log_likelihood_of(exchanged) + 100);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ double bell(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double h
 
 constexpr size_t kFrames = 24;
 
-struct Film {
+struct Window {
   std::vector<Place> early, late;
   WindowScore score;
 
@@ -39,7 +39,7 @@ struct Film {
   }
 };
 
-Film film(const std::function<double(size_t, const Eigen::Vector2d&)>& score) {
+Window window(const std::function<double(size_t, const Eigen::Vector2d&)>& score) {
   const std::vector<Camera> cameras{side_camera()};
   const auto places = standing_places(cameras, 1.75, {});
   const auto figures = [&](size_t f) {
@@ -65,7 +65,7 @@ TEST(StandingPlaces, FiguresStandWhollyInTheImage) {
 }
 
 TEST(FindWalk, FindsAWalkerBetweenThingsThatStandStill) {
-  const Film f = film([](size_t frame, const Eigen::Vector2d& p) {
+  const Window f = window([](size_t frame, const Eigen::Vector2d& p) {
     return bell(p, walker_at(frame), 100) + bell(p, {0.8, 1.8}, 120);
   });
   const auto walk = f.walk();
@@ -79,7 +79,7 @@ TEST(FindWalk, FindsAWalkerBetweenThingsThatStandStill) {
 TEST(FindWalk, SparesItselfTheFineStepsWhereNobodyIsSeenForAMoment) {
   const auto scores_asked = [](size_t hidden_until) {
     int asked = 0;
-    Film f = film([=](size_t frame, const Eigen::Vector2d& p) {
+    Window f = window([=](size_t frame, const Eigen::Vector2d& p) {
       return frame < hidden_until ? -5 : bell(p, walker_at(frame), 100);
     });
     // The early candidates of somebody who is seen throughout: both propose the same lines.
@@ -110,8 +110,8 @@ TEST(FindWalk, ClimbsAlongTheRayOfEitherEnd) {
   const auto truth = [](size_t frame) {
     return Eigen::Vector2d(-1.6 + 1.4 * kDt * double(frame), 0.4);
   };
-  Film f =
-      film([&](size_t frame, const Eigen::Vector2d& p) { return ridge(p, truth(frame), 100); });
+  Window f =
+      window([&](size_t frame, const Eigen::Vector2d& p) { return ridge(p, truth(frame), 100); });
   // The only candidate of the late frame stands on its ray, but half as far again away.
   const size_t late = window_ends(kFrames).late;
   const Eigen::Vector2d camera_position(0, -6),
@@ -124,14 +124,16 @@ TEST(FindWalk, ClimbsAlongTheRayOfEitherEnd) {
 }
 
 TEST(FindWalk, NobodyWalks) {
-  const Film empty = film([](size_t, const Eigen::Vector2d&) { return -5.0; });
+  const Window empty = window([](size_t, const Eigen::Vector2d&) { return -5.0; });
   EXPECT_FALSE(empty.walk());
-  const Film still = film([](size_t, const Eigen::Vector2d& p) { return bell(p, {0, 1}, 100); });
+  const Window still = window([](size_t, const Eigen::Vector2d& p) {
+    return bell(p, {0, 1}, 100);
+  });
   EXPECT_FALSE(still.walk());
 }
 
 TEST(FindWalk, AWalkerHiddenInPartOfTheFramesIsNotThereYet) {
-  const Film f = film([](size_t frame, const Eigen::Vector2d& p) {
+  const Window f = window([](size_t frame, const Eigen::Vector2d& p) {
     return frame < 8 ? -1.0 : bell(p, walker_at(frame), 100);
   });
   EXPECT_FALSE(f.walk());
@@ -140,7 +142,7 @@ TEST(FindWalk, AWalkerHiddenInPartOfTheFramesIsNotThereYet) {
 // Poses that no figure resembles pass within a moment; who is hidden stays so.
 TEST(FindWalk, AMomentOfStrangePosesIsForgiven) {
   const auto gap_of = [](size_t frames) {
-    const Film f = film([=](size_t frame, const Eigen::Vector2d& p) {
+    const Window f = window([=](size_t frame, const Eigen::Vector2d& p) {
       return (frame >= 10 && frame < 10 + frames ? 0.1 : 1) * bell(p, walker_at(frame), 100);
     });
     return f.walk();
@@ -150,8 +152,8 @@ TEST(FindWalk, AMomentOfStrangePosesIsForgiven) {
 }
 
 TEST(FindWalk, ThreadsDoNotMatter) {
-  const Film f =
-      film([](size_t frame, const Eigen::Vector2d& p) { return bell(p, walker_at(frame), 100); });
+  const Window f =
+      window([](size_t frame, const Eigen::Vector2d& p) { return bell(p, walker_at(frame), 100); });
   const auto one = f.walk();
   const auto many = f.walk(8);
   ASSERT_TRUE(one && many);

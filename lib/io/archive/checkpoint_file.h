@@ -24,7 +24,7 @@ namespace walktrack {
 
 struct Checkpoint {
   Origin origin;
-  uint64_t frames_read = 0;              // of the film
+  uint64_t frames_read = 0;              // of the video
   uint64_t records = 0;                  // of finished frames
   uint64_t record_bytes = 0;             // of them in the FrameFile
   std::vector<ObserverState> observers;  // by camera

@@ -1,6 +1,6 @@
-// The records of a track's frames, kept on the disk: a film may be long, memory does not grow with
+// The records of a track's frames, kept on the disk: a video may be long, memory does not grow with
 // it. Records are appended as frames are tracked and read back, one at a time, when tables and
-// films are made of them; the file outlives a process that is killed.
+// videos are made of them; the file outlives a process that is killed.
 #pragma once
 
 #include <cstdint>

@@ -58,7 +58,7 @@ struct OverlayConfig {
 
 // The page to look at.
 struct ReportConfig {
-  double embed_mb = 24;  // of overlay films inside it; larger ones are played from beside it
+  double embed_mb = 24;  // of overlay videos inside it; larger ones are played from beside it
 };
 
 // When `track` notes where it stands (io/archive/checkpoint_file.h).

@@ -104,7 +104,7 @@ void add_search(ParameterTable& table) {
   using S = DetectorConfig;
   ParameterGroup<S> s(table, "search", "finding the walker", &Config::tracker,
                       &TrackerConfig::detector);
-  s.number("window", &S::window, 0.1, 10, "film that a walk is read from, s");
+  s.number("window", &S::window, 0.1, 10, "video that a walk is read from, s");
   s.number("slowest", &S::slowest, 0, 10, "who is slower is not walking, m/s");
   s.number("fastest", &S::fastest, 0.1, 20, "m/s");
   s.number("complete", &S::complete, 0, 1, "least score of a moment, share of the median");
@@ -191,7 +191,8 @@ void add_report(ParameterTable& table) {
            "of the encoder: slower ones make smaller files");
   using R = ReportConfig;
   ParameterGroup<R> r(table, "report", "report.html", &Config::report);
-  r.number("embed_mb", &R::embed_mb, 0, 1000, "overlay films inside it; larger ones beside it, MB");
+  r.number("embed_mb", &R::embed_mb, 0, 1000,
+           "overlay videos inside it; larger ones beside it, MB");
   using C = CheckpointConfig;
   ParameterGroup<C> c(table, "checkpoint", "where track --resume goes on", &Config::checkpoint);
   c.number("seconds", &C::seconds, 0, kAnyPositive,

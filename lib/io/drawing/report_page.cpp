@@ -20,12 +20,12 @@ constexpr size_t kBlockBytes = 3 << 14;  // a multiple of three, so that blocks 
 void write_clip(const ReportClip& clip, AtomicFile& out) {
   out.write(fmt::format("<script type=\"text/plain\" class=\"clip\" data-name=\"{}\">",
                         html_text(one_line(clip.name))));
-  std::ifstream film(clip.file, std::ios::binary);
+  std::ifstream video(clip.file, std::ios::binary);
   std::string block(kBlockBytes, '\0');
-  while (film.read(block.data(), kBlockBytes) || film.gcount() > 0) {
-    out.write(base64({block.data(), static_cast<size_t>(film.gcount())}));
+  while (video.read(block.data(), kBlockBytes) || video.gcount() > 0) {
+    out.write(base64({block.data(), static_cast<size_t>(video.gcount())}));
   }
-  if (!film.eof()) throw std::runtime_error(fmt::format("{}: cannot be read", clip.file.string()));
+  if (!video.eof()) throw std::runtime_error(fmt::format("{}: cannot be read", clip.file.string()));
   out.write("</script>\n");
 }
 

@@ -1,5 +1,5 @@
 // A page that can be sent on: one HTML file that holds its style, its scripts, its data and its
-// films, and asks the network for nothing (its content policy forbids it to).
+// videos, and asks the network for nothing (its content policy forbids it to).
 //
 // The parts of the page are in data/report and become part of the program.
 #pragma once
@@ -27,7 +27,7 @@ struct ReportPage {
 // Marks as embedded the clips, from the first on, that together have at most `max_bytes`.
 void choose_embedded(std::vector<ReportClip>& clips, uintmax_t max_bytes);
 
-// Films are copied through block by block. std::runtime_error naming what cannot be read or
+// Videos are copied through block by block. std::runtime_error naming what cannot be read or
 // written.
 void write_report_page(const std::filesystem::path& path, const ReportPage& page);
 
@@ -37,7 +37,7 @@ std::string base64(std::string_view bytes);
 // JSON inside a <script> element: no "<" is left, so nothing in it can end the element.
 std::string json_in_html(std::string_view json);
 
-// The page without title, data and films.
+// The page without title, data and videos.
 std::string_view report_template();
 // The page of a batch with its places <!--HEADLINE-->, <!--STATES-->, <!--HEADINGS-->, <!--ROWS-->.
 std::string_view batch_template();

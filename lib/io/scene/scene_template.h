@@ -1,4 +1,4 @@
-// One scene for many videos: the same room, camera and subject, another film.
+// One scene for many videos: the same room, camera and subject, another video.
 #pragma once
 
 #include <filesystem>

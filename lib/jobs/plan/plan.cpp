@@ -190,7 +190,7 @@ std::vector<std::pair<std::string, double>> memory_of(const Scene& scene, const 
                      search_window_bytes(scene, config, plan.frame_rate));
   const double record =
       double{sizeof(FrameRecord)} + config.tracker.samples * double{sizeof(JointPositions)};
-  out.emplace_back("results of a minute of film", 60 * plan.frame_rate * record);
+  out.emplace_back("results of a minute of video", 60 * plan.frame_rate * record);
   return out;
 }
 

@@ -13,7 +13,7 @@ FrameWriter::FrameWriter(const ResultFolder& folder, const std::string& name, bo
   if (images) {
     std::filesystem::create_directories(folder.path() / name);
   } else {
-    video_.emplace(folder.file(film_name(name, images)), size_px, frame_rate);
+    video_.emplace(folder.file(video_name(name, images)), size_px, frame_rate);
   }
 }
 
@@ -33,12 +33,12 @@ void FrameWriter::close() {
   if (video_) video_->close();
 }
 
-std::string film_name(const std::string& name, bool images) {
+std::string video_name(const std::string& name, bool images) {
   return images ? name : name + ".mp4";
 }
 
-std::string film_files(const std::string& name, bool images) {
-  return images ? numbered_files(name, ".png") : film_name(name, images);
+std::string video_files(const std::string& name, bool images) {
+  return images ? numbered_files(name, ".png") : video_name(name, images);
 }
 
 }  // namespace walktrack

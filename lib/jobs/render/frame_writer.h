@@ -29,10 +29,10 @@ class FrameWriter {
   std::optional<VideoWriter> video_;
 };
 
-// The name that a scene calls such a film by.
-std::string film_name(const std::string& name, bool images);
+// The name that a scene calls such a video by.
+std::string video_name(const std::string& name, bool images);
 
 // What the result folder calls its file or files by.
-std::string film_files(const std::string& name, bool images);
+std::string video_files(const std::string& name, bool images);
 
 }  // namespace walktrack

@@ -34,7 +34,7 @@ constexpr size_t kFramesPerThread = 2;   // in memory at a time
 constexpr double kRoundingShare = 1e-6;  // of a frame: a duration of whole frames includes the last
 
 // One camera of the recording.
-struct Filming {
+struct RenderedCamera {
   RenderCamera camera;
   View view;
   double rate;                       // Hz
@@ -79,20 +79,20 @@ cv::Mat picture(const RenderJob& job, const Plane<Colour>& light, uint32_t strea
   return cv::imdecode(coded, cv::IMREAD_COLOR);
 }
 
-void write_truth_pictures(const RenderJob& job, const Stage& stage, const Filming& filming,
+void write_truth_pictures(const RenderJob& job, const Stage& stage, const RenderedCamera& rendered,
                           const ResultFolder& folder, size_t frame) {
   const RenderOptions& options = job.options;
   if (!options.labels && !options.flow && !options.depth) return;
-  const auto now = actors_at(stage, filming.time(frame));
-  const Plane<Sight> sights = render(filming.view, stage.world, now).sights;
+  const auto now = actors_at(stage, rendered.time(frame));
+  const Plane<Sight> sights = render(rendered.view, stage.world, now).sights;
   const auto file = [&](const char* kind, const char* suffix) {
-    return folder.file(fmt::format("{}/{}/{:06}.{}", kind, filming.camera.name, frame, suffix));
+    return folder.file(fmt::format("{}/{}/{:06}.{}", kind, rendered.camera.name, frame, suffix));
   };
   if (options.labels) write_labels(file("labels", "png"), labels_of(sights));
-  if (options.depth) write_depth(file("depth", "pfm"), depth_of(filming.view, sights));
+  if (options.depth) write_depth(file("depth", "pfm"), depth_of(rendered.view, sights));
   if (!options.flow) return;
-  const auto next = actors_at(stage, filming.time(frame + 1));
-  write_flow(file("flow", "flo"), flow_of(filming.view, sights, now, next));
+  const auto next = actors_at(stage, rendered.time(frame + 1));
+  write_flow(file("flow", "flo"), flow_of(rendered.view, sights, now, next));
 }
 
 void make_truth_folders(const RenderJob& job, const std::string& camera) {
@@ -106,55 +106,56 @@ void make_truth_folders(const RenderJob& job, const std::string& camera) {
 
 // Renders `count` frames, some at a time in parallel, and writes them in order.
 template <typename MakeFrame>
-void write_film(const RenderJob& job, const std::string& name, const Filming& filming,
-                const ResultFolder& folder, size_t count, int threads, const JobControl& control,
-                const MakeFrame& make_frame) {
+void write_video(const RenderJob& job, const std::string& name, const RenderedCamera& rendered,
+                 const ResultFolder& folder, size_t count, int threads, const JobControl& control,
+                 const MakeFrame& make_frame) {
   FrameWriter writer(folder, name, job.options.images,
-                     {filming.view.camera.width_px, filming.view.camera.height_px}, filming.rate);
+                     {rendered.view.camera.width_px, rendered.view.camera.height_px},
+                     rendered.rate);
   const size_t batch = kFramesPerThread * static_cast<size_t>(threads);
   std::vector<cv::Mat> images(batch);
   for (size_t start = 0; start < count && !control.stopping(); start += batch) {
     const size_t n = std::min(batch, count - start);
     parallel_for(n, threads, [&](size_t i) { images[i] = make_frame(start + i); });
     for (size_t i = 0; i < n; ++i) writer.write(images[i]);
-    control.progress("rendering " + filming.camera.name, start + n, count);
+    control.progress("rendering " + rendered.camera.name, start + n, count);
   }
   if (!control.stopping()) writer.close();
 }
 
-void write_keypoints(const RenderJob& job, const Stage& stage, const Filming& filming,
+void write_keypoints(const RenderJob& job, const Stage& stage, const RenderedCamera& rendered,
                      const ResultFolder& folder) {
   if (!job.options.keypoints) return;
-  const std::string& name = filming.camera.name;
+  const std::string& name = rendered.camera.name;
   fs::create_directories(job.output / keypoint_folder(name));
-  for (size_t frame = 0; frame < filming.frames; ++frame) {
+  for (size_t frame = 0; frame < rendered.frames; ++frame) {
     const DetectedPeople people =
-        rendered_keypoints(stage, filming.view.camera, *job.options.keypoints, job.options.seed,
-                           filming.stream, static_cast<uint32_t>(frame), filming.time(frame));
+        rendered_keypoints(stage, rendered.view.camera, *job.options.keypoints, job.options.seed,
+                           rendered.stream, static_cast<uint32_t>(frame), rendered.time(frame));
     folder.write(keypoint_folder(name) + "/" + openpose_file_name(name, frame),
                  openpose_json(people));
   }
 }
 
-void film(const RenderJob& job, const Stage& stage, const Filming& filming,
-          const ResultFolder& folder, int threads, const JobControl& control) {
-  const std::string& name = filming.camera.name;
+void record(const RenderJob& job, const Stage& stage, const RenderedCamera& rendered,
+            const ResultFolder& folder, int threads, const JobControl& control) {
+  const std::string& name = rendered.camera.name;
   make_truth_folders(job, name);
-  folder.write(name + ".yaml", opencv_from_camera(filming.view.camera));
-  write_film(job, name, filming, folder, filming.frames, threads, control, [&](size_t frame) {
-    write_truth_pictures(job, stage, filming, folder, frame);
+  folder.write(name + ".yaml", opencv_from_camera(rendered.view.camera));
+  write_video(job, name, rendered, folder, rendered.frames, threads, control, [&](size_t frame) {
+    write_truth_pictures(job, stage, rendered, folder, frame);
     const Plane<Colour> light =
-        exposed(stage, filming.view, job.options.shutter, filming.time(frame), filming.rate);
-    return picture(job, light, 2 * filming.stream, static_cast<uint32_t>(frame));
+        exposed(stage, rendered.view, job.options.shutter, rendered.time(frame), rendered.rate);
+    return picture(job, light, 2 * rendered.stream, static_cast<uint32_t>(frame));
   });
-  write_keypoints(job, stage, filming, folder);
+  write_keypoints(job, stage, rendered, folder);
   if (job.options.background_frames == 0 || control.stopping()) return;
-  write_film(job, name + "_background", filming, folder,
-             static_cast<size_t>(job.options.background_frames), threads, control,
-             [&](size_t frame) {
-               return picture(job, filming.view.empty, 2 * filming.stream + 1,
-                              static_cast<uint32_t>(frame));
-             });
+  write_video(job, name + "_background", rendered, folder,
+              static_cast<size_t>(job.options.background_frames), threads, control,
+              [&](size_t frame) {
+                return picture(job, rendered.view.empty, 2 * rendered.stream + 1,
+                               static_cast<uint32_t>(frame));
+              });
 }
 
 std::vector<double> scene_times(const Stage& stage, double rate) {
@@ -185,21 +186,21 @@ std::string gravity_line(const Motion& truth, double slope) {
                      along * std::sin(heading), -kStandardGravity * std::cos(slope));
 }
 
-std::string scene_yaml(const RenderJob& job, const std::vector<Filming>& cameras,
+std::string scene_yaml(const RenderJob& job, const std::vector<RenderedCamera>& cameras,
                        const Motion& truth) {
   std::string out = "# Synthetic: rendered by walktrack, truth in truth.csv.\ncameras:\n";
-  for (const Filming& filming : cameras) {
-    const std::string& name = filming.camera.name;
+  for (const RenderedCamera& rendered : cameras) {
+    const std::string& name = rendered.camera.name;
     const bool images = job.options.images;
     out += fmt::format("  - {{name: {0}, video: {1}, calibration: {0}.yaml", name,
-                       film_name(name, images));
+                       video_name(name, images));
     if (job.options.background_frames > 0)
-      out += fmt::format(", background: {}", film_name(name + "_background", images));
+      out += fmt::format(", background: {}", video_name(name + "_background", images));
     if (job.options.keypoints) out += ", keypoints: " + keypoint_folder(name);
-    if (filming.camera.start_frame > 0)
-      out += fmt::format(", start_frame: {}", filming.camera.start_frame);
-    if (filming.camera.frame_rate)
-      out += fmt::format(", frame_rate: {}", shortest_number(filming.rate));
+    if (rendered.camera.start_frame > 0)
+      out += fmt::format(", start_frame: {}", rendered.camera.start_frame);
+    if (rendered.camera.frame_rate)
+      out += fmt::format(", frame_rate: {}", shortest_number(rendered.rate));
     out += "}\n";
   }
   out += fmt::format("frame_rate: {}\n", shortest_number(job.options.frame_rate));
@@ -210,8 +211,9 @@ std::string scene_yaml(const RenderJob& job, const std::vector<Filming>& cameras
   return out + "truth: truth.csv\n";
 }
 
-std::vector<Filming> film_crew(const RenderOptions& options, const Stage& stage, int threads) {
-  std::vector<Filming> out;
+std::vector<RenderedCamera> rendered_cameras(const RenderOptions& options, const Stage& stage,
+                                             int threads) {
+  std::vector<RenderedCamera> out;
   for (size_t i = 0; i < stage.cameras.size(); ++i) {
     RenderCamera camera = options.cameras.empty() ? RenderCamera{} : options.cameras[i];
     if (camera.name.empty()) camera.name = fmt::format("cam{}", i);
@@ -238,25 +240,25 @@ TableNotes write_kinetics(const RenderJob& job, WalkedGait walked, std::vector<d
   return simulated_kinetics_notes(truth, subject_of(walker));
 }
 
-Outputs outputs_of(const RenderJob& job, const std::vector<Filming>& cameras) {
+Outputs outputs_of(const RenderJob& job, const std::vector<RenderedCamera>& cameras) {
   const RenderOptions& options = job.options;
   Outputs out{job.output,
               "render",
               {kSceneFile, "truth.csv", "angles.csv", "events.csv", "kinetics.csv", "tables.json"},
               job.inputs,
               kSceneFile};
-  for (const Filming& filming : cameras) {
-    const std::string& name = filming.camera.name;
+  for (const RenderedCamera& rendered : cameras) {
+    const std::string& name = rendered.camera.name;
     out.files.push_back(name + ".yaml");
-    out.files.push_back(film_files(name, options.images));
+    out.files.push_back(video_files(name, options.images));
     if (options.background_frames > 0)
-      out.files.push_back(film_files(name + "_background", options.images));
+      out.files.push_back(video_files(name + "_background", options.images));
     if (options.keypoints)
       out.files.push_back(numbered_files(keypoint_folder(name), kOpenPoseEnding, name + "_"));
     if (options.labels) out.files.push_back(numbered_files("labels/" + name, ".png"));
     if (options.flow) out.files.push_back(numbered_files("flow/" + name, ".flo"));
     if (options.depth) out.files.push_back(numbered_files("depth/" + name, ".pfm"));
-    if (!filming.camera.calibration.empty()) out.inputs.push_back(filming.camera.calibration);
+    if (!rendered.camera.calibration.empty()) out.inputs.push_back(rendered.camera.calibration);
   }
   return out;
 }
@@ -274,7 +276,7 @@ size_t render_scene(const RenderJob& given, const JobControl& control) {
     job.walker.motion = walked->motion;
   }
   const Stage stage = make_stage(job.walker, job.options, calibrations(job.options));
-  const std::vector<Filming> cameras = film_crew(job.options, stage, threads);
+  const std::vector<RenderedCamera> cameras = rendered_cameras(job.options, stage, threads);
   const ResultFolder folder(outputs_of(job, cameras), job.overwrite);
   const Actor& actor = stage.actors.front();
   const std::vector<double> times = scene_times(stage, job.options.frame_rate);
@@ -287,10 +289,10 @@ size_t render_scene(const RenderJob& given, const JobControl& control) {
   if (walked) notes.push_back(write_kinetics(job, *walked, times, folder));
   folder.write("tables.json", tables_json(notes));
   size_t frames = 0;
-  for (const Filming& filming : cameras) {
-    film(job, stage, filming, folder, threads, control);
+  for (const RenderedCamera& rendered : cameras) {
+    record(job, stage, rendered, folder, threads, control);
     if (control.stopping()) return frames;
-    frames += filming.frames;
+    frames += rendered.frames;
   }
   folder.write(kSceneFile, scene_yaml(job, cameras, truth));
   return frames;

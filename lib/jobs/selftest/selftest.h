@@ -1,5 +1,5 @@
 // `walktrack selftest`: extremes that recordings and configurations can hold, each tried on the
-// installed program with films made on the spot. Every trial has to end as
+// installed program with videos made on the spot. Every trial has to end as
 //   tracked    the walker was followed, within kTrackedWithin of the truth where there is one
 //   degraded   there is a result that says itself what it lacks (exit 4 of `track`), or whose
 //              figures are stated here
@@ -33,7 +33,7 @@ struct TrialResult {
 // In the order of the table; `stress` adds the long ones.
 std::vector<std::string> trial_names(bool stress);
 
-// One trial in this process; films and results go to `folder`, which it makes. UsageError for an
+// One trial in this process; videos and results go to `folder`, which it makes. UsageError for an
 // unknown name and a folder that holds something; what the trial itself throws beyond errors for
 // the user comes through.
 TrialResult run_trial(const std::string& name, const std::filesystem::path& folder);
@@ -45,7 +45,7 @@ TrialResult trial_from_line(const std::string& name, const std::string& line);
 struct SelftestJob {
   // A program and options that run one trial and print its line; "NAME -o FOLDER" is appended.
   std::vector<std::string> command;
-  std::filesystem::path folder;  // empty, for films and results; what trials leave is removed
+  std::filesystem::path folder;  // empty, for videos and results; what trials leave is removed
   bool stress = false;
   int jobs = 1;  // trials at a time
 };

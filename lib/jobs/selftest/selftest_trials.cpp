@@ -12,7 +12,7 @@
 #include "core/rng.h"
 #include "filter/particle_filter.h"
 #include "jobs/selftest/selftest.h"
-#include "jobs/selftest/selftest_film.h"
+#include "jobs/selftest/selftest_video.h"
 
 namespace walktrack {
 
@@ -29,90 +29,90 @@ struct Trial {
 };
 
 TrialResult try_walk(double speed, const fs::path& folder) {
-  return try_film(film_of_walk(speed), folder);
+  return try_video(video_of_walk(speed), folder);
 }
 
 TrialResult try_settings(const std::vector<std::string>& settings, const fs::path& folder) {
-  Film film = film_of_walk();
-  film.settings = settings;
-  return try_film(film, folder);
+  TestVideo video = video_of_walk();
+  video.settings = settings;
+  return try_video(video, folder);
 }
 
 TrialResult try_scene(const std::string& lines, const fs::path& folder) {
-  Film film = film_of_walk();
-  film.scene_lines = lines;
-  return try_film(film, folder);
+  TestVideo video = video_of_walk();
+  video.scene_lines = lines;
+  return try_video(video, folder);
 }
 
 TrialResult try_spoilt(void (*spoil)(Frames&), const fs::path& folder) {
-  Film film = film_of_walk();
-  film.spoil = spoil;
-  return try_film(film, folder);
+  TestVideo video = video_of_walk();
+  video.spoil = spoil;
+  return try_video(video, folder);
 }
 
 TrialResult try_slope(double slope_deg, const fs::path& folder) {
-  Film film = film_of_walk();
+  TestVideo video = video_of_walk();
   const double slope = rad_from_deg(slope_deg);
-  film.scene_lines =
+  video.scene_lines =
       fmt::format("gravity: [{:.4f}, 0, {:.4f}]\n", kStandardGravity * std::sin(slope),
                   -kStandardGravity * std::cos(slope));
-  return try_film(film, folder);
+  return try_video(video, folder);
 }
 
 // Fewer seconds of it, which nobody need make a step in.
-void cut(Film& film, double seconds) {
-  film.options.duration = seconds;
-  film.settings.emplace_back("gates.least_steps=0");
+void cut(TestVideo& video, double seconds) {
+  video.options.duration = seconds;
+  video.settings.emplace_back("gates.least_steps=0");
 }
 
-// Where the camera differs from that of the other films.
-struct Filming {
+// Where the camera differs from that of the other videos.
+struct CameraSetup {
   int width_px = 160, height_px = 120;
   std::optional<double> focal_px{};
   std::optional<Eigen::Vector3d> position{}, look_at{};
   int enlarge = 1;
 };
 
-TrialResult try_camera(const Filming& filming, const fs::path& folder) {
-  Film film = film_of_walk();
-  RenderCamera& camera = film.options.cameras[0];
-  camera.width_px = filming.width_px;
-  camera.height_px = filming.height_px;
-  camera.focal_px = filming.focal_px;
-  camera.position = filming.position;
-  camera.look_at = filming.look_at;
-  film.enlarge = filming.enlarge;
-  if (film.enlarge > 1) cut(film, 0.2);  // hundreds of megabytes of pictures
-  return try_film(film, folder);
+TrialResult try_camera(const CameraSetup& setup, const fs::path& folder) {
+  TestVideo video = video_of_walk();
+  RenderCamera& camera = video.options.cameras[0];
+  camera.width_px = setup.width_px;
+  camera.height_px = setup.height_px;
+  camera.focal_px = setup.focal_px;
+  camera.position = setup.position;
+  camera.look_at = setup.look_at;
+  video.enlarge = setup.enlarge;
+  if (video.enlarge > 1) cut(video, 0.2);  // hundreds of megabytes of pictures
+  return try_video(video, folder);
 }
 
 TrialResult try_rate(double rate, const fs::path& folder) {
-  Film film = film_of_walk();
-  film.options.frame_rate = rate;
-  if (rate > 60) film.options.duration = 0.8;
-  return try_film(film, folder);
+  TestVideo video = video_of_walk();
+  video.options.frame_rate = rate;
+  if (rate > 60) video.options.duration = 0.8;
+  return try_video(video, folder);
 }
 
 // Three frames: a start and two steps.
 TrialResult try_many_particles(const char* count, const fs::path& folder) {
-  Film film = film_of_walk();
+  TestVideo video = video_of_walk();
   // Hypotheses of the start are small filters; the large one is to work from the first frame on.
-  film.settings = {fmt::format("filter.particles={}", count), "filter.max_layers=2",
-                   "start.seconds=0"};
-  cut(film, 0.07);
-  return try_film(film, folder);
+  video.settings = {fmt::format("filter.particles={}", count), "filter.max_layers=2",
+                    "start.seconds=0"};
+  cut(video, 0.07);
+  return try_video(video, folder);
 }
 
 // The same walk again and again, for as many frames as wanted: memory must not grow with them.
 TrialResult try_long(size_t frames, const fs::path& folder) {
-  Film film = film_of_walk();
-  film.watch_memory = true;
-  film.settings = {"filter.particles=30", "start.particles=10"};
-  film.spoil = [frames](Frames& shot) {
+  TestVideo video = video_of_walk();
+  video.watch_memory = true;
+  video.settings = {"filter.particles=30", "start.particles=10"};
+  video.spoil = [frames](Frames& shot) {
     const size_t once = shot.size();
     for (size_t i = once; i < frames; ++i) shot.push_back(shot[i % once]);
   };
-  return try_film(film, folder);
+  return try_video(video, folder);
 }
 
 // A filter on a line, with likelihoods that no float could hold.
@@ -156,18 +156,18 @@ constexpr std::array kTrials{
           [](const fs::path& f) { return try_settings({"start.particles=80"}, f); }},
     Trial{"ordinary walk, start not told", false,
           [](const fs::path& f) {
-            Film film = film_of_walk();
-            film.state_initial = false;
-            return try_film(film, f);
+            TestVideo video = video_of_walk();
+            video.state_initial = false;
+            return try_video(video, f);
           }},
     Trial{"walk of 0.3 m/s", false, [](const fs::path& f) { return try_walk(0.3, f); }},
     Trial{"walk of 2.2 m/s", false, [](const fs::path& f) { return try_walk(2.2, f); }},
     Trial{"standing still, feet together", false,
-          [](const fs::path& f) { return try_film(film_of_standing(0, 0), f); }},
+          [](const fs::path& f) { return try_video(video_of_standing(0, 0), f); }},
     Trial{"turning on the spot, 90 deg/s", false,
-          [](const fs::path& f) { return try_film(film_of_standing(0, 0.5 * kPi), f); }},
+          [](const fs::path& f) { return try_video(video_of_standing(0, 0.5 * kPi), f); }},
     Trial{"knees straight throughout", false,
-          [](const fs::path& f) { return try_film(film_of_standing(1, 0), f); }},
+          [](const fs::path& f) { return try_video(video_of_standing(1, 0), f); }},
     Trial{"1 particle", false,
           [](const fs::path& f) {
             return try_settings({"filter.particles=1", "start.particles=1"}, f);
@@ -187,20 +187,20 @@ constexpr std::array kTrials{
           }},
     Trial{"noise a thousand times", false,
           [](const fs::path& f) {
-            Film film = film_of_walk();
-            film.options.duration = 0.5;  // what flies about takes time to search for
-            film.settings = {"motion.torque_noise_scale=1000",
-                             "motion.clock=1",
-                             "motion.turning=80",
-                             "motion.misfit=10",
-                             "motion.ball_drift=1",
-                             "motion.ball_slip=1",
-                             "motion.landing=1",
-                             "motion.arrival=10",
-                             "motion.control_noise=1",
-                             "motion.aim_drift=1",
-                             "motion.rephasing=100"};
-            return try_film(film, f);
+            TestVideo video = video_of_walk();
+            video.options.duration = 0.5;  // what flies about takes time to search for
+            video.settings = {"motion.torque_noise_scale=1000",
+                              "motion.clock=1",
+                              "motion.turning=80",
+                              "motion.misfit=10",
+                              "motion.ball_drift=1",
+                              "motion.ball_slip=1",
+                              "motion.landing=1",
+                              "motion.arrival=10",
+                              "motion.control_noise=1",
+                              "motion.aim_drift=1",
+                              "motion.rephasing=100"};
+            return try_video(video, f);
           }},
     Trial{"all log-weights -infinity", false,
           [](const fs::path&) { return try_filter([](double) { return -kInfinity; }, true); }},
@@ -267,8 +267,9 @@ constexpr std::array kTrials{
           [](const fs::path& f) {
             return try_camera({.position = {{1.2, 0, 1}}, .look_at = {{5, 0, 1}}}, f);
           }},
-    Trial{"body of 0.3 m", false, [](const fs::path& f) { return try_film(film_of_body(0.3), f); }},
-    Trial{"body of 3 m", false, [](const fs::path& f) { return try_film(film_of_body(3), f); }},
+    Trial{"body of 0.3 m", false,
+          [](const fs::path& f) { return try_video(video_of_body(0.3), f); }},
+    Trial{"body of 3 m", false, [](const fs::path& f) { return try_video(video_of_body(3), f); }},
     Trial{"45 deg downhill", false, [](const fs::path& f) { return try_slope(45, f); }},
     Trial{"45 deg uphill", false, [](const fs::path& f) { return try_slope(-45, f); }},
     Trial{"gravity of the moon", false,

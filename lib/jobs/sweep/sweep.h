@@ -68,7 +68,7 @@ struct SweepReport {
   bool interrupted = false;
 };
 
-// Throws UsageError, InputError for what cannot be started, InputError for a film that breaks off.
+// Throws UsageError, InputError for what cannot be started, InputError for a video that breaks off.
 SweepReport run_sweep(const SweepJob& job, const JobControl& control);
 
 // Means, deviations and the front from the rows' runs.

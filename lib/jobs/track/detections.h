@@ -1,4 +1,4 @@
-// The keypoints that come with a film's frames: from files that the scene names, or from the
+// The keypoints that come with a video's frames: from files that the scene names, or from the
 // built-in network, which looks at every n-th frame.
 //
 // Cameras are independent of each other: those of one frame may be asked by threads of their own.

@@ -1,4 +1,4 @@
-// Whether somebody moves in a film while nobody is tracked.
+// Whether somebody moves in a video while nobody is tracked.
 #pragma once
 
 #include <deque>

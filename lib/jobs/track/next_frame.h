@@ -1,4 +1,4 @@
-// A film's next frame on its way to evidence: decoded and prepared by itself, or beside the
+// A video's next frame on its way to evidence: decoded and prepared by itself, or beside the
 // particles of the frame before, then completed.
 #pragma once
 
@@ -36,7 +36,7 @@ class NextFrame {
   // Whether fetching found a frame: there is none after the last.
   bool there() const { return there_; }
 
-  // Its evidence, by camera; `time` in s since the film's first frame. The next one can be fetched
+  // Its evidence, by camera; `time` in s since the video's first frame. The next one can be fetched
   // then.
   void complete(double time, int threads, SceneEvidence& out);
 

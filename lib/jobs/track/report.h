@@ -1,7 +1,7 @@
 // report.html: one page to look at and send on, made of a motion that was tracked or analysed and
 // of the tables that are written of it.
 //
-// It holds the overlay films, an interactive view of the figure in space, curves over the gait
+// It holds the overlay videos, an interactive view of the figure in space, curves over the gait
 // cycle beside a published normal range, events, what the filter says of itself, quality gates,
 // settings and run.json itself. Positions in it are in the library's world axes.
 #pragma once
@@ -27,7 +27,7 @@ struct ReportInput {
   const JointUncertainty& uncertainty;   // row by row; or empty
   std::span<const SceneCamera> cameras;  // may be none
   std::string run_json;
-  std::vector<ReportClip> clips;  // overlay films, written
+  std::vector<ReportClip> clips;  // overlay videos, written
 };
 
 // Writes report.html into the folder, with the tables that are there; returns its path.

@@ -292,9 +292,9 @@ std::optional<Checkpoint> checkpoint_for(const TrackJob& job, const Origin& orig
   return std::move(found.checkpoint);
 }
 
-// Frame by frame to the film's end; whether it was told to stop before.
-bool follow_film(TrackRun& run, const SceneVideo& video, const JobControl& control,
-                 TrackOutcome& outcome) {
+// Frame by frame to the video's end; whether it was told to stop before.
+bool follow_video(TrackRun& run, const SceneVideo& video, const JobControl& control,
+                  TrackOutcome& outcome) {
   const auto total = static_cast<size_t>(std::max(0, video.frame_count()));
   run.skip(control);
   bool stopped = false;
@@ -345,7 +345,7 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
                             checkpoint ? kFilesOfWork : std::span<const std::string_view>{});
   TrackRun run(job, video, folder, origin, std::move(checkpoint), control);
   run.watch().add("checks", checking);
-  const bool interrupted = follow_film(run, video, control, outcome);
+  const bool interrupted = follow_video(run, video, control, outcome);
   const Moment writing;
   const SmoothingConfig& smoothing = job.config.values.smoothing;
   std::optional<TrackedFrames> sided, light, still;

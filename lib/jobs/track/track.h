@@ -2,7 +2,7 @@
 //   joints.csv, uncertainty.csv, the tables of jobs/track/motion_tables.h, overlay_<camera>.mp4,
 //   report.html, run.json
 // Frames are streamed and their records kept in a file (io/archive/frame_file.h): what grows in
-// memory with the film is what the tables are made of, some kilobytes a frame, at the end.
+// memory with the video is what the tables are made of, some kilobytes a frame, at the end.
 //
 // Before it begins it looks at the scene as `check` does (jobs/check/check.h): what is wrong stops
 // it, what is worth knowing goes into run.json and the report.
@@ -38,7 +38,7 @@ struct TrackJob {
 
 enum class TrackStatus {
   kTracked,
-  kNotFound,     // nobody walks in this film
+  kNotFound,     // nobody walks in this video
   kBelowGates,   // tracked, but a quality gate of the configuration failed
   kInterrupted,  // told to stop; what was done is kept
   kCutShort,     // a video ended with trouble; what was done is kept

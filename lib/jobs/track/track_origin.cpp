@@ -7,7 +7,7 @@
 #include "io/archive/result_folder.h"
 #include "io/archive/run_record.h"
 #include "io/archive/sha256.h"
-#include "io/video/film_digest.h"
+#include "io/video/video_digest.h"
 #include "jobs/track/detections.h"
 #include "jobs/track/pose_model.h"
 #include "jobs/track/track_run.h"
@@ -42,9 +42,9 @@ Origin input_digests(const Scene& scene, const KeypointConfig& keypoints) {
     const bool there = std::ranges::any_of(out, [&](const auto& e) { return e.first == name; });
     if (!file.empty() && !there) out.emplace_back(name, digest(file));
   };
-  const auto add = [&](const fs::path& file, bool film) {
+  const auto add = [&](const fs::path& file, bool video) {
     add_as(name_from(scene, file), file, [&](const fs::path& path) {
-      return film ? film_digest(path) : sha256(read_text_file(path, kMaxTextBytes));
+      return video ? video_digest(path) : sha256(read_text_file(path, kMaxTextBytes));
     });
   };
   add(scene.file, false);

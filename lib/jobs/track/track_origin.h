@@ -8,8 +8,8 @@
 
 namespace walktrack {
 
-// The scene's file, calibrations and films, named from the scene's folder, with their digests
-// (io/video/film_digest.h), and where keypoints are used their files and the pose network. The
+// The scene's file, calibrations and videos, named from the scene's folder, with their digests
+// (io/video/video_digest.h), and where keypoints are used their files and the pose network. The
 // truth is none of them.
 Origin input_digests(const Scene& scene, const KeypointConfig& keypoints);
 

@@ -84,7 +84,7 @@ void TrackRun::skip(const JobControl& control) {
   SceneFrames images;
   for (uint64_t i = 0; i < first_frame_ && !control.stopping(); ++i) {
     if (!video_.read(images)) {
-      throw InputError(fmt::format("{}: the film ends at frame {}, before the checkpoint's {}",
+      throw InputError(fmt::format("{}: the video ends at frame {}, before the checkpoint's {}",
                                    job_.scene.file.string(), i, first_frame_));
     }
     control.progress("skipping what is done", i + 1, first_frame_);
@@ -158,7 +158,7 @@ std::vector<Region> TrackRun::regions() const {
   return out;
 }
 
-// The first frame, of the film or from a checkpoint on.
+// The first frame, of the video or from a checkpoint on.
 void TrackRun::fetch() {
   const Moment start;
   const NextFrame::Cost cost = next_.fetch(regions_.empty() ? regions() : regions_,

@@ -114,7 +114,7 @@ class TrackRun {
   std::vector<Region> regions_;
   SceneEvidence evidence_;
   TrackedFrames frames_;
-  uint64_t first_frame_, frames_read_;  // of the film
+  uint64_t first_frame_, frames_read_;  // of the video
   CheckpointTimer timer_;
   double filter_seconds_ = 0;  // of the newest frame
   struct {

@@ -153,7 +153,7 @@ void require_room_for_search(const Scene& scene, const Config& config, double fr
       {scene.file.string(), 0, ""},
       fmt::format("a frame rate and images for which the search would hold {:.1f} GB", bytes / kGb),
       fmt::format("at most {:.1f} GB: a smaller observation.person_px shrinks images further, a "
-                  "film of fewer frames/s holds less",
+                  "video of fewer frames/s holds less",
                   kMostSearchBytes / kGb)));
 }
 

@@ -20,7 +20,7 @@ struct TrackSetup {
   Detections detections;  // of the observers' frames
 };
 
-// Learns each camera's background from its empty frames or, without them, from the film itself;
+// Learns each camera's background from its empty frames or, without them, from the video itself;
 // observers that have `learned` already go on with what they know (by camera, or none).
 TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
                   std::span<const ObserverState> learned, const JobControl& control);

@@ -1,5 +1,5 @@
 // Finding a walking person before any tracking: along which straight line over the ground does a
-// walking figure of the subject's size best explain the foreground of a short stretch of film?
+// walking figure of the subject's size best explain the foreground of a short stretch of video?
 //
 // One frame of one camera hardly tells how far away somebody is; a stretch of walking does, because
 // one speed and one size must fit every frame. Candidates of two frames propose lines, which are
@@ -18,7 +18,7 @@
 namespace walktrack {
 
 struct DetectorConfig {
-  double window = 1.2;     // s of film that a walk is read from: two steps
+  double window = 1.2;     // s of video that a walk is read from: two steps
   double slowest = 0.35;   // m/s: who is slower is not walking
   double fastest = 3.0;    // m/s
   double complete = 0.5;   // no moment's score below this share of the window's median
@@ -34,7 +34,7 @@ struct DetectedWalk {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
   Eigen::Vector2d ray = Eigen::Vector2d::UnitX();  // over the ground, away from the first camera
   double position_sd = 0, velocity_sd = 0;         // along the ray
-  bool given = false;                              // by the scene, not found in a film
+  bool given = false;                              // by the scene, not found in a video
   bool standing = false;                           // still, and will set off at that velocity
   double score = 0;  // nats a frame: how much better than an empty scene the walk explains it
   double over_standing = 0;  // share of that which standing in the walk's middle does not explain

@@ -7,7 +7,7 @@
 //   minimise over s, p   sum_i |s_i|^2 + (tau^2 / dt^2)^2 |s_(i-1) - 2 s_i + s_(i+1)|^2
 //                      + w sum_(flat) |f_i + s_i - p|^2.
 // Legs turn about their hips (body/moved_feet.h): footskate cleanup (Kovar, Schreiner & Gleicher,
-// SCA 2002), by least squares over the whole film. Toes that point into the ground are lifted in
+// SCA 2002), by least squares over the whole video. Toes that point into the ground are lifted in
 // every frame. tracker/reports/reported_pose.md says what it changes. Positions in metres, world
 // axes.
 #pragma once

@@ -1,4 +1,4 @@
-#include "jobs/selftest/selftest_film.h"
+#include "jobs/selftest/selftest_video.h"
 
 #include <malloc.h>
 
@@ -24,14 +24,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kSeconds = 2;      // of a film
+constexpr double kSeconds = 2;      // of a video
 constexpr double kHeight = 1.75;    // m, of who walks in it
 constexpr double kLeastMass = 0.5;  // kg, that a scene may state
 constexpr double kFarthest = 1000;  // m; nobody walks out of that in a self-test
 constexpr size_t kMaxTableBytes = 64u << 20;
 constexpr int kBackgroundFrames = 10;
-constexpr double kMostGrowth = 1;  // MB, from the first half of a film to the second
-constexpr uint32_t kFilmStream = 0, kBackgroundStream = 1;
+constexpr double kMostGrowth = 1;  // MB, from the first half of a video to the second
+constexpr uint32_t kVideoStream = 0, kBackgroundStream = 1;
 
 struct Shot {
   Frames frames, background;
@@ -39,13 +39,14 @@ struct Shot {
   Motion truth;
 };
 
-cv::Mat image_of(const Plane<Colour>& light, const Film& film, uint32_t stream, size_t frame) {
-  std::vector<uint8_t> bytes = developed(light, film.options.sensor, film.options.seed, stream,
+cv::Mat image_of(const Plane<Colour>& light, const TestVideo& video, uint32_t stream,
+                 size_t frame) {
+  std::vector<uint8_t> bytes = developed(light, video.options.sensor, video.options.seed, stream,
                                          static_cast<uint32_t>(frame));
   const cv::Mat image(light.height, light.width, CV_8UC3, bytes.data());
-  if (film.enlarge == 1) return image.clone();
+  if (video.enlarge == 1) return image.clone();
   cv::Mat large;
-  cv::resize(image, large, {}, film.enlarge, film.enlarge, cv::INTER_NEAREST);
+  cv::resize(image, large, {}, video.enlarge, video.enlarge, cv::INTER_NEAREST);
   return large;
 }
 
@@ -58,23 +59,23 @@ Camera enlarged(Camera camera, double factor) {
   return camera;
 }
 
-Shot shoot(const Film& film) {
-  const Stage stage = make_stage(film.walker, film.options, {std::nullopt});
+Shot shoot(const TestVideo& video) {
+  const Stage stage = make_stage(video.walker, video.options, {std::nullopt});
   const View view = make_view(stage.world, stage.cameras[0], 1);
   Shot shot;
-  shot.camera = enlarged(stage.cameras[0], film.enlarge);
+  shot.camera = enlarged(stage.cameras[0], video.enlarge);
   std::vector<double> times;
-  for (double time = 0; time <= stage.duration; time += 1 / film.options.frame_rate) {
+  for (double time = 0; time <= stage.duration; time += 1 / video.options.frame_rate) {
     const Plane<Colour> light =
-        exposed(stage, view, film.options.shutter, time, film.options.frame_rate);
-    shot.frames.push_back(image_of(light, film, kFilmStream, times.size()));
+        exposed(stage, view, video.options.shutter, time, video.options.frame_rate);
+    shot.frames.push_back(image_of(light, video, kVideoStream, times.size()));
     times.push_back(time);
   }
   for (size_t i = 0; i < kBackgroundFrames; ++i) {
-    shot.background.push_back(image_of(view.empty, film, kBackgroundStream, i));
+    shot.background.push_back(image_of(view.empty, video, kBackgroundStream, i));
   }
   shot.truth = truth_at(stage, times);
-  if (film.spoil) film.spoil(shot.frames);
+  if (video.spoil) video.spoil(shot.frames);
   return shot;
 }
 
@@ -98,27 +99,27 @@ std::string initial_line(const Motion& truth) {
                      way.head<2>().norm() / seconds);
 }
 
-fs::path write_scene(const Film& film, const Shot& shot, const fs::path& folder) {
-  write_frames(shot.frames, folder / "film");
+fs::path write_scene(const TestVideo& video, const Shot& shot, const fs::path& folder) {
+  write_frames(shot.frames, folder / "video");
   write_frames(shot.background, folder / "empty");
   write_file_atomically(folder / "camera.yaml", opencv_from_camera(shot.camera));
   std::string text =
-      "cameras: [{name: side, video: film, calibration: camera.yaml, background: empty}]\n";
-  text += fmt::format("frame_rate: {}\n", film.options.frame_rate);
-  text +=
-      fmt::format("subject: {{height: {}, mass: {}}}\n", height_of(film.walker), film.walker.mass);
-  if (film.state_initial) text += initial_line(shot.truth);
-  write_file_atomically(folder / "scene.yaml", text + film.scene_lines);
+      "cameras: [{name: side, video: video, calibration: camera.yaml, background: empty}]\n";
+  text += fmt::format("frame_rate: {}\n", video.options.frame_rate);
+  text += fmt::format("subject: {{height: {}, mass: {}}}\n", height_of(video.walker),
+                      video.walker.mass);
+  if (video.state_initial) text += initial_line(shot.truth);
+  write_file_atomically(folder / "scene.yaml", text + video.scene_lines);
   return folder / "scene.yaml";
 }
 
-ConfigWithOrigin config_of(const Film& film) {
+ConfigWithOrigin config_of(const TestVideo& video) {
   ConfigWithOrigin config;
   // Few particles: this is about surviving, not about accuracy.
   for (const char* setting : {"threads=1", "filter.particles=150", "start.particles=40"}) {
     apply_setting(config, setting, "selftest");
   }
-  for (const std::string& setting : film.settings) apply_setting(config, setting, "selftest");
+  for (const std::string& setting : video.settings) apply_setting(config, setting, "selftest");
   return config;
 }
 
@@ -128,8 +129,8 @@ double heap_memory() {
   return static_cast<double>(heap.uordblks + heap.hblkhd) / (1 << 20);
 }
 
-// The most memory that tracking took in each half of the film: searching takes more than following,
-// and both happen in both.
+// The most memory that tracking took in each half of the video: searching takes more than
+// following, and both happen in both.
 struct MemoryWatch {
   double first_half = 0, second_half = 0;  // MB
 
@@ -190,40 +191,40 @@ TrialResult judged(const TrackOutcome& outcome, const Motion& truth, double heig
 
 }  // namespace
 
-Film film_of_walk(double speed) {
-  Film film;
-  film.walker.height = kHeight;
+TestVideo video_of_walk(double speed) {
+  TestVideo video;
+  video.walker.height = kHeight;
   const Body body = make_body({.height = kHeight, .lengths = {}}, {.arms = true});
   MadeWalk walk;
   walk.speed = speed;
   walk.to = kSeconds;
-  film.walker.motion = made_walk(body, walk);
+  video.walker.motion = made_walk(body, walk);
   RenderCamera camera;
   camera.width_px = 160;
   camera.height_px = 120;
-  film.options.cameras = {camera};
-  return film;
+  video.options.cameras = {camera};
+  return video;
 }
 
-Film film_of_body(double height) {
-  Film film = film_of_walk();
+TestVideo video_of_body(double height) {
+  TestVideo video = video_of_walk();
   const double length = height / kHeight, time = std::sqrt(length);
-  film.walker.height = height;
-  film.walker.mass = std::max(kLeastMass, film.walker.mass * std::pow(length, 3));
-  Motion& motion = film.walker.motion;
+  video.walker.height = height;
+  video.walker.mass = std::max(kLeastMass, video.walker.mass * std::pow(length, 3));
+  Motion& motion = video.walker.motion;
   const Eigen::Vector3d middle = 0.5 * length * motion.joints.back()[Joint::kPelvis];
   for (double& each : motion.time) each *= time;
   for (JointPositions& joints : motion.joints) {
     for (Eigen::Vector3d& joint : joints.at) joint *= length;
   }
-  RenderCamera& camera = film.options.cameras[0];
+  RenderCamera& camera = video.options.cameras[0];
   camera.look_at = {middle.x(), middle.y(), 0.5 * height};
   camera.position = *camera.look_at + height * Eigen::Vector3d(0, -2.6, 0.2);
-  return film;
+  return video;
 }
 
-Film film_of_standing(double speed, double turn_rate) {
-  Film film = film_of_walk();
+TestVideo video_of_standing(double speed, double turn_rate) {
+  TestVideo video = video_of_walk();
   const Body body = make_body({}, {});
   Motion standing;
   for (double time = 0; time <= kSeconds; time += 0.01) {
@@ -236,25 +237,25 @@ Film film_of_standing(double speed, double turn_rate) {
       standing.joints.back().at[static_cast<size_t>(j)] = unknown_joints().at[0];
     }
   }
-  film.walker.motion = std::move(standing);
-  film.walker.arms = false;
-  return film;
+  video.walker.motion = std::move(standing);
+  video.walker.arms = false;
+  return video;
 }
 
-TrialResult try_film(const Film& film, const fs::path& folder) {
-  ConfigWithOrigin config = config_of(film);  // a setting that is refused is a fault of the trial
+TrialResult try_video(const TestVideo& video, const fs::path& folder) {
+  ConfigWithOrigin config = config_of(video);  // a setting that is refused is a fault of the trial
   try {
-    Shot shot = shoot(film);
-    const fs::path scene = write_scene(film, shot, folder);
+    Shot shot = shoot(video);
+    const fs::path scene = write_scene(video, shot, folder);
     shot.frames.clear();  // so that the memory told is the tracker's
     const fs::path output = folder / "result";
     MemoryWatch memory;
     JobControl control;
-    if (film.watch_memory)
+    if (video.watch_memory)
       control.report = [&](const Progress& progress) { memory.look(progress); };
     TrialResult result = judged(track(scene, std::move(config), output, control), shot.truth,
-                                height_of(film.walker), output);
-    if (film.watch_memory) {
+                                height_of(video.walker), output);
+    if (video.watch_memory) {
       result.what += fmt::format("; second half {:+.1f} MB", memory.growth());
       if (memory.growth() > kMostGrowth) result.end = TrialEnd::kFailed;
     }

@@ -1,4 +1,4 @@
-// Films of the self-test: a made walk rendered in memory, spoilt as a trial wants, written as a
+// Videos of the self-test: a made walk rendered in memory, spoilt as a trial wants, written as a
 // scene folder and tracked as `walktrack track` does.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace walktrack {
 
 using Frames = std::vector<cv::Mat>;
 
-struct Film {
+struct TestVideo {
   FilmedWalker walker;                 // whom it shows
   RenderOptions options;               // one camera; its size, rate and slope matter
   int enlarge = 1;                     // frames and focal length times this, after rendering
@@ -30,17 +30,17 @@ struct Film {
 };
 
 // A walk of two seconds across the picture of a camera of 160 x 120 pixels at the side.
-Film film_of_walk(double speed = 1.25);
+TestVideo video_of_walk(double speed = 1.25);
 
 // The same walk of somebody larger or smaller, dynamically similar: lengths, the camera's place
 // among them, times k and times times the square root of k, as gravity is what it is. The picture
 // stays.
-Film film_of_body(double height);
+TestVideo video_of_body(double height);
 
 // The standing pose, feet together and knees straight, moved along x and turned about z.
-Film film_of_standing(double speed, double turn_rate);
+TestVideo video_of_standing(double speed, double turn_rate);
 
 // Renders, writes `folder`, tracks, and judges the result.
-TrialResult try_film(const Film& film, const std::filesystem::path& folder);
+TrialResult try_video(const TestVideo& video, const std::filesystem::path& folder);
 
 }  // namespace walktrack

@@ -12,9 +12,9 @@
 namespace walktrack {
 
 // A camera whose rays are computed once; boards are then put before it.
-class BoardFilm {
+class BoardVideo {
  public:
-  explicit BoardFilm(const Camera& lens);
+  explicit BoardVideo(const Camera& lens);
 
   // The picture of a board whose frame (observation/board.h) is placed by camera_from_board: a
   // white sheet with a margin of one and a half spacings, before grey.

@@ -1,4 +1,4 @@
-#include "io/video/film_digest.h"
+#include "io/video/video_digest.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -23,14 +23,14 @@ constexpr uint64_t kBlocks = 64;
 
 struct Part {
   fs::path file;
-  uint64_t begin, size;  // in the film, bytes
+  uint64_t begin, size;  // in the video, bytes
 };
 
-std::vector<Part> parts_of(const fs::path& film) {
-  const bool many = is_frame_pattern(film) || fs::is_directory(film);
+std::vector<Part> parts_of(const fs::path& video) {
+  const bool many = is_frame_pattern(video) || fs::is_directory(video);
   std::vector<Part> parts;
   uint64_t begin = 0;
-  for (const fs::path& file : many ? image_files(film) : std::vector{film}) {
+  for (const fs::path& file : many ? image_files(video) : std::vector{video}) {
     std::error_code error;
     const uint64_t size = fs::file_size(file, error);
     if (error) throw InputError(fmt::format("{}: {}", file.string(), error.message()));
@@ -49,8 +49,8 @@ std::string bytes_at(const Part& part, uint64_t from, uint64_t count) {
   return bytes;
 }
 
-// `count` bytes of the film from `from` on, whichever files they are in.
-std::string film_bytes(const std::vector<Part>& parts, uint64_t from, uint64_t count) {
+// `count` bytes of the video from `from` on, whichever files they are in.
+std::string video_bytes(const std::vector<Part>& parts, uint64_t from, uint64_t count) {
   std::string bytes;
   auto part = std::upper_bound(parts.begin(), parts.end(), from,
                                [](uint64_t at, const Part& each) { return at < each.begin; });
@@ -65,8 +65,8 @@ std::string film_bytes(const std::vector<Part>& parts, uint64_t from, uint64_t c
 
 }  // namespace
 
-std::string film_digest(const fs::path& film) {
-  const std::vector<Part> parts = parts_of(film);
+std::string video_digest(const fs::path& video) {
+  const std::vector<Part> parts = parts_of(video);
   std::string text;
   for (const Part& part : parts)
     text +=
@@ -77,7 +77,7 @@ std::string film_digest(const fs::path& film) {
     const bool whole = size <= kBlock * kBlocks;
     const uint64_t from = whole ? i * kBlock : (size - kBlock) / (kBlocks - 1) * i;
     const uint64_t last = !whole && i == kBlocks - 1 ? size - kBlock : from;
-    text += sha256(film_bytes(parts, last, std::min(kBlock, size - last)));
+    text += sha256(video_bytes(parts, last, std::min(kBlock, size - last)));
   }
   return sha256(text);
 }

@@ -1,4 +1,4 @@
-// A digest by which a film is known again, at a price that does not grow with it.
+// A digest by which a video is known again, at a price that does not grow with it.
 #pragma once
 
 #include <filesystem>
@@ -11,6 +11,6 @@ namespace walktrack {
 // blocks of 64 KiB, evenly spaced over all files, the first and the last among them. What has
 // another length, another beginning or another encoding so has another digest; times of change have
 // no say. InputError for what cannot be read.
-std::string film_digest(const std::filesystem::path& film);
+std::string video_digest(const std::filesystem::path& video);
 
 }  // namespace walktrack

@@ -1,4 +1,4 @@
-#include "tests/observation/board_film.h"
+#include "tests/observation/board_video.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,7 @@ double shade(const Board& board, const Vector2d& at) {
 
 }  // namespace
 
-BoardFilm::BoardFilm(const Camera& lens) : width_(lens.width_px), height_(lens.height_px) {
+BoardVideo::BoardVideo(const Camera& lens) : width_(lens.width_px), height_(lens.height_px) {
   for (int v = 0; v <= height_; ++v) {
     for (int u = 0; u <= width_; ++u) {
       const Vector2d corner(u - 0.5, v - 0.5);
@@ -63,15 +63,15 @@ BoardFilm::BoardFilm(const Camera& lens) : width_(lens.width_px), height_(lens.h
 }
 
 // Bilinear between the rays of a pixel's corners; the lens bends less than 1e-3 px from it.
-Vector2d BoardFilm::ray(int u, int v, double across, double down) const {
+Vector2d BoardVideo::ray(int u, int v, double across, double down) const {
   const size_t row = static_cast<size_t>(width_ + 1);
   const Vector2d* at = &corners_[static_cast<size_t>(v) * row + static_cast<size_t>(u)];
   return (1 - down) * ((1 - across) * at[0] + across * at[1]) +
          down * ((1 - across) * at[row] + across * at[row + 1]);
 }
 
-cv::Mat BoardFilm::picture(const Board& board, const Matrix3d& rotation,
-                           const Vector3d& translation) const {
+cv::Mat BoardVideo::picture(const Board& board, const Matrix3d& rotation,
+                            const Vector3d& translation) const {
   // A ray d meets the board z = 0 where R' (s d - t) has no third component.
   const Vector3d normal = rotation.col(2);
   const double distance = normal.dot(translation);

@@ -1,4 +1,4 @@
-#include "io/video/film_digest.h"
+#include "io/video/video_digest.h"
 
 #include <chrono>
 #include <set>
@@ -15,24 +15,24 @@ namespace fs = std::filesystem;
 
 constexpr size_t kMiB = size_t{1} << 20;
 
-TEST(FilmDigest, IsOfTheContentAlone) {
+TEST(VideoDigest, IsOfTheContentAlone) {
   const TemporaryFolder folder;
-  const std::string film = folder.write("a.mp4", "frames");
-  const std::string digest = film_digest(film);
-  EXPECT_EQ(film_digest(folder.write("b.mp4", "frames")), digest);
-  fs::last_write_time(film, fs::file_time_type::clock::now() - std::chrono::hours(1));
-  EXPECT_EQ(film_digest(film), digest);
-  EXPECT_NE(film_digest(folder.write("a.mp4", "framed")), digest);
-  EXPECT_NE(film_digest(folder.write("a.mp4", "")), digest);
+  const std::string video = folder.write("a.mp4", "frames");
+  const std::string digest = video_digest(video);
+  EXPECT_EQ(video_digest(folder.write("b.mp4", "frames")), digest);
+  fs::last_write_time(video, fs::file_time_type::clock::now() - std::chrono::hours(1));
+  EXPECT_EQ(video_digest(video), digest);
+  EXPECT_NE(video_digest(folder.write("a.mp4", "framed")), digest);
+  EXPECT_NE(video_digest(folder.write("a.mp4", "")), digest);
 }
 
-// Of long films parts are read; their beginning, end and length always count.
-TEST(FilmDigest, OfLongFiles) {
+// Of long videos parts are read; their beginning, end and length always count.
+TEST(VideoDigest, OfLongFiles) {
   const TemporaryFolder folder;
   const auto of = [&](size_t size, size_t changed) {
     std::string bytes(size, 'x');
     if (changed < size) bytes[changed] = 'y';
-    return film_digest(folder.write("film.mp4", bytes));
+    return video_digest(folder.write("video.mp4", bytes));
   };
   for (const size_t size : {4 * kMiB, 4 * kMiB + 1, 11 * kMiB + 77}) {
     const std::set<std::string> digests{of(size, size), of(size, 0), of(size, size - 1),
@@ -43,29 +43,29 @@ TEST(FilmDigest, OfLongFiles) {
     EXPECT_NE(of(4 * kMiB, at), of(4 * kMiB, 4 * kMiB)) << "short ones count whole";
 }
 
-TEST(FilmDigest, OfImagesIsOfAllTogether) {
+TEST(VideoDigest, OfImagesIsOfAllTogether) {
   const TemporaryFolder folder;
   for (const char* name : {"f/1.png", "f/2.png", "f/10.png"}) folder.write(name, name);
   folder.write("f/notes.txt", "no image");
-  const std::string digest = film_digest(folder.path() / "f");
-  EXPECT_EQ(film_digest(folder.path() / "f"), digest);
+  const std::string digest = video_digest(folder.path() / "f");
+  EXPECT_EQ(video_digest(folder.path() / "f"), digest);
   folder.write("f/notes.txt", "still none");
-  EXPECT_EQ(film_digest(folder.path() / "f"), digest);
+  EXPECT_EQ(video_digest(folder.path() / "f"), digest);
   folder.write("f/2.png", "f/3.png");
-  EXPECT_NE(film_digest(folder.path() / "f"), digest);
+  EXPECT_NE(video_digest(folder.path() / "f"), digest);
   folder.write("f/2.png", "f/2.png");
   fs::rename(folder.path() / "f/10.png", folder.path() / "f/11.png");
-  EXPECT_NE(film_digest(folder.path() / "f"), digest) << "a dropped frame";
+  EXPECT_NE(video_digest(folder.path() / "f"), digest) << "a dropped frame";
   fs::rename(folder.path() / "f/11.png", folder.path() / "f/3.png");
-  const std::string pattern = film_digest(folder.path() / "f/%d.png");
+  const std::string pattern = video_digest(folder.path() / "f/%d.png");
   folder.write("f/4.png", "x");
-  EXPECT_NE(film_digest(folder.path() / "f/%d.png"), pattern);
+  EXPECT_NE(video_digest(folder.path() / "f/%d.png"), pattern);
 }
 
-TEST(FilmDigest, OfNothingIsAnError) {
+TEST(VideoDigest, OfNothingIsAnError) {
   const TemporaryFolder folder;
-  EXPECT_THROW(film_digest(folder.path() / "none.mp4"), InputError);
-  EXPECT_THROW(film_digest(folder.path()), InputError);  // no image
+  EXPECT_THROW(video_digest(folder.path() / "none.mp4"), InputError);
+  EXPECT_THROW(video_digest(folder.path()), InputError);  // no image
 }
 
 }  // namespace
