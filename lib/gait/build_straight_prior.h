@@ -10,7 +10,7 @@
 namespace walktrack {
 
 // Speeds and step lengths of the kneed walker's grid. Uphill there is nothing to find: see
-// lib/gait/README.md.
+// lib/gait/reports/straight_gaits.md.
 struct StraightPriorGrid : PriorAxes {
   StraightPriorGrid();
   double effort = 100;  // of the feedback, see feedback.h: stiffness and impulse are about 0.1, so

@@ -32,8 +32,4 @@ FeedbackGain feedback_gain(const CycleJacobian& jacobian, double effort) {
                         effort);
 }
 
-SectionMatrix closed_loop(const CycleJacobian& jacobian, const FeedbackGain& gain) {
-  return step_matrix(jacobian) - jacobian.block<kSectionSize, kControlSize>(0, 0) * gain;
-}
-
 }  // namespace walktrack

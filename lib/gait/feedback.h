@@ -21,7 +21,4 @@ struct LinearStep {
 Eigen::MatrixXd regulator_gain(const LinearStep& step, double effort);
 FeedbackGain feedback_gain(const CycleJacobian& jacobian, double effort);
 
-// A - B gain: how deviations go on with the feedback.
-SectionMatrix closed_loop(const CycleJacobian& jacobian, const FeedbackGain& gain);
-
 }  // namespace walktrack

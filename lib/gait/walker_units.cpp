@@ -2,16 +2,14 @@
 
 #include <cmath>
 
+#include "core/anthropometry.h"
 #include "core/conventions.h"
 
 namespace walktrack {
 namespace {
 
-// Lengths as shares of the stature, masses of the body mass, centres and gyration of the segment.
-constexpr double kThigh = 0.245, kShank = 0.246, kAnkle = 0.039, kTrunk = 0.288;
-constexpr double kTrunkMass = 0.678, kThighMass = 0.100, kShankMass = 0.061;
-constexpr double kTrunkCentre = 0.626, kThighCentre = 0.433, kShankCentre = 0.606;
-constexpr double kTrunkGyration = 0.496, kThighGyration = 0.323, kShankGyration = 0.416;
+using namespace anthropometry;
+
 constexpr double kArcRadius = 0.3;           // of the leg length
 constexpr double kArcForward = 0.05 / 1.75;  // of the stature
 
@@ -25,7 +23,7 @@ double WalkerUnits::torque() const { return mass * gravity * length; }
 double WalkerUnits::impulse() const { return mass * speed(); }
 
 KneedParameters adult_walker(double height, double mass, double slope) {
-  const double leg = (kThigh + kShank + kAnkle) * height;
+  const double leg = (kThigh + kShank + kAnkleHeight) * height;
   KneedParameters p;
   p.gravity = kStandardGravity;
   p.slope = slope;
@@ -33,18 +31,19 @@ KneedParameters adult_walker(double height, double mass, double slope) {
   p.shank_length = kShank * height;
   p.foot_radius = kArcRadius * leg;
   p.foot_forward = kArcForward * height;
-  p.foot_up = p.foot_radius - kAnkle * height;
-  p.torso = {kTrunkMass * mass, kTrunkCentre * kTrunk * height,
-             inertia(kTrunkMass * mass, kTrunkGyration * kTrunk * height)};
-  p.thigh = {kThighMass * mass, kThighCentre * p.thigh_length,
-             inertia(kThighMass * mass, kThighGyration * p.thigh_length)};
-  p.shank = {kShankMass * mass, (1 - kShankCentre) * p.shank_length, 0,
-             inertia(kShankMass * mass, kShankGyration * p.shank_length)};
+  p.foot_up = p.foot_radius - kAnkleHeight * height;
+  const SegmentShares &torso = kHeadArmsTrunk, &thigh = kThighShares, &shank = kShankAndFoot;
+  p.torso = {torso.mass * mass, torso.centre * kTrunk * height,
+             inertia(torso.mass * mass, torso.gyration * kTrunk * height)};
+  p.thigh = {thigh.mass * mass, thigh.centre * p.thigh_length,
+             inertia(thigh.mass * mass, thigh.gyration * p.thigh_length)};
+  p.shank = {shank.mass * mass, (1 - shank.centre) * p.shank_length, 0,
+             inertia(shank.mass * mass, shank.gyration * p.shank_length)};
   return p;
 }
 
 KneedParameters unit_walker(double slope) {
-  KneedParameters p = adult_walker(1 / (kThigh + kShank + kAnkle), 1, slope);
+  KneedParameters p = adult_walker(1 / (kThigh + kShank + kAnkleHeight), 1, slope);
   p.gravity = 1;
   return p;
 }
