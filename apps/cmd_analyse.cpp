@@ -22,8 +22,8 @@ int run_analyse(const Arguments& arguments) {
                     .example = "walktrack analyse data/demo/truth.csv -o out/analysis"});
   auto add = line.options().add_options();
   add("height", po::value(&height)->value_name("M"),
-      "of the subject; default: as thighs and shanks have it");
-  add("mass", po::value(&mass)->value_name("KG"), "of the subject; default: 70");
+      "stature of the subject; default: from the lengths of thighs and shanks");
+  add("mass", po::value(&mass)->value_name("KG"), "mass of the subject; default: 70");
   line.operand("MOTION", &motion);
   if (!line.parse(arguments)) return kDone;
   if (height < 0 || mass < 0) throw UsageError("--height, --mass: allowed are numbers above 0");
@@ -40,7 +40,7 @@ int run_analyse(const Arguments& arguments) {
   Terminal(line.common())
       .control()
       .say(fmt::format("{} steps at {:.2f} m/s; open {}", outcome.steps, outcome.speed,
-                       outcome.look_at.string()));
+                       outcome.open_first.string()));
   return kDone;
 }
 

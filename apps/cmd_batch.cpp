@@ -95,31 +95,33 @@ int run_batch(const Arguments& arguments) {
   std::string folder, scene_template, shard = "1/1";
   bool list_only = false, dry_run = false, report_only = false, resume = false;
   bool ignore_checks = false, json_line = false;
-  CommandLine line(
-      {.name = "batch",
-       .operands = "FOLDER",
-       .about = "Tracks every scene below FOLDER, each in a process of its own; goes "
-                "on after failures.\nRun again, it does what is not complete, from where "
-                "it was killed (--resume,\nthe default); with -y also what is of other settings or "
-                "inputs. Several machines\nmay share one output folder.",
-       .example = "walktrack batch data -o out/batch --jobs 2"});
+  CommandLine line({.name = "batch",
+                    .operands = "FOLDER",
+                    .about =
+                        "Tracks every scene below FOLDER, each in a process of its own; goes "
+                        "on after failures.\nRun again, it does what is not complete, from where "
+                        "it was killed (--resume,\nthe default); with -y also sequences of other "
+                        "settings or inputs. Several machines\nmay share one output folder.",
+                    .example = "walktrack batch data -o out/batch --jobs 2"});
   line.options().add_options()("scene", po::value(&scene_template)->value_name("FILE"),
                                "take every video below FOLDER in the place of this scene\'s video")(
-      "jobs,j", po::value(&job.jobs)->default_value(1)->value_name("N"), "sequences at a time")(
-      "shard", po::value(&shard)->value_name("i/n"), "do every n-th sequence, from the i-th")(
-      "time-limit", po::value(&job.limits.seconds)->value_name("S"), "seconds for one sequence")(
-      "memory-limit", po::value(&job.limits.memory_mb)->value_name("MB"), "for one sequence")(
+      "jobs,j", po::value(&job.jobs)->default_value(1)->value_name("N"),
+      "number of sequences at a time")("shard", po::value(&shard)->value_name("i/n"),
+                                       "do every n-th sequence, from the i-th")(
+      "time-limit", po::value(&job.limits.seconds)->value_name("S"), "time of one sequence")(
+      "memory-limit", po::value(&job.limits.memory_mb)->value_name("MB"), "memory of one sequence")(
       "resume", po::bool_switch(&resume),
-      "pass over what is complete and go on from checkpoints; the default, so that it only forbids "
+      "skip complete sequences and continue from checkpoints; the default, so it only forbids "
       "--yes")("list", po::bool_switch(&list_only),
                "print the sequences and their state, do nothing")(
-      "retry-failed", po::bool_switch(&job.retry_failed), "do none but those that failed before")(
+      "retry-failed", po::bool_switch(&job.retry_failed),
+      "do only the sequences that failed before")(
       "dry-run", po::bool_switch(&dry_run), "print the sequences that would be done, do nothing")(
       "ignore-checks", po::bool_switch(&ignore_checks),
       "track scenes though their checks fail (see walktrack check); their reports say so")(
-      "report", po::bool_switch(&report_only), "do nothing but the summary of what there is")(
+      "report", po::bool_switch(&report_only), "write only the summary of the existing results")(
       "json-line", po::bool_switch(&json_line),
-      "print how many sequences came out how, or what went wrong, as one line of JSON");
+      "print the number of sequences by outcome, or the error, as one line of JSON");
   line.operand("FOLDER", &folder);
   if (!line.parse(arguments)) return kDone;
   if (job.jobs < 1) throw UsageError("--jobs: found less than 1, allowed: from 1");

@@ -46,8 +46,9 @@ struct BoardOptions {
   void declare(CommandLine& line) {
     auto add = line.options().add_options();
     add("board", po::value(&kind)->default_value("chessboard")->value_name("KIND"),
-        "chessboard, circles or asymmetric-circles");
-    add("size", po::value(&size)->value_name("CxR"), "inner corners or circles, e.g. 9x6");
+        "kind of board: chessboard, circles or asymmetric-circles");
+    add("size", po::value(&size)->value_name("CxR"),
+        "number of inner corners or circles, e.g. 9x6");
     add("spacing", po::value(&spacing)->value_name("M"),
         "between neighbours (rows of asymmetric circles), m, e.g. 0.025");
   }
@@ -56,8 +57,8 @@ struct BoardOptions {
     constexpr std::array<std::string_view, 3> kKinds{"chessboard", "circles", "asymmetric-circles"};
     const auto known = std::find(kKinds.begin(), kKinds.end(), kind);
     if (known == kKinds.end())
-      throw UsageError(
-          describe({"", 0, "--board"}, kind, "chessboard, circles or asymmetric-circles"));
+      throw UsageError(describe({"", 0, "--board"}, kind,
+                                "kind of board: chessboard, circles or asymmetric-circles"));
     if (size.empty() && spacing == 0) return std::nullopt;
     Board out{static_cast<BoardKind>(known - kKinds.begin()), 0, 0, spacing};
     const auto counts = two_whole_numbers(size, 3, 100);
@@ -78,7 +79,8 @@ LensModel lens_model(const std::string& name) {
   if (name == "brown") return LensModel::kBrown;
   if (name == "rational") return LensModel::kRational;
   if (name == "fisheye") return LensModel::kFisheye;
-  throw UsageError(describe({"", 0, "--model"}, name, "pinhole, brown, rational or fisheye"));
+  throw UsageError(
+      describe({"", 0, "--model"}, name, "lens model: pinhole, brown, rational or fisheye"));
 }
 
 struct ImportOptions {
@@ -90,7 +92,7 @@ struct ImportOptions {
         "take over all cameras of a calibration (or that of --name): OpenCap .pickle, Qualisys "
         ".qca.txt, EasyMocap intri.yml, Pose2Sim or Anipose .toml, Tsai .xml, OpenCV .yaml");
     add("image-size", po::value(&size)->value_name("WxH"),
-        "of the images, px, for an imported file that does not say");
+        "size of the images, px, for an imported file that does not state it");
   }
 
   std::optional<ImageSize> image_size() const {
@@ -135,12 +137,12 @@ int run_calibrate(const Arguments& arguments) {
                                "out/calibration"});
   auto add = line.options().add_options();
   add("name", po::value(&name)->default_value("cam0")->value_name("NAME"),
-      "the camera's, and of its files");
+      "name of the camera and of its files");
   add("views", po::value(&views)->value_name("PATH"), "video or images of the board");
   add("camera", po::value(&camera)->value_name("FILE"),
       "take the lens of this calibration instead");
   add("model", po::value(&model)->default_value("brown")->value_name("LENS"),
-      "pinhole, brown, rational or fisheye");
+      "lens model: pinhole, brown, rational or fisheye");
   add("floor", po::value(&floor)->value_name("PATH"),
       "picture or video of the camera in its place");
   add("points", po::value(&points)->value_name("FILE"), "measured points, CSV");

@@ -46,7 +46,7 @@ int run_cycle(const Arguments& arguments) {
       "steps to walk before Newton's method starts")(
       "max-time",
       po::value(&job.options.max_time)->default_value(job.options.max_time)->value_name("S"),
-      "s, longest step")("save-model", po::value(&model_file)->value_name("FILE"),
+      "longest step, s")("save-model", po::value(&model_file)->value_name("FILE"),
                          "write the model with the cycle as its start");
   if (!line.parse(arguments)) return kDone;
   ModelOptions::require("--max-time", job.options.max_time, 1e-6, 1e4);

@@ -28,7 +28,7 @@ int run_evaluate(const Arguments& arguments) {
   add("uncertainty", po::value(&uncertainty)->value_name("FILE"),
       "uncertainty.csv of the estimate; default: the one beside it");
   add("frame-rate", po::value(&frame_rate)->value_name("HZ"),
-      "of a truth that counts frames; default: the estimate's");
+      "frame rate of a truth that counts frames; default: the estimate's");
   add("json", po::bool_switch(&json), "print JSON");
   add("markdown", po::bool_switch(&markdown), "print a Markdown table (the default)");
   add("plot", po::value(&plot)->value_name("FILE.svg"),

@@ -24,7 +24,7 @@ struct SweepOptions {
 void declare(CommandLine& line, SweepOptions& options) {
   auto add = line.options().add_options();
   add("over", po::value(&options.over)->composing()->value_name("NAME=V:V,..."),
-      "knobs and their values: particles, scale (height of a person, px), terms "
+      "parameters and their values: particles, scale (height of a person, px), terms "
       "(background+foreground+flow+keypoints), cameras (how many, or names joined by +), moves, "
       "layers, "
       "arms, keypoints (off:on), model, path, config (files or presets), or any key of 'walktrack "
@@ -35,9 +35,10 @@ void declare(CommandLine& line, SweepOptions& options) {
   add("truth", po::value(&options.truth)->value_name("FILE"),
       "what errors are measured against; default: the scene's truth, else its most accurate "
       "setting");
-  add("want-fps", po::value(&options.fps)->value_name("N"), "say what to use for so many frames/s");
+  add("want-fps", po::value(&options.fps)->value_name("N"),
+      "recommend a setting for this many frames/s");
   add("want-error-mm", po::value(&options.error_mm)->value_name("MM"),
-      "say what to use for an error of at most so much");
+      "recommend a setting for an error of at most this");
   line.operand("SCENE.yaml", &options.scene);
 }
 
@@ -71,7 +72,7 @@ int run_sweep(const Arguments& arguments) {
   job.config = line.config();
   job.scene = read_scene(options.scene);
   if (options.over.empty()) options.over.emplace_back(kDefaultOver);
-  job.knobs = sweep_knobs(options.over, job.scene, job.config);
+  job.parameters = swept_parameters(options.over, job.scene, job.config);
   job.seeds = options.seeds;
   job.repeats = options.repeats;
   job.truth = options.truth;

@@ -21,7 +21,7 @@ int exit_code(TrackStatus status) {
     case TrackStatus::kTracked:
       return kDone;
     case TrackStatus::kNotFound:
-    case TrackStatus::kBelowGates:
+    case TrackStatus::kQualityFailed:
       return kDegraded;
     case TrackStatus::kInterrupted:
       return kInterrupted;
@@ -59,7 +59,7 @@ int run_track(const Arguments& arguments) {
       {.name = "track",
        .operands = "SCENE.yaml",
        .about =
-           "Tracks the walker of one scene: 3-D joints and angles with their "
+           "Tracks the subject of one scene: 3-D joints and angles with their "
            "uncertainty,\nan overlay video for each camera, and run.json, in the "
            "folder --output.\nThe scene is checked before; what is wrong with it "
            "stops it with exit code 3.\nEnds with 4 when a quality check failed: the report and "
@@ -68,7 +68,7 @@ int run_track(const Arguments& arguments) {
   auto add = line.options().add_options();
   add("no-overlay", po::bool_switch(&no_overlay), "write no overlay videos");
   add("ignore-checks", po::bool_switch(&ignore_checks),
-      "track though the checks of the scene fail (see walktrack check); the report says so");
+      "track even if checks of the scene fail (see walktrack check); the report says so");
   add("fps", po::value(&fps)->value_name("N"),
       "keep to so many frames/s by adapting the particles, within budget.least_particles and "
       "budget.most_particles; results then depend on the machine's speed: not deterministic");
@@ -96,11 +96,11 @@ int run_track(const Arguments& arguments) {
   const TrackOutcome outcome = track_scene(job, control);
   const bool cut_short = outcome.status == TrackStatus::kCutShort;
   const bool listed = !outcome.failed_checks.empty();  // in the summary
-  if (!outcome.trouble.empty() && !cut_short && !listed) control.say(outcome.trouble);
+  if (!outcome.message.empty() && !cut_short && !listed) control.say(outcome.message);
   if (outcome.resumable) control.say("interrupted; run again with --resume to go on from here");
   control.say(summary_text(outcome));
   // Said last, and even with --quiet, though what came before it is kept.
-  if (cut_short) throw InputError(outcome.trouble);
+  if (cut_short) throw InputError(outcome.message);
   const int code = stop_request() ? kInterrupted : exit_code(outcome.status);
   if (json_line) fmt::print("{}", summary_json(outcome, job.output.string(), code));
   return code;

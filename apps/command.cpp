@@ -7,6 +7,7 @@
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
 #include "manual.h"
+#include "terminal.h"
 
 namespace walktrack {
 
@@ -165,6 +166,8 @@ ConfigWithOrigin CommandLine::config() const {
   if (!common_.config_file.empty()) apply_config_file(config, common_.config_file);
   for (const std::string& setting : common_.settings) apply_setting(config, setting, "--set");
   apply_run_options(common_, config);
+  Terminal terminal(common_);
+  for (const std::string& note : config.renamed) terminal.control().say(note);
   return config;
 }
 

@@ -26,15 +26,15 @@ constexpr std::array kCommands{
     Command{"calibrate", "find the lens and the place of a camera", run_calibrate},
     Command{"check", "find mistakes in a scene, its calibrations and videos", run_check},
     Command{"config", "print the commented defaults or the effective configuration", run_config},
-    Command{"cycle", "find a limit cycle of a walker and what it is like", run_cycle},
+    Command{"cycle", "find a limit cycle of a walker and its properties", run_cycle},
     Command{"evaluate", "measure estimates against a truth", run_evaluate},
     Command{"plan", "say what tracking would model, why, and what it costs", run_plan},
     Command{"prior", "build or show the table of gaits", run_prior},
     Command{"render", "render a motion as synthetic video with its truth", run_render},
-    Command{"selftest", "try extremes on this program and say how they end", run_selftest},
+    Command{"selftest", "run this program on extreme inputs and report each outcome", run_selftest},
     Command{"simulate", "simulate a walker: tables, pictures, an animation", run_simulate},
     Command{"sweep", "measure what accuracy costs: error against speed", run_sweep},
-    Command{"track", "track the walker of one scene", run_track},
+    Command{"track", "track the subject of one scene", run_track},
 };
 
 void print_overview() {

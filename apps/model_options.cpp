@@ -14,7 +14,7 @@ void ModelOptions::declare(CommandLine& line) {
       "model", po::value(&model_)->value_name("NAME"),
       "monopode, rimless_wheel, anthropomorphic, kneed; simulate also articulated")(
       "step", po::value(&step_)->default_value(step_, "0.001")->value_name("S"),
-      "s, largest time step, 1e-6 to 1")(
+      "largest time step, s, 1e-6 to 1")(
       "integrator", po::value(&integrator_)->default_value(integrator_)->value_name("NAME"),
       "euler, rk4 or midpoint");
 }

@@ -10,7 +10,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 ALLOWED_OUTSIDE = {
-    "opencv2": {"observation", "synth", "io", "jobs"},
+    "opencv2": {"observation", "io", "jobs"},
     "yaml-cpp": {"io"},
     "boost": set(),
     "libavformat": {"io"},

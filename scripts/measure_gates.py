@@ -13,7 +13,7 @@ FILEs are options of `walktrack render`, whose scenes are rendered into OUT firs
 The error of a run is the mean joint error, the mean error of the plants or the median error on the ground. Above 100 mm,
 or with a plant on the wrong side, a run is wrong; below 60 mm, with all plants on their side, it is right. Green is exit
 0, red exit 4. Prints a Markdown table with one row a run and the measures of run.json named by --columns (default: those
-with a gate), those that failed in bold, and how many of the wrong runs were green and of the right ones red. What OUT
+with a limit), those that failed in bold, and how many of the wrong runs were green and of the right ones red. What OUT
 holds already is not done again; every run's figures are in OUT/runs.csv. Standard library only.
 """
 import argparse
@@ -158,7 +158,7 @@ def main():
             rows.append(row)
             print(f"{name} seed {seed}: {row['mm'] and round(row['mm'])} mm, {row['status']}", file=sys.stderr, flush=True)
     rows.sort(key=lambda row: (row["scene"], row["seed"]))
-    gated = dict.fromkeys(name for row in rows for name, q in row["measures"].items() if q["gate"] is not None)
+    limited = dict.fromkeys(name for row in rows for name, q in row["measures"].items() if q["gate"] is not None)
     all_measures = dict.fromkeys(name for row in rows for name in row["measures"])
     with (arguments.out / "runs.csv").open("w", newline="") as file:
         writer = csv.writer(file)
@@ -166,7 +166,7 @@ def main():
         for row in rows:
             writer.writerow([row["scene"], row["seed"], row["mm"], row["sides"], row["walks"], row["status"],
                              *(row["measures"].get(name, {}).get("value", "") for name in all_measures)])
-    print_table(rows, arguments.columns or list(gated))
+    print_table(rows, arguments.columns or list(limited))
     print_summary(rows)
 
 

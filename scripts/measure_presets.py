@@ -38,7 +38,7 @@ def table(title, sweeps):
         rows = [sweep[row] for sweep in sweeps]
         median = lambda values: statistics.median([v for v in values if v is not None] or [float("nan")])
         ratio = lambda key: median([r[key] / s[0][key] for r, s in zip(rows, sweeps) if r[key] and s[0][key]])
-        name = " ".join(f"{knob}={value}" for knob, value in rows[0]["setting"].items())
+        name = " ".join(f"{parameter}={value}" for parameter, value in rows[0]["setting"].items())
         print(f"| {name} | {median([r['error_mm'] for r in rows]):.1f} | {ratio('error_mm'):.2f} "
               f"| {100 * statistics.mean(r['lost_share'] for r in rows):.1f} | {1000 * median([r['cpu_seconds_per_frame'] for r in rows]):.1f} "
               f"| {ratio('cpu_seconds_per_frame'):.2f} | {median([r['frames_per_second'] for r in rows]):.0f} |")

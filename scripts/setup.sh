@@ -28,8 +28,8 @@ if [ "${1:-}" = bench ]; then
   )
 fi
 
-# Not needed; tests of scripts/cluster are skipped without them: slurmctld slurmd slurm-client munge
-# parallel
+# Not needed; slow tests are skipped without them: of scripts/cluster slurmctld slurmd slurm-client munge
+# parallel, of the headers as HTML doxygen
 
 missing=()
 for package in "${packages[@]}"; do

@@ -5,7 +5,7 @@
 
 Commands stand in fenced blocks of the kind `sh`; those marked `slow` are left out with --quick. Blocks marked `motion`
 run a second time with measured motion capture in the place of the demo's truth; where that is absent, it is said.
-So does the example at the end of every command's --help, `track` first, whose result another one reads. Each command has to end with 0, or with 4 (tracked, below a gate). A backslash joins lines. Links between documents
+So does the example at the end of every command's --help, `track` first, whose result another one reads. Each command has to end with 0, or with 4 (tracked, a quality check failed). A backslash joins lines. Links between documents
 must lead somewhere.
 """
 import os
@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-DOCUMENTS = ["README.md", "apps/guide/README.md", "apps/guide/formats.md", "scripts/cluster/README.md", "lib/synth/README.md"]
+DOCUMENTS = ["README.md", "apps/guide/README.md", "apps/guide/speed.md", "apps/guide/quality.md", "apps/guide/programs.md", "apps/guide/formats.md", "scripts/cluster/README.md", "lib/synth/README.md"]
 # These build the program and run the tests, this one included.
 RUN_BY_OTHERS = ("scripts/demo.sh", "scripts/test.sh")
 SLOW_EXAMPLES = {"batch", "evaluate", "prior", "render", "selftest", "sweep", "track"}

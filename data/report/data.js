@@ -44,7 +44,7 @@ const frames = data.joints.mean_mm.length;
 const lastFrame = Math.max(0, frames - 1);
 const times = data.times;
 const frameAt = (time) => (time - (times[0] ?? 0)) * data.rate;
-// Of a motion that came from elsewhere there is no video, no filter and no gate.
+// Of a motion that came from elsewhere there is no video, no filter and no quality check.
 const analysed = run.command === 'analyse';
 const jointIndex = Object.fromEntries(data.joints.names.map((name, i) => [name, i]));
 

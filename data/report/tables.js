@@ -72,10 +72,10 @@ function gaitTables() {
 
 function quality() {
   const rows = run.quality.map((q) => {
-    const gate = q.gate === null ? '–' : `${q.at_most ? 'at most' : 'at least'} ${+q.gate.toPrecision(6)}${q.unit ? ' ' + q.unit : ''}`;
+    const limit = q.gate === null ? '–' : `${q.at_most ? 'at most' : 'at least'} ${+q.gate.toPrecision(6)}${q.unit ? ' ' + q.unit : ''}`;
     const words = element('span', {}, q.what, element('small', {}, q.meaning));
     if (!q.passed) words.append(element('small', {className: 'bad'}, q.advice));
-    return [words, `${fixed(q.value, q.digits)}${q.unit ? ' ' + q.unit : ''}`, gate, q.gate === null ? '–' : q.passed ? 'passed' : 'failed'];
+    return [words, `${fixed(q.value, q.digits)}${q.unit ? ' ' + q.unit : ''}`, limit, q.gate === null ? '–' : q.passed ? 'passed' : 'failed'];
   });
   const made = table(['check', 'value', 'allowed', ''], rows);
   for (const cell of made.querySelectorAll('td:last-child'))

@@ -19,12 +19,9 @@ enum class Purpose : uint32_t {
   kInitialisation,
   kControls,
   kTorque,
-  kPose,
-  kMoves,
-  kSmoothing,
-  kRendering,
-  kPrior,
-  kTest,
+  kMoves = 6,
+  kRendering = 8,
+  kTest = 10,
 };
 
 // A stream keyed by (seed, purpose, frame, index). Copying a stream copies its position.

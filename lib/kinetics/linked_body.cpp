@@ -8,6 +8,7 @@
 
 #include "body/axes.h"
 #include "body/pose_from_joints.h"
+#include "core/anthropometry.h"
 
 namespace walktrack {
 
@@ -17,13 +18,12 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // Shares of the subject's mass (of the stature: heights and lengths). Trunk: thorax and abdomen,
-// their centre such that trunk and pelvis together have theirs halfway up to the shoulders. Whole
-// arm: mass .050, centre .530 and radius of gyration .368 of the length .332 H to the wrist.
-constexpr double kPelvisMass = .142, kTrunkMass = .355, kHeadMass = .081, kArmMass = .050;
-constexpr double kThighMass = .100, kShankMass = .0465, kFootMass = .0145;
-constexpr double kUpperArmMass = .028, kForearmMass = .022;  // with the hand
+// their centre such that trunk and pelvis together have theirs halfway up to the shoulders. The
+// whole arm reaches to the wrist.
+constexpr double kPelvisMass = .142, kTrunkMass = .355, kHeadMass = .081;
 constexpr double kPelvisHeight = .063, kTrunkHeight = .1764, kHeadHeight = .405;
-constexpr double kArmLength = .332, kArmCentre = .530, kArmRadius = .368;
+constexpr double kArmLength = .332;
+using anthropometry::kWholeArm;
 
 bool has_arms(std::span<const JointPositions> joints) {
   for (const JointPositions& row : joints)
@@ -131,8 +131,9 @@ MassProperties trunk_mass(const Subject& subject, bool with_arms) {
   for (const double side : {0.5, -0.5}) {
     if (!with_arms) break;
     const Vector3d centre(0, side * lengths.shoulder_width,
-                          lengths.trunk - kArmCentre * kArmLength * h);
-    solids.push_back(limb(kArmMass * m, kArmLength * h, centre, kArmRadius * kArmLength * h, 2));
+                          lengths.trunk - kWholeArm.centre * kArmLength * h);
+    solids.push_back(
+        limb(kWholeArm.mass * m, kArmLength * h, centre, kWholeArm.gyration * kArmLength * h, 2));
   }
   return combined(solids);
 }
@@ -140,7 +141,7 @@ MassProperties trunk_mass(const Subject& subject, bool with_arms) {
 struct Limb {
   Segment segment, parent;
   Joint origin, end;
-  double mass, centre, radius;  // shares of the subject's mass and of the limb's length
+  anthropometry::SegmentShares shares;
 };
 
 void add_legs(Side side, std::vector<Limb>& limbs) {
@@ -148,9 +149,9 @@ void add_legs(Side side, std::vector<Limb>& limbs) {
   const Segment thigh = left ? Segment::kLeftThigh : Segment::kRightThigh;
   const Segment shank = left ? Segment::kLeftShank : Segment::kRightShank;
   const Segment foot = left ? Segment::kLeftFoot : Segment::kRightFoot;
-  limbs.push_back({thigh, Segment::kPelvis, hip(side), knee(side), kThighMass, .433, .323});
-  limbs.push_back({shank, thigh, knee(side), ankle(side), kShankMass, .433, .302});
-  limbs.push_back({foot, shank, ankle(side), toe(side), kFootMass, .5, .475});
+  limbs.push_back({thigh, Segment::kPelvis, hip(side), knee(side), anthropometry::kThighShares});
+  limbs.push_back({shank, thigh, knee(side), ankle(side), anthropometry::kShankShares});
+  limbs.push_back({foot, shank, ankle(side), toe(side), anthropometry::kFootShares});
 }
 
 // Forearm and hand: .682 of the forearm's length from the elbow, radius .468.
@@ -159,8 +160,9 @@ void add_arms(Side side, std::vector<Limb>& limbs) {
   const ArmJoints arm = arm_joints(side);
   const Segment upper = left ? Segment::kLeftUpperArm : Segment::kRightUpperArm;
   const Segment fore = left ? Segment::kLeftForearm : Segment::kRightForearm;
-  limbs.push_back({upper, Segment::kTrunk, arm.shoulder, arm.elbow, kUpperArmMass, .436, .322});
-  limbs.push_back({fore, upper, arm.elbow, arm.wrist, kForearmMass, .682, .468});
+  limbs.push_back(
+      {upper, Segment::kTrunk, arm.shoulder, arm.elbow, anthropometry::kUpperArmShares});
+  limbs.push_back({fore, upper, arm.elbow, arm.wrist, anthropometry::kForearmAndHand});
 }
 
 bool is_foot(Segment segment) {
@@ -186,8 +188,8 @@ MassProperties limb_mass(const Limb& each, const Subject& subject,
   const double length = mean_length(rows, each.origin, each.end);
   const bool foot = is_foot(each.segment);
   const Vector3d way = foot ? Vector3d::UnitX() : Vector3d(-Vector3d::UnitZ());
-  return limb(each.mass * subject.mass, length, each.centre * length * way, each.radius * length,
-              foot ? 0 : 2);
+  return limb(each.shares.mass * subject.mass, length, each.shares.centre * length * way,
+              each.shares.gyration * length, foot ? 0 : 2);
 }
 
 size_t index_of(const std::vector<Link>& links, Segment segment) {

@@ -1,4 +1,4 @@
-// Distances between estimated and true joint centres, and how often left and right were exchanged.
+// Distances between estimated and true joint centres, and how often left and right were swapped.
 //
 // Sources put neck, head and toes at different points of the body, so the headline figures count
 // the seven joints that all define alike: pelvis, hips, knees and ankles. A truth frame is filled

@@ -39,7 +39,7 @@ enum class TermSetting { kAuto, kOn, kOff };
 
 struct FlowConfig {
   TermSetting enabled = TermSetting::kAuto;
-  // Of the Student-t, fitted to a real video (README.md, Flow).
+  // Of the Student-t, fitted to a real video (reports/flow.md).
   double noise = 1.2;        // of a difference without texture, grey levels of 256
   double error_px = .35;     // of what rests, px: pictures tremble, edges are compressed
   double error_share = .05;  // and more of what moves, as a share of its motion

@@ -21,7 +21,7 @@
 //
 // Asked are the pixels of a lattice a few centimetres apart on the body, after smoothing to match,
 // and each counts for its area. Flow that is measured first is wrong at the very places that matter
-// (README.md, Flow); no particle needs it: each brings its own motion along.
+// (reports/flow.md); no particle needs it: each brings its own motion along.
 #pragma once
 
 #include <vector>

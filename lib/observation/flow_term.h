@@ -67,12 +67,15 @@ void FlowTerm::describe(Groups& groups) {
             {"off", TermSetting::kOff},
             {"true", TermSetting::kOn},
             {"false", TermSetting::kOff}},
-           "whether the motion between frames is compared; auto: no, it has not been seen to gain");
-  w.number("error_px", &W::error_px, 0, 1000, "error of what rests, px");
-  w.number("error_share", &W::error_share, 0, 10, "and more of what moves, share of its motion");
-  w.number("noise", &W::noise, 0.01, 255, "of grey values from frame to frame, of 256");
-  w.number("dof", &W::dof, 0.5, 1000, "of the Student-t; smaller expects more outliers");
-  w.number("weight", &W::weight, 0, 1000, "against the silhouettes");
+           "whether the motion between frames is compared; auto: off, no measurement shows a gain");
+  w.number("error_px", &W::error_px, 0, 1000, "error of the flow of pixels at rest, px");
+  w.number("error_share", &W::error_share, 0, 10,
+           "additional error of moving pixels, as a share of their motion");
+  w.number("noise", &W::noise, 0.01, 255,
+           "noise of a pixel from frame to frame, grey levels of 256");
+  w.number("dof", &W::dof, 0.5, 1000,
+           "degrees of freedom of the Student-t; fewer expect more outliers");
+  w.number("weight", &W::weight, 0, 1000, "weight relative to the silhouettes");
 }
 
 }  // namespace walktrack

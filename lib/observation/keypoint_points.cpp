@@ -68,7 +68,7 @@ void add(const Keypoint& point, int shrink, size_t i, SeenPoints& out) {
 }
 
 // From the head's centre to the ankles it is .89 of the height, from shoulders to hips .29
-// (subject.h). Whoever is hidden in part or bends down shows less of the first.
+// (subject.h). A subject who is hidden in part or bends down shows less of the first.
 double height_px(const SeenPoints& points) {
   Vector2d low = Vector2d::Constant(1e9), high = -low;
   for (size_t i = 0; i < kBodyPoints; ++i) {

@@ -116,14 +116,15 @@ void KeypointTerm::describe(Groups& groups) {
        {"false", TermSetting::kOff}},
       "on: from the scene's files, from the built-in network where a camera has none; auto: where "
       "every camera has a file, and the network for one camera alone");
-  k.integer("every", &K::every, 1, 1000, "frames, of which the network looks at one");
+  k.integer("every", &K::every, 1, 1000, "the network is asked at every so many frames");
   k.text("model", &K::model, "the shipped network, or the ONNX file of one of the same family");
   k.number("weight", &K::weight, 0, 10,
            "weight of a point; below 1 because points err together and for several frames");
   k.number("flip", &K::flip, 1e-6, 0.5, "probability that a frame's left and right are swapped");
-  k.number("dof", &K::dof, 0.5, 1000, "of the Student-t; smaller expects more outliers");
+  k.number("dof", &K::dof, 0.5, 1000,
+           "degrees of freedom of the Student-t; fewer expect more outliers");
   k.number("outlier", &K::outlier, 0.01, 10,
-           "radius in which stray points lie, share of the person's height");
+           "radius in which outliers lie, as a share of the subject's height");
 }
 
 template <typename Archive, typename T>

@@ -85,32 +85,41 @@ struct SilhouetteTerm {
 template <typename Groups>
 void SilhouetteTerm::describe(Groups& groups) {
   using B = BackgroundConfig;
-  auto b = groups.group("background", "the empty scene", &ObservationConfig::background);
+  auto b =
+      groups.group("background", "the model of the empty scene", &ObservationConfig::background);
   b.flag("enabled", &B::enabled, "whether the background is modelled");
-  b.integer("samples", &B::samples, 1, 10'000, "frames that the model is made of");
-  b.number("noise", &B::noise, 0.1, 255, "smallest deviation of a channel, grey levels of 256");
-  b.number("jitter_px", &B::jitter_px, 0, 100, "how far edges move about, px of the shrunk image");
+  b.integer("samples", &B::samples, 1, 10'000, "frames from which the model is made");
+  b.number("noise", &B::noise, 0.1, 255,
+           "smallest standard deviation of a channel, grey levels of 256");
+  b.number("jitter_px", &B::jitter_px, 0, 100,
+           "movement of edges from frame to frame, px of the shrunk image");
   b.number("shadow_darkest", &B::shadow_darkest, 0, 0.99,
-           "share of its value that a shadow leaves");
+           "share of its brightness that a pixel keeps in the darkest shadow");
   b.number("shadow_share", &B::shadow_share, 0, 0.8, "prior probability of a shadow");
-  b.number("shadow_tint", &B::shadow_tint, 0.1, 255, "deviation of a shadow's chroma, grey levels");
+  b.number("shadow_tint", &B::shadow_tint, 0.1, 255,
+           "standard deviation of a shadow's chroma, grey levels");
   b.number("shadow_sky", &B::shadow_sky, 0, 1,
-           "and more of it per grey level that the shadow takes");
-  b.number("gradient_weight", &B::gradient_weight, 0, 1, "of the luma gradient against the colour");
+           "additional deviation of the chroma per grey level by which a shadow darkens");
+  b.number("gradient_weight", &B::gradient_weight, 0, 1,
+           "weight of the luma gradient relative to the colour");
   b.number("unknown_share", &B::unknown_share, 1e-6, 0.1,
-           "of the background looking like nothing seen");
-  b.number("drift_rate", &B::drift_rate, 0, 1, "share of a frame that the model takes on");
+           "prior probability that the background looks like nothing seen before");
+  b.number("drift_rate", &B::drift_rate, 0, 1,
+           "share of a new frame with which the model is updated");
 
   using F = ForegroundConfig;
   constexpr double kAnyPositive = 1e9;
-  auto f = groups.group("foreground", "how the walker looks", &ObservationConfig::foreground);
+  auto f = groups.group("foreground", "the subject's appearance", &ObservationConfig::foreground);
   f.flag("enabled", &F::enabled, "whether appearance is modelled");
   f.list("classes", &F::classes, 0, kAppearanceCount - 1,
          "models of trunk, legs, feet, head, arms; equal numbers share one");
-  f.number("broad_share", &F::broad_share, 0, 1, "of a model that expects any colour");
-  f.number("prior_pixels", &F::prior_pixels, 0, kAnyPositive, "weight of any colour, pixels");
-  f.number("learning_rate", &F::learning_rate, 0, 1, "share of a new frame in the recent half");
-  f.number("anchor_share", &F::anchor_share, 0, 1, "share of the first frames, never forgotten");
+  f.number("broad_share", &F::broad_share, 0, 1, "share of a component that expects any colour");
+  f.number("prior_pixels", &F::prior_pixels, 0, kAnyPositive,
+           "weight of the prior over colours, pixels");
+  f.number("learning_rate", &F::learning_rate, 0, 1,
+           "share of a new frame in the recent part of the model");
+  f.number("anchor_share", &F::anchor_share, 0, 1,
+           "share of the part learned from the first frames, which is kept");
 }
 
 }  // namespace walktrack

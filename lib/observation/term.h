@@ -1,4 +1,5 @@
-// What a likelihood term is. README.md says how to add one; terms.h holds the list of all of them.
+// What a likelihood term is. CONTRIBUTING.md says how to add one; terms.h holds the list of all of
+// them.
 //
 // A term is a struct that is never made. kName is what results call it, kStage says when particles
 // are asked, kAsksBefore whether they need the pose of the frame before as well, kSwitches which

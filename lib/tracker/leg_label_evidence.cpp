@@ -8,7 +8,7 @@ namespace {
 
 // Pixels of successive frames err together: so many nats of theirs count as one. Windows of made
 // walks whose legs bear the right names have -4 to +18 nats.
-constexpr double kNatsForOne = 3;
+constexpr double kPixelTemperature = 3;
 
 // Of the terms that tell a track's legs apart.
 double frame_log_odds(const TrackerScene& scene, const CameraEvidence& before,
@@ -34,7 +34,7 @@ double legs_log_odds(const TrackerScene& scene, const std::deque<SceneEvidence>&
       sum += frame_log_odds(scene, window[i - 1][0], window[i][0], records[i - 1].estimate.pose,
                             records[i].estimate.pose);
   }
-  return sum / kNatsForOne;
+  return sum / kPixelTemperature;
 }
 
 double names_in_frame(const TrackerScene& scene, const SceneEvidence& evidence, const Pose& pose) {

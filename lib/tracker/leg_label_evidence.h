@@ -12,12 +12,12 @@
 namespace walktrack {
 
 // How much more the pictures of successive frames speak for a track's legs than for the same legs
-// exchanged, nats; 0 where nothing is to be seen of it. One record for each of the first frames of
+// swapped, nats; 0 where nothing is to be seen of it. One record for each of the first frames of
 // `window`.
 double legs_log_odds(const TrackerScene& scene, const std::deque<SceneEvidence>& window,
                      std::span<const FrameRecord> records);
 
-// How much more a frame's keypoints speak for a pose's legs than for the same legs exchanged, nats
+// How much more a frame's keypoints speak for a pose's legs than for the same legs swapped, nats
 // of evidence that counts once; 0 without any.
 double names_in_frame(const TrackerScene& scene, const SceneEvidence& evidence, const Pose& pose);
 

@@ -51,7 +51,7 @@ double mass_apart(double phase, std::span<const double> phases, std::span<const 
 
 StrideModes stride_modes(std::span<const WalkerParticle> particles,
                          std::span<const double> weights) {
-  // Those who stand are at no place in a stride.
+  // Particles that stand are at no place in a stride.
   std::vector<double> phases, shares;
   phases.reserve(particles.size());
   shares.reserve(particles.size());
@@ -68,7 +68,7 @@ StrideModes stride_modes(std::span<const WalkerParticle> particles,
   if (out.standing > 0)
     for (double& share : shares) share /= walking;
   out.phase = leading_phase(phases, shares);
-  out.exchanged = mass_apart(out.phase, phases, shares);
+  out.p_legs_swapped = mass_apart(out.phase, phases, shares);
   return out;
 }
 

@@ -1,6 +1,6 @@
 // Which leg is which: the hypotheses that a set of particles still holds.
 //
-// A silhouette from the side looks the same with the legs exchanged, and a walker with exchanged
+// A silhouette from the side looks the same with the legs swapped, and a walker with swapped
 // legs is one half a stride away: the left foot does what the right one is thought to do. A
 // particle's place in the stride (0 = its left foot strikes, 1/2 = its right one) thus tells the
 // hypotheses apart in every frame, also while the legs pass each other and look the same either
@@ -15,10 +15,10 @@
 namespace walktrack {
 
 struct StrideModes {
-  double phase = 0;      // of the mode reported, shares of the stride in [0, 1)
-  double exchanged = 0;  // mass of the other one: probability that the legs are exchanged,
-                         // in a FrameRecord of tracker/tracker.h with the doubt of the start
-  double standing = 0;   // probability of standing; above one half there is no phase to speak of
+  double phase = 0;           // of the mode reported, shares of the stride in [0, 1)
+  double p_legs_swapped = 0;  // mass of the other one: probability that the legs are swapped,
+                              // in a FrameRecord of tracker/tracker.h with the doubt of the start
+  double standing = 0;  // probability of standing; above one half there is no phase to speak of
 };
 
 // In [0, 1).
@@ -41,8 +41,8 @@ double phase_ahead(std::span<const WalkerParticle> particles, std::span<const do
                    double dt);
 
 // Whether a set, while the legs pass each other at about a quarter and three quarters of the
-// stride, is half a stride from where it was expected, each give or take an eighth. Nobody walks
-// so: its particles have taken one leg for the other.
+// stride, is half a stride from where it was expected, each give or take an eighth. No gait
+// does that: the particles have taken one leg for the other.
 bool label_switched(double expected, double phase);
 
 }  // namespace walktrack

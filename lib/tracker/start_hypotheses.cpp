@@ -15,7 +15,7 @@ constexpr double kHopeless = 15;
 // The evidence of a few particles is itself uncertain. Of 25 starts (side views from near and from
 // afar, two cameras; reports/left_and_right.md) the leading hypothesis was the wrong one as often
 // as if so many nats were worth one.
-constexpr double kNatsForOne = 50;
+constexpr double kEvidenceTemperature = 50;
 
 }  // namespace
 
@@ -66,7 +66,7 @@ bool StartHypotheses::step(const WalkerFilterContext& context, const SceneEviden
   return true;
 }
 
-// The seed of the best of those whose legs are exchanged against the leader's: it stays, so that
+// The seed of the best of those whose legs are swapped against the leader's: it stays, so that
 // the doubt can be told.
 std::optional<uint64_t> StartHypotheses::mirror_hypothesis() const {
   const double phase = leader().records.back().modes.phase;
@@ -79,17 +79,17 @@ std::optional<uint64_t> StartHypotheses::mirror_hypothesis() const {
   return best ? std::optional(best->seed) : std::nullopt;
 }
 
-// Of the newest frame: how probable are hypotheses with legs exchanged against one's own.
+// Of the newest frame: how probable are hypotheses with legs swapped against one's own.
 void StartHypotheses::weigh_modes() {
   std::vector<double> evidence, phases;
   for (const Hypothesis& each : hypotheses_) {
-    evidence.push_back(each.log_evidence / kNatsForOne);
+    evidence.push_back(each.log_evidence / kEvidenceTemperature);
     phases.push_back(each.records.back().modes.phase);
   }
   const std::vector<double> share = normalised_weights(evidence);
   for (Hypothesis& each : hypotheses_) {
     StrideModes& modes = each.records.back().modes;
-    modes.exchanged = mass_apart(modes.phase, phases, share);
+    modes.p_legs_swapped = mass_apart(modes.phase, phases, share);
   }
 }
 

@@ -1,7 +1,7 @@
 // Which phase of the stride does a walker start in? Hypotheses over the whole stride are tracked
 // side by side for a while and compete by evidence, so that no single frame decides.
 //
-// A second round between the best and the best of those half a stride away (legs exchanged) was
+// A second round between the best and the best of those half a stride away (legs swapped) was
 // tried: it lost blurred videos that the first round decides rightly, and won nothing for it.
 #pragma once
 

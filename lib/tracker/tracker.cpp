@@ -15,11 +15,12 @@ namespace walktrack {
 namespace {
 
 // Walkers that explain an image no better than this share of what a stiff figure does are lost:
-// where a person is a few dozen pixels high, a figure does nearly as well as the walker itself.
+// where a person is a few dozen pixels high, a figure does nearly as well as the walker itself. By
+// hand; sensitivity not measured.
 constexpr double kFigureShare = 0.9;
 
-// What is left of a video is searched from so many seconds on: as long as a contest of starts
-// takes.
+// What is left of a video is searched from so many seconds on: as long as start
+// hypotheses compete.
 constexpr double kShortestWindow = 0.5;
 
 const WalkerParticle& best_particle(const ParticleSet<WalkerParticle>& set) {
@@ -77,8 +78,8 @@ std::vector<FrameRecord> Tracker::finish() {
 }
 
 TrackerState Tracker::state() const {
-  return {frame_,        starts_,        filter_.state(), last_seen_,      log_likelihoods_,
-          frames_below_, frames_beaten_, losses_,         p_legs_swapped_, stature_};
+  return {frame_,        starts_,           filter_.state(), last_seen_,      log_likelihoods_,
+          frames_below_, frames_outscored_, losses_,         p_legs_swapped_, stature_};
 }
 
 void Tracker::resume(TrackerState state) {
@@ -90,7 +91,7 @@ void Tracker::resume(TrackerState state) {
   last_seen_ = state.last_seen;
   log_likelihoods_ = std::move(state.log_likelihoods);
   frames_below_ = state.frames_below;
-  frames_beaten_ = state.frames_beaten;
+  frames_outscored_ = state.frames_outscored;
   losses_ = state.losses;
   p_legs_swapped_ = state.p_legs_swapped;
   stature_ = state.stature;
@@ -131,7 +132,7 @@ WalkerFilterContext Tracker::context(bool first) const {
   MotionConfig motion = kit_.motion;
   const NoiseScale scale =
       first ? start_scale(config_.start, *kit_.moves, motion, kit_.frame_scale) : kit_.frame_scale;
-  if (first && start_is_given_) motion.arrival = motion.given;
+  if (first && start_is_given_) motion.start_position_sd = motion.given_position_sd;
   return {scene_,
           {scene_.model, prior_, *kit_.moves, motion, scale, kit_.markov, scene_.dt,
            kit_.standing ? &*kit_.standing : nullptr},
@@ -162,7 +163,7 @@ void Tracker::compete(const SceneEvidence& evidence, std::vector<FrameRecord>& o
   if (hypotheses_->decided()) settle(out);
 }
 
-// What is left of the contest becomes one set of particles.
+// What is left of the start hypotheses becomes one set of particles.
 void Tracker::settle(std::vector<FrameRecord>& out) {
   filter_.start(hypotheses_->resampled());
   log_likelihoods_.clear();
@@ -173,11 +174,11 @@ void Tracker::settle(std::vector<FrameRecord>& out) {
     refine(hypotheses_frames_.front(), out.back());
     hypotheses_frames_.pop_front();
   }
-  p_legs_swapped_ = hypotheses_->records().back().modes.exchanged;
+  p_legs_swapped_ = hypotheses_->records().back().modes.p_legs_swapped;
   mean_pose_ = hypotheses_->records().back().estimate.pose;
   hypotheses_.reset();
   mode_ = Mode::kTracking;
-  frames_below_ = frames_beaten_ = 0;
+  frames_below_ = frames_outscored_ = 0;
 }
 
 // Whether a set that takes one leg for the other goes unnoticed: several cameras see it, and only
@@ -186,8 +187,7 @@ bool Tracker::labels_may_switch() const {
   return scene_.cameras.size() == 1 && config_.motion.model == MotionKind::kKneed;
 }
 
-// Takes the particles through a frame. Those that leap have the legs' names exchanged, and get them
-// back.
+// Takes the particles through a frame. Where left and right have switched, legs are mirrored back.
 FrameRecord Tracker::follow(const SceneEvidence& evidence) {
   const WalkerFilterContext now = context(false);
   std::optional<double> expected;  // place in the stride
@@ -217,8 +217,8 @@ void Tracker::refine(const SceneEvidence& evidence, FrameRecord& record) const {
 void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
   FrameRecord record = follow(evidence);
   ++frame_;
-  // Whoever lost the start is not followed any more: nothing can tell what it would say now.
-  record.modes.exchanged += p_legs_swapped_ * (1 - 2 * record.modes.exchanged);
+  // A hypothesis that lost the start is not followed any more, so its evidence is unknown now.
+  record.modes.p_legs_swapped += p_legs_swapped_ * (1 - 2 * record.modes.p_legs_swapped);
   if (record.filter.all_dead ||
       fading(record.mean_log_likelihood, figure_score(evidence, record.estimate))) {
     record.tracked = false;
@@ -249,12 +249,12 @@ void Tracker::see(const FrameEstimate& estimate) {
 // Whether a walker who was lost can be at a place: not far from where they were going.
 bool Tracker::within_reach(const Eigen::Vector2d& place, uint32_t frame) const {
   if (!last_seen_) return true;
-  constexpr double kNear = 0.5;   // m
-  constexpr double kStray = 0.8;  // m/s: they may stop or turn aside
+  // By hand: half a step, and a change of speed or heading as of somebody who stops or turns aside.
+  constexpr double kNear = 0.5, kTurnsAside = 0.8;  // m, m/s
   const double elapsed = scene_.dt * (frame - last_seen_->frame);
-  if (elapsed > config_.seek) return true;
+  if (elapsed > config_.reacquire_within) return true;
   const Eigen::Vector2d expected = last_seen_->position + elapsed * last_seen_->velocity;
-  return (place - expected).norm() < kNear + kStray * elapsed;
+  return (place - expected).norm() < kNear + kTurnsAside * elapsed;
 }
 
 // Whether the track is lost: for a while the likelihood has been far below its own recent median,
@@ -264,16 +264,16 @@ bool Tracker::fading(double log_likelihood, double figure) {
   std::nth_element(past.begin(), past.begin() + static_cast<long>(past.size() / 2), past.end());
   const double least =
       std::max(config_.lost_below * past[past.size() / 2], config_.detector.least_score);
-  const bool beaten = figure > least && log_likelihood < kFigureShare * figure;
+  const bool outscored = figure > least && log_likelihood < kFigureShare * figure;
   const bool below = log_likelihood < least;
-  frames_beaten_ = beaten ? frames_beaten_ + 1 : 0;
-  frames_below_ = below || beaten ? frames_below_ + 1 : 0;
+  frames_outscored_ = outscored ? frames_outscored_ + 1 : 0;
+  frames_below_ = below || outscored ? frames_below_ + 1 : 0;
   // Bad frames do not become the measure of good ones.
   if (frames_below_ == 0) log_likelihoods_.push_back(log_likelihood);
-  if (static_cast<int>(log_likelihoods_.size()) > frames_in(config_.recall, scene_.dt))
+  if (static_cast<int>(log_likelihoods_.size()) > frames_in(config_.evidence_window, scene_.dt))
     log_likelihoods_.pop_front();
   return frames_below_ >= frames_in(config_.lost_after, scene_.dt) ||
-         frames_beaten_ >= frames_in(config_.beaten_after, scene_.dt);
+         frames_outscored_ >= frames_in(config_.outscored_after, scene_.dt);
 }
 
 }  // namespace walktrack

@@ -34,13 +34,14 @@ struct TrackerConfig {
   FilterConfig filter;
   DetectorConfig detector;
   StartConfig start;
-  double lost_below = 0.35;   // share of the likelihood's own median at which the track is lost
-  double lost_after = 1;      // s below it: so long may a walker be hidden
-  double beaten_after = 0.4;  // s of explaining the images worse than a stiff figure in its place
-  int samples = 20;           // particles kept of every frame to show the spread
-  double recall = 1.5;        // s of past likelihoods that the median is taken over
-  double seek = 4;            // s for which a lost walker is looked for only where they can be
-  double model_error = 1;     // multiplies what bands hold beyond the particles' spread
+  double lost_below = 0.35;  // share of the likelihood's own median at which the track is lost
+  double lost_after = 1;     // s below it: so long may a walker be hidden
+  double outscored_after =
+      0.4;           // s of explaining the images worse than a stiff figure in its place
+  int samples = 20;  // particles kept of every frame to show the spread
+  double evidence_window = 1.5;  // s of past likelihoods that the median is taken over
+  double reacquire_within = 4;   // s for which a lost walker is looked for only where they can be
+  double model_error = 1;        // multiplies what bands hold beyond the particles' spread
   EstimateKind estimate = EstimateKind::kMap;
 };
 
@@ -56,7 +57,7 @@ struct TrackerState {
   FilterState<WalkerParticle> filter;
   std::optional<LastSeen> last_seen;
   std::deque<double> log_likelihoods;
-  int frames_below = 0, frames_beaten = 0, losses = 0;
+  int frames_below = 0, frames_outscored = 0, losses = 0;
   double p_legs_swapped = 0;
   std::optional<Stature> stature;
 };
@@ -140,7 +141,7 @@ class Tracker {
   bool attempt(const DetectedWalk& detected, std::vector<FrameRecord>& out);
   struct Trial;
   void follow_rest(Trial& trial);
-  Trial with_legs_exchanged(const Trial& trial);
+  Trial with_mirrored_legs(const Trial& trial);
   Trial with_legs_named(Trial first);
   void begin(const DetectedWalk& detected, std::optional<double> stride_phase);
   void compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
@@ -172,7 +173,7 @@ class Tracker {
   size_t slight_walks_ = 0;  // windows in a row that show somebody who may as well stand
   std::deque<std::optional<std::vector<Place>>> candidates_;  // of frames that were asked
   std::optional<StartHypotheses> hypotheses_;
-  // The contest's frames that are not in the window, to refine what it says of them.
+  // Frames of the start hypotheses that are not in the window, to refine what it says of them.
   std::deque<SceneEvidence> hypotheses_frames_;
   uint32_t starts_ = 0;          // how often a search has ended: keys the random streams
   bool start_is_given_ = false;  // the last one
@@ -180,7 +181,7 @@ class Tracker {
   Pose mean_pose_;
   std::optional<LastSeen> last_seen_;
   std::deque<double> log_likelihoods_;
-  int frames_below_ = 0, frames_beaten_ = 0;
+  int frames_below_ = 0, frames_outscored_ = 0;
   int losses_ = 0;
   double p_legs_swapped_ = 0;  // probability that the start has chosen the wrong leg
   std::optional<Stature> stature_;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/anthropometry.h"
 #include "core/conventions.h"
 #include "core/parallel_for.h"
 #include "tracker/detect/keypoint_lines.h"
@@ -16,13 +17,13 @@ namespace walktrack {
 
 namespace {
 
-constexpr double kUsualSpeed = 1.25;  // m/s
+using anthropometry::kUsualSpeed;
 // Frames before a walk are kept for so long, s, to follow somebody who stood there first.
 constexpr double kStandingKept = 3;
-// Log-odds at which the pictures agree with the names of the legs, and at which they exchange them:
-// set on 80 made walks, four of which were exchanged rightly and one wrongly
+// Log-odds at which the pictures agree with the names of the legs, and at which they swap them:
+// set on 80 made walks, four of which were swapped rightly and one wrongly
 // (reports/left_and_right.md).
-constexpr double kAgreed = 1.5, kExchanged = 0.75;
+constexpr double kAgreed = 1.5, kSwapped = 0.75;
 
 // A probability after evidence against it, nats.
 double updated(double probability, double against) {
@@ -272,8 +273,8 @@ void Tracker::follow_rest(Trial& trial) {
   if (scene_.cameras.size() == 1) trial.legs = legs_log_odds(scene_, window_, trial.records);
 }
 
-// The trial again as far as its start was decided, and then with the legs exchanged.
-Tracker::Trial Tracker::with_legs_exchanged(const Trial& trial) {
+// The trial again as far as its start was decided, and then with the legs swapped.
+Tracker::Trial Tracker::with_mirrored_legs(const Trial& trial) {
   Trial other;
   other.settled = trial.settled;
   const auto start = trial.records.begin();
@@ -286,14 +287,14 @@ Tracker::Trial Tracker::with_legs_exchanged(const Trial& trial) {
   return other;
 }
 
-// A start names the legs by outlines, which from the side look the same with the legs exchanged.
+// A start names the legs by outlines, which from the side look the same with the legs swapped.
 // Where the pictures do not quite agree, both names are tried.
 Tracker::Trial Tracker::with_legs_named(Trial first) {
   double doubt = first.last->p_legs_swapped, odds = first.legs;
   if (odds < kAgreed) {
-    Trial other = with_legs_exchanged(first);
+    Trial other = with_mirrored_legs(first);
     odds = 0.5 * (first.legs - other.legs);
-    if (other.last && odds < -kExchanged) {
+    if (other.last && odds < -kSwapped) {
       first = std::move(other);
       doubt = 0.5;  // the outlines' word is not worth much here
       odds = -odds;
@@ -301,7 +302,8 @@ Tracker::Trial Tracker::with_legs_named(Trial first) {
   }
   first.last->p_legs_swapped = updated(doubt, odds);
   resume(*first.last);
-  for (FrameRecord& record : first.records) record.modes.exchanged = first.last->p_legs_swapped;
+  for (FrameRecord& record : first.records)
+    record.modes.p_legs_swapped = first.last->p_legs_swapped;
   return first;
 }
 
@@ -321,7 +323,7 @@ bool Tracker::attempt(const DetectedWalk& detected, std::vector<FrameRecord>& ou
     std::deque<SceneEvidence> frames = std::exchange(window_, {});
     candidates_.clear();
     for (size_t i = 0; i < trial.records.size(); ++i) refine(frames[i], trial.records[i]);
-    // A contest that goes on has all of the window's frames before it.
+    // Start hypotheses that go on have all of the window's frames before it.
     if (hypotheses_) hypotheses_frames_ = std::move(frames);
     std::move(trial.records.begin(), trial.records.end(), std::back_inserter(out));
     return true;

@@ -34,7 +34,8 @@ void predict(const MotionContext& motion, const Streams& streams, bool first,
     rngs.emplace_back(streams.seed, Purpose::kTorque, streams.frame,
                       static_cast<uint32_t>(streams.start + i));
   if (!first) return propagate(motion, particles, rngs, outcomes);
-  for (size_t i = 0; i < particles.size(); ++i) outcomes[i] = arrive(motion, particles[i], rngs[i]);
+  for (size_t i = 0; i < particles.size(); ++i)
+    outcomes[i] = draw_first_noise(motion, particles[i], rngs[i]);
 }
 
 void summarise(const WalkerFilterContext& context, const ParticleSet<WalkerParticle>& set,

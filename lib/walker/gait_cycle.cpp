@@ -37,12 +37,4 @@ std::optional<GaitCycle> describe_cycle(const Walker& walker, const LimitCycle& 
   return gait;
 }
 
-std::optional<GaitCycle> find_gait(const Walker& walker, const VectorXd& guess,
-                                   const GaitOptions& options) {
-  const auto cycle =
-      find_limit_cycle(step_map(walker, options), section_rows(walker), guess, options.cycle);
-  if (!cycle) return std::nullopt;
-  return describe_cycle(walker, *cycle, options);
-}
-
 }  // namespace walktrack

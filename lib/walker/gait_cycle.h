@@ -31,8 +31,4 @@ struct GaitCycle {
 std::optional<GaitCycle> describe_cycle(const Walker& walker, const LimitCycle& cycle,
                                         const GaitOptions& options);
 
-// Newton from a guess of (q, qd) on the section.
-std::optional<GaitCycle> find_gait(const Walker& walker, const Eigen::VectorXd& guess,
-                                   const GaitOptions& options = {});
-
 }  // namespace walktrack

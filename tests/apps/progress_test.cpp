@@ -111,7 +111,7 @@ TEST(TrackCommand, EndsWithWhatAPersonAndAProgramWantToKnow) {
   const TemporaryFolder folder;
   const ProgramResult result = run_walktrack(
       {"track", kDemo + "scene.yaml", "-o", folder / "out", "--no-overlay", "--json-line", "--set",
-       "filter.particles=100", "--set", "gates.least_steps=90", "--set", "start.particles=200"});
+       "filter.particles=100", "--set", "quality.least_steps=90", "--set", "start.particles=200"});
   ASSERT_EQ(result.exit_code, 4) << result.err;
   EXPECT_THAT(result.err, AllOf(HasSubstr("\n  steps        "), HasSubstr("\n  speed        1."),
                                 HasSubstr(" m/s ("), HasSubstr("\n  cadence      "),

@@ -64,7 +64,7 @@ void count_particles() {
   ParticleScene scene = particle_scene(64);
   const MotionContext context = scene.context();
   std::vector<Rng> rngs;
-  for (uint32_t i = 0; i < scene.particles.size(); ++i) rngs.emplace_back(1, Purpose::kPose, 0, i);
+  for (uint32_t i = 0; i < scene.particles.size(); ++i) rngs.emplace_back(1, Purpose::kMoves, 0, i);
   std::vector<Outcome> outcomes(scene.particles.size());
   count("propagate", 1, [&](size_t) {
     propagate(context, scene.particles, rngs, outcomes);

@@ -240,7 +240,7 @@ void tracker_propagate(benchmark::State& state) {
   static const ParticleScene scene = particle_scene(kPoses);
   const MotionContext context = scene.context();
   std::vector<Rng> rngs;
-  for (uint32_t i = 0; i < kPoses; ++i) rngs.emplace_back(1, Purpose::kPose, 0, i);
+  for (uint32_t i = 0; i < kPoses; ++i) rngs.emplace_back(1, Purpose::kMoves, 0, i);
   std::vector<Outcome> outcomes(kPoses);
   for (auto _ : state) {
     std::vector<WalkerParticle> particles = scene.particles;

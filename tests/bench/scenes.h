@@ -8,6 +8,7 @@
 #include "gait/gait_prior.h"
 #include "observation/capsules.h"
 #include "observation/planes.h"
+#include "tests/motion_context.h"
 #include "tracker/motion/motion.h"
 
 namespace walktrack {

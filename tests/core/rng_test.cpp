@@ -24,7 +24,7 @@ TEST(Rng, EqualKeysGiveEqualStreamsAndAnyPartOfTheKeyChangesThem) {
   const double reference = first(Rng(7, Purpose::kTest, 3, 5));
   EXPECT_EQ(first(Rng(7, Purpose::kTest, 3, 5)), reference);
   EXPECT_NE(first(Rng(8, Purpose::kTest, 3, 5)), reference);
-  EXPECT_NE(first(Rng(7, Purpose::kPose, 3, 5)), reference);
+  EXPECT_NE(first(Rng(7, Purpose::kMoves, 3, 5)), reference);
   EXPECT_NE(first(Rng(7, Purpose::kTest, 4, 5)), reference);
   EXPECT_NE(first(Rng(7, Purpose::kTest, 3, 6)), reference);
 }

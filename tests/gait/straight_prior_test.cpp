@@ -48,7 +48,7 @@ TEST_F(StraightPriorTest, ValidNodesAreStableCyclesThatNeitherBrakeNorPull) {
         EXPECT_GT(step->least_normal, 0);
         EXPECT_LT(largest_multiplier(*cycle_jacobian(model, node.gait)), 1);
       }
-  EXPECT_EQ(valid, 217u);  // of 385: see lib/gait/README.md
+  EXPECT_EQ(valid, 217u);  // of 385: see lib/gait/reports/straight_gaits.md
   EXPECT_EQ(level, 67u);   // of 77
 }
 

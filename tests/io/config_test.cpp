@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "io/config/parameters.h"
 #include "io/config/presets.h"
+#include "io/config/renamed_keys.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 
@@ -36,6 +37,32 @@ TEST(ConfigFile, NamesLineKeyFoundAndAllowed) {
               HasSubstr("c.yaml:2: seed: found the key twice"));
   EXPECT_THAT(message_for_file("- 1\n"), HasSubstr("found a list, allowed: a map of keys"));
   EXPECT_THAT(message_for_file("seed: {a\n"), HasSubstr("broken YAML"));
+}
+
+// For one release files and --set may call a key as they did before; a message says what to write.
+TEST(ConfigFile, TakesTheKeysOfTheLastReleaseAndNamesTheNewOnes) {
+  const TemporaryFolder folder;
+  ConfigWithOrigin config;
+  apply_config_file(config, folder.write("old.yaml", "seed: 1\ngates: {least_steps: 3}\n"));
+  apply_setting(config, "motion.misfit=2", "--set");
+  EXPECT_EQ(config.values.quality.least_steps, 3);
+  EXPECT_EQ(config.values.tracker.motion.residual_scale, 2);
+  EXPECT_EQ(config.origin.at("motion.residual_scale"), "--set");
+  EXPECT_THAT(config.renamed,
+              testing::ElementsAre(
+                  testing::EndsWith("old.yaml:2: gates.least_steps is called quality.least_steps "
+                                    "now; the next release refuses the old name"),
+                  StartsWith("--set: motion.misfit is called motion.residual_scale now")));
+  EXPECT_THAT(message_for_file("motion: {misfit: -1}\n"), HasSubstr("motion.misfit: found '-1'"));
+}
+
+TEST(ConfigTable, EveryRenamedKeyIsOneOfToday) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : config_values(Config{})) keys.push_back(key);
+  for (const RenamedKey& renamed : renamed_keys()) {
+    EXPECT_THAT(keys, testing::Contains(renamed.now)) << renamed.before;
+    EXPECT_THAT(keys, testing::Not(testing::Contains(renamed.before)));
+  }
 }
 
 // What the fuzzer starts from should reach every parameter.

@@ -13,7 +13,7 @@
 
 #include "core/errors.h"
 #include "jobs/batch/batch_changes.h"
-#include "jobs/batch/claim.h"
+#include "jobs/batch/folder_lock.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 
@@ -170,7 +170,7 @@ TEST_F(BatchTest, ClearsWhatAWorkerLeftThatWasKilledOverTheSummary) {
   EXPECT_FALSE(fs::exists(job_.output / "summary.csv.7112345.tmp"));
   for (const char* name : {"notes.tmp", "backup.2024.tmp", "probe.txt", "stale.txt", "claim"})
     EXPECT_EQ(read_file(job_.output / name), "mine") << name;
-  EXPECT_FALSE(fs::exists(job_.output / Claim::kFile));
+  EXPECT_FALSE(fs::exists(job_.output / FolderLock::kFile));
 }
 
 TEST_F(BatchTest, ShardsCoverEverySequenceOnce) {
@@ -205,7 +205,7 @@ TEST_F(BatchTest, StopsWhenAskedAndLeavesTheRestWaiting) {
   EXPECT_TRUE(outcome.interrupted);
   EXPECT_EQ(outcome.waiting, 2);
   EXPECT_FALSE(fs::exists(job_.output / "a/failure.txt"));
-  EXPECT_FALSE(fs::exists(job_.output / "a" / Claim::kFile));
+  EXPECT_FALSE(fs::exists(job_.output / "a" / FolderLock::kFile));
 }
 
 // A worker that begins when another has failed at a sequence already takes that for an earlier try,
@@ -226,7 +226,7 @@ TEST_F(BatchTest, LeavesClaimedSequencesAlone) {
   add("mine", "ok");
   add("theirs", "ok");
   fs::create_directories(job_.output / "theirs");
-  const auto claim = Claim::try_take(job_.output / "theirs");
+  const auto claim = FolderLock::try_take(job_.output / "theirs");
   const BatchOutcome outcome = run_batch(job_, {});
   EXPECT_EQ(outcome.complete, 1);
   EXPECT_EQ(outcome.waiting, 1);
@@ -235,7 +235,7 @@ TEST_F(BatchTest, LeavesClaimedSequencesAlone) {
 TEST_F(BatchTest, ClearsTheClaimOfAWorkerKilledAfterItsLastFile) {
   add("done", "ok");
   run_batch(job_, {});
-  const fs::path claim = job_.output / "done" / Claim::kFile;
+  const fs::path claim = job_.output / "done" / FolderLock::kFile;
   std::ofstream(claim) << "elsewhere.1";
   EXPECT_EQ(run_batch(job_, {}).complete, 1);
   EXPECT_TRUE(fs::exists(claim));  // it may be alive
@@ -296,37 +296,37 @@ TEST_F(BatchTest, ChangesAreNamedOnce) {
   EXPECT_EQ(text, "\n  seed 1 -> 2: a, c\n  x.mp4 has changed: b");
 }
 
-TEST(Claim, IsGivenToOneAndBack) {
+TEST(FolderLock, IsGivenToOneAndBack) {
   const TemporaryFolder folder;
   {
-    const auto first = Claim::try_take(folder.path());
+    const auto first = FolderLock::try_take(folder.path());
     ASSERT_TRUE(first);
     first->renew();
-    EXPECT_FALSE(Claim::try_take(folder.path()));
+    EXPECT_FALSE(FolderLock::try_take(folder.path()));
   }
-  EXPECT_TRUE(Claim::try_take(folder.path()));
+  EXPECT_TRUE(FolderLock::try_take(folder.path()));
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
-TEST(Claim, OfADeadWorkerIsTakenOver) {
+TEST(FolderLock, OfADeadWorkerIsTakenOver) {
   const TemporaryFolder folder;
-  const std::string file = folder.write(Claim::kFile, "elsewhere.1");
+  const std::string file = folder.write(FolderLock::kFile, "elsewhere.1");
   fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::seconds(100));
-  EXPECT_FALSE(Claim::try_take(folder.path(), 200));
-  EXPECT_TRUE(Claim::try_take(folder.path(), 60));
+  EXPECT_FALSE(FolderLock::try_take(folder.path(), 200));
+  EXPECT_TRUE(FolderLock::try_take(folder.path(), 60));
 }
 
-TEST(Claim, OfAKilledProcessOfThisMachineIsTakenOverAtOnce) {
+TEST(FolderLock, OfAKilledProcessOfThisMachineIsTakenOverAtOnce) {
   const TemporaryFolder folder;
   folder.write(".walktrack_stale.elsewhere.1",
                "");  // of one that was killed in the middle of a takeover
   const pid_t worker = fork();
-  if (worker == 0) _exit(Claim::try_take(folder.path()) ? 0 : 1);  // and gives nothing back
+  if (worker == 0) _exit(FolderLock::try_take(folder.path()) ? 0 : 1);  // and gives nothing back
   int status = 0;
   ASSERT_EQ(waitpid(worker, &status, 0), worker);
   ASSERT_EQ(status, 0);
-  EXPECT_TRUE(fs::exists(folder / Claim::kFile));
-  EXPECT_TRUE(Claim::try_take(folder.path()));
+  EXPECT_TRUE(fs::exists(folder / FolderLock::kFile));
+  EXPECT_TRUE(FolderLock::try_take(folder.path()));
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 

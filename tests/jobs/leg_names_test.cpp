@@ -60,7 +60,7 @@ struct Video {
     return out;
   }
 
-  std::vector<FrameRecord> exchanged() const {
+  std::vector<FrameRecord> swapped() const {
     std::vector<FrameRecord> records = truth;
     for (FrameRecord& record : records) mirror_legs(scene.model.body, record);
     return records;
@@ -75,7 +75,7 @@ TEST(LegNames, AreToldFromEitherSide) {
   for (const double azimuth_deg : {-90.0, 90.0}) {
     const Video video(azimuth_deg);
     EXPECT_GT(legs_log_odds(video.scene, video.window, video.truth), 0.5) << azimuth_deg;
-    EXPECT_LT(legs_log_odds(video.scene, video.window, video.exchanged()), -0.5) << azimuth_deg;
+    EXPECT_LT(legs_log_odds(video.scene, video.window, video.swapped()), -0.5) << azimuth_deg;
   }
 }
 
@@ -104,7 +104,7 @@ cameras:
 )";
 
 // Particles that take one leg for the other while they pass give the names back: with one of these
-// seeds the legs were exchanged in 29 % of the frames.
+// seeds the legs were swapped in 29 % of the frames.
 TEST(LegNames, OutlastTheirPassing) {
   const TemporaryFolder folder;
   const RenderFile file = read_render_file(folder.write("options.yaml", kBlackTrousers));

@@ -103,8 +103,8 @@ TEST(PlantedFaults, EachLeavesABand) {
   const Vector3d start = base.joints[0][Joint::kPelvis];
   using Change = std::function<void(JointPositions&, size_t)>;
   const std::map<std::string, Change> faults{
-      {"legs exchanged", [](JointPositions& j, size_t) { mirror_legs(j); }},
-      {"legs exchanged for a second",
+      {"legs swapped", [](JointPositions& j, size_t) { mirror_legs(j); }},
+      {"legs swapped for a second",
        [](JointPositions& j, size_t i) {
          if (i >= 60 && i < 90) mirror_legs(j);
        }},

@@ -1,5 +1,5 @@
-// The whole table of extremes, a minute of one core: what lib/walker/README.md shows is what the
-// command makes.
+// The whole table of extremes, a minute of one core: what the report in lib/walker/reports shows is
+// what the command makes.
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -25,8 +25,8 @@ std::vector<std::string> split(const std::string& text, char at) {
 // "| nominal | a / a / a | ..." as scenario -> cells, each "a / a / a" over the integrators.
 std::map<std::string, std::vector<std::string>> documented_table() {
   std::map<std::string, std::vector<std::string>> table;
-  const std::string readme =
-      read_text_file(std::string(WALKTRACK_SOURCE_DIR) + "/lib/walker/README.md", 1 << 20);
+  const std::string readme = read_text_file(
+      std::string(WALKTRACK_SOURCE_DIR) + "/lib/walker/reports/integration_extremes.md", 1 << 20);
   for (const std::string& line : split(readme, '\n')) {
     const std::vector<std::string> cells = split(line, '|');
     if (cells.size() != 9 || cells[2].size() != 11) continue;
@@ -41,7 +41,7 @@ char letter(const std::string& word) {
   return word == "accurate" ? 'a' : 'd';
 }
 
-TEST(StabilityTable, IsTheOneInTheReadme) {
+TEST(StabilityTable, IsTheOneInTheReport) {
   StabilityJob job;
   job.threads = hardware_threads();
   const auto rows = stability_table(job);

@@ -20,18 +20,19 @@ Scene scene_of(const std::vector<std::string>& cameras) {
   return scene;
 }
 
-std::vector<SweepKnob> knobs_of(const std::vector<std::string>& words) {
-  return sweep_knobs(words, scene_of({"side", "front"}), {});
+std::vector<SweptParameter> parameters_of(const std::vector<std::string>& words) {
+  return swept_parameters(words, scene_of({"side", "front"}), {});
 }
 
-TEST(SweepKnobs, AreReadFromWords) {
-  const auto knobs = knobs_of({"particles=50:100,scale=60", "motion.misfit=0.5:1"});
-  ASSERT_EQ(knobs.size(), 3u);
-  EXPECT_EQ(knobs[0].name, "particles");
-  EXPECT_THAT(knobs[0].values, ElementsAre("50", "100"));
-  EXPECT_EQ(knobs[2].name, "motion.misfit");
-  EXPECT_THAT(knobs_of({"model=markov:kneed"})[0].values, ElementsAre("markov", "kneed"));
-  EXPECT_TRUE(knobs_of({}).empty());
+TEST(SweepParameters, AreReadFromWords) {
+  const auto parameters =
+      parameters_of({"particles=50:100,scale=60", "motion.residual_scale=0.5:1"});
+  ASSERT_EQ(parameters.size(), 3u);
+  EXPECT_EQ(parameters[0].name, "particles");
+  EXPECT_THAT(parameters[0].values, ElementsAre("50", "100"));
+  EXPECT_EQ(parameters[2].name, "motion.residual_scale");
+  EXPECT_THAT(parameters_of({"model=markov:kneed"})[0].values, ElementsAre("markov", "kneed"));
+  EXPECT_TRUE(parameters_of({}).empty());
 }
 
 struct Mistake {
@@ -39,21 +40,21 @@ struct Mistake {
   std::string message;
 };
 
-TEST(SweepKnobs, MistakesAreNamed) {
+TEST(SweepParameters, MistakesAreNamed) {
   const std::vector<Mistake> mistakes{
       {{"particles"}, "--over: found 'particles', allowed: NAME=VALUE:VALUE"},
       {{"particles="}, "NAME=VALUE"},
       {{"=3"}, "NAME=VALUE"},
       {{""}, "NAME=VALUE"},
-      {{"particels=3"}, "found an unknown knob, did you mean 'particles'?"},
-      {{"step=3"}, "--over: step: found an unknown knob"},
+      {{"particels=3"}, "found an unknown parameter, did you mean 'particles'?"},
+      {{"step=3"}, "--over: step: found an unknown parameter"},
       {{"filter.particle=3"}, "did you mean 'filter.particles'?"},
       {{"path=flat"}, "motion.path: found 'flat', allowed: spatial, sagittal"},
       {{"model=legs"}, "motion.model: found 'legs', allowed: kneed, anthropomorphic, markov"},
       {{"particles=0"}, "filter.particles: found '0', allowed: a whole number from 1"},
       {{"particles=10::20"}, "filter.particles: found ''"},
       {{"particles=10:10"}, "particles: found '10', allowed: every value once"},
-      {{"particles=10,filter.particles=20"}, "allowed: every knob once"},
+      {{"particles=10,filter.particles=20"}, "allowed: every parameter once"},
       {{"cameras=0"}, "cameras: found '0', allowed: 1 to 2, or names of side, front joined by +"},
       {{"cameras=3"}, "found '3'"},
       {{"cameras=1.5"}, "found '1.5'"},
@@ -64,7 +65,7 @@ TEST(SweepKnobs, MistakesAreNamed) {
       {{"config=quick"}, "quick: found no such file, allowed: a file, or a preset: fast, balanced"},
   };
   for (const Mistake& mistake : mistakes)
-    EXPECT_THAT(message_of<UsageError>([&] { knobs_of(mistake.words); }),
+    EXPECT_THAT(message_of<UsageError>([&] { parameters_of(mistake.words); }),
                 HasSubstr(mistake.message));
 }
 
@@ -75,7 +76,7 @@ TEST(SweepGrid, HasEveryCombinationOnce) {
   EXPECT_THAT(sweep_grid({}), ElementsAre(SweepSetting{}));  // as configured
 }
 
-TEST(SweepGrid, RichestIsTheLargestOfEachKnobWhereverItStands) {
+TEST(SweepGrid, RichestIsTheLargestOfEachParameterWhereverItStands) {
   EXPECT_THAT(richest_setting({{"particles", {"300", "1000", "75"}},
                                {"cameras", {"side", "side+front", "front"}},
                                {"terms", {"background+flow", "all", "flow"}},
@@ -87,23 +88,23 @@ TEST(SweepGrid, RichestIsTheLargestOfEachKnobWhereverItStands) {
 TEST(SweepSetting, SwitchesKeypoints) {
   Scene scene = scene_of({"side"});
   ConfigWithOrigin config;
-  const std::vector<SweepKnob> knobs{{"keypoints", {"off", "on"}}};
-  apply_sweep_setting(knobs, {"on"}, scene, config);
+  const std::vector<SweptParameter> parameters{{"keypoints", {"off", "on"}}};
+  apply_sweep_setting(parameters, {"on"}, scene, config);
   EXPECT_EQ(config.values.observation.keypoints.enabled, TermSetting::kOn);
-  apply_sweep_setting(knobs, {"off"}, scene, config);
+  apply_sweep_setting(parameters, {"off"}, scene, config);
   EXPECT_EQ(config.values.observation.keypoints.enabled, TermSetting::kOff);
-  EXPECT_THAT(richest_setting(knobs), ElementsAre("on"));
+  EXPECT_THAT(richest_setting(parameters), ElementsAre("on"));
 }
 
 TEST(SweepSetting, ReachesSceneAndConfiguration) {
-  const std::vector<SweepKnob> knobs{{"particles", {"50"}},
-                                     {"scale", {"80"}},
-                                     {"terms", {"background+flow"}},
-                                     {"cameras", {"front"}},
-                                     {"arms", {"true"}}};
+  const std::vector<SweptParameter> parameters{{"particles", {"50"}},
+                                               {"scale", {"80"}},
+                                               {"terms", {"background+flow"}},
+                                               {"cameras", {"front"}},
+                                               {"arms", {"true"}}};
   Scene scene = scene_of({"side", "front"});
   ConfigWithOrigin config;
-  apply_sweep_setting(knobs, {"50", "80", "background+flow", "front", "true"}, scene, config);
+  apply_sweep_setting(parameters, {"50", "80", "background+flow", "front", "true"}, scene, config);
   EXPECT_EQ(config.values.tracker.filter.particles, 50);
   EXPECT_EQ(config.values.observation.person_px, 80);
   EXPECT_TRUE(config.values.observation.background.enabled);
@@ -115,15 +116,15 @@ TEST(SweepSetting, ReachesSceneAndConfiguration) {
   EXPECT_EQ(config.origin.at("filter.particles"), "--over");
 }
 
-TEST(SweepSetting, OtherKnobsComeOnTopOfAConfigWhereverItStands) {
-  const std::vector<SweepKnob> knobs{{"particles", {"7"}}, {"config", {"fast"}}};
+TEST(SweepSetting, OtherParametersComeOnTopOfAConfigWhereverItStands) {
+  const std::vector<SweptParameter> parameters{{"particles", {"7"}}, {"config", {"fast"}}};
   Scene scene = scene_of({"side"});
   ConfigWithOrigin config;
-  apply_sweep_setting(knobs, {"7", "fast"}, scene, config);
+  apply_sweep_setting(parameters, {"7", "fast"}, scene, config);
   EXPECT_EQ(config.values.tracker.filter.particles, 7);
 }
 
-TEST(SweepSetting, IsCalledByItsKnobs) {
+TEST(SweepSetting, IsCalledByItsParameters) {
   EXPECT_EQ(setting_name({{"particles", {"50"}}, {"arms", {"true"}}}, {"50", "true"}),
             "particles=50 arms=true");
 }

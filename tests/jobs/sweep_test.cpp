@@ -54,7 +54,7 @@ cameras:
     job.scene = read_scene(folder_->path() / "scene/scene.yaml");
     job.config.values.tracker.start.particles = 10;
     job.config.values.tracker.filter.moves = 1;
-    job.knobs = sweep_knobs(over, job.scene, job.config);
+    job.parameters = swept_parameters(over, job.scene, job.config);
     job.seeds = 2;
     job.output = folder_->path() / name;
     return job;
@@ -172,7 +172,7 @@ SweepRun run_of(double error_mm, double seconds, double lost = 0) {
 
 SweepReport made_report(std::vector<std::vector<SweepRun>> runs) {
   SweepReport report;
-  report.knobs = {{"particles", {}}};
+  report.parameters = {{"particles", {}}};
   for (auto& each : runs) {
     report.rows.push_back({{std::to_string(report.rows.size())}, std::move(each)});
   }
@@ -186,7 +186,7 @@ TEST(SweepSummary, MeansDeviationsAndTheFront) {
       {run_of(30, 0.1), run_of(NAN, 0.1, 1)},  // one seed found nobody
       {run_of(20, 0.5)},
       {run_of(25, 0.6)},       // beaten by the one before
-      {run_of(5, 0.01, 0.3)},  // lost for longer than the gate allows
+      {run_of(5, 0.01, 0.3)},  // lost for longer than the check allows
   });
   EXPECT_DOUBLE_EQ(report.rows[0].error_mm, 12);
   EXPECT_DOUBLE_EQ(report.rows[0].error_sd_mm, 2);

@@ -43,8 +43,8 @@ class QualityOf : public testing::Test {
 };
 
 // Of a track whose feet were left where they were.
-Quality quality_of(const TrackedFrames& frames, const GateConfig& gates = {}) {
-  return walktrack::quality_of(frames, frames, gates, kLeg);
+Quality quality_of(const TrackedFrames& frames, const QualityConfig& limits = {}) {
+  return walktrack::quality_of(frames, frames, limits, kLeg);
 }
 
 const QualityMeasure& named(const Quality& quality, const std::string& name) {
@@ -64,33 +64,33 @@ TEST_F(QualityOf, NobodyTrackedLosesNothing) {
   EXPECT_EQ(named(quality_of(standing(0, {})), "leg_swaps_per_min").value, 0);
 }
 
-TEST_F(QualityOf, FeetBelowTheGroundFailTheirGate) {
+TEST_F(QualityOf, FeetBelowTheGroundFailTheirCheck) {
   FrameRecord sunken = still();
   sunken.estimate.joints[Joint::kLeftToe].z() = -0.02;
   const TrackedFrames frames = standing(12, {}, sunken);
-  GateConfig gates;
-  gates.least_steps = 0;
-  gates.penetration = 0.015;
-  const Quality quality = quality_of(frames, gates);
+  QualityConfig limits;
+  limits.least_steps = 0;
+  limits.penetration = 0.015;
+  const Quality quality = quality_of(frames, limits);
   EXPECT_DOUBLE_EQ(named(quality, "penetration_mm").value, 20);
   EXPECT_THAT(first_failure(quality), testing::HasSubstr("planted: 20 mm (allowed: at most 15)"));
-  gates.penetration = 0.025;
-  EXPECT_EQ(first_failure(quality_of(frames, gates)), "");
+  limits.penetration = 0.025;
+  EXPECT_EQ(first_failure(quality_of(frames, limits)), "");
 }
 
 // Feet that were planted tell little of a track that fails.
-TEST_F(QualityOf, GatesOnFeetAreForWhatWasTracked) {
+TEST_F(QualityOf, LimitsOnFeetAreForWhatWasTracked) {
   FrameRecord sunken = still();
   sunken.estimate.joints[Joint::kLeftToe].z() = -0.02;
   const TrackedFrames moving = standing(12, {}, sunken), planted = standing(12, {}, still());
-  GateConfig gates;
-  gates.least_steps = 0;
-  gates.penetration = 0.015;
-  const Quality quality = walktrack::quality_of(planted, moving, gates, kLeg);
+  QualityConfig limits;
+  limits.least_steps = 0;
+  limits.penetration = 0.015;
+  const Quality quality = walktrack::quality_of(planted, moving, limits, kLeg);
   EXPECT_EQ(named(quality, "penetration_mm").value, 0);
   EXPECT_TRUE(named(quality, "penetration_mm").passed());
   EXPECT_FALSE(named(quality, "tracked_penetration_mm").passed());
-  EXPECT_EQ(*named(quality, "tracked_foot_slide_mm").gate, 80);
+  EXPECT_EQ(*named(quality, "tracked_foot_slide_mm").limit, 80);
 }
 
 // Half a video before the start, in which somebody walks, is half a video lost.
@@ -147,9 +147,9 @@ TrackedFrames walking(const std::filesystem::path& file, const TestWalk& walk,
 
 TEST_F(QualityOf, SomebodyWhoWalksPasses) {
   const TrackedFrames frames = walking(folder_ / "walk", {}, [](double, JointPositions&) {});
-  GateConfig gates;
-  gates.least_steps = 0;
-  EXPECT_EQ(first_failure(quality_of(frames, gates)), "");
+  QualityConfig limits;
+  limits.least_steps = 0;
+  EXPECT_EQ(first_failure(quality_of(frames, limits)), "");
 }
 
 TEST_F(QualityOf, FeetThatGoElsewhereThanTheBodyFail) {
@@ -171,15 +171,16 @@ TEST_F(QualityOf, StepsAndSpeedsThatNobodyWalksFail) {
   };
   const Quality behind = quality_of(walking(folder_ / "behind", {}, dragged));
   EXPECT_FALSE(named(behind, "shortest_step_m").passed());
-  EXPECT_EQ(*named(behind, "shortest_step_m").gate, 0);
+  EXPECT_EQ(*named(behind, "shortest_step_m").limit, 0);
 }
 
 // Whoever reads that a check failed is told what it means and what to do; the guide lists them all.
 TEST(QualityWords, EveryCheckIsExplained) {
   const std::string guide =
-      read_text_file(WALKTRACK_SOURCE_DIR "/apps/guide/README.md", size_t{1} << 20);
+      read_text_file(WALKTRACK_SOURCE_DIR "/apps/guide/quality.md", size_t{1} << 20);
   for (const QualityWords& words : quality_words()) {
     EXPECT_TRUE(words.meaning.ends_with('.')) << words.name;
+    EXPECT_THAT(words.meaning + words.advice, testing::Not(testing::HasSubstr("_"))) << words.name;
     if (words.advice.empty()) continue;
     EXPECT_TRUE(words.advice.ends_with('.') || words.advice.ends_with('?')) << words.name;
     EXPECT_THAT(guide, testing::HasSubstr(words.what)) << words.name;
@@ -191,7 +192,7 @@ TEST_F(QualityOf, EveryCheckHasAdvice) {
   seen.fit.overlap = {0.8};
   for (const QualityMeasure& m : quality_of(standing(4, {}, seen))) {
     EXPECT_FALSE(m.meaning.empty()) << m.name;
-    EXPECT_EQ(m.gate.has_value(), !m.advice.empty()) << m.name;
+    EXPECT_EQ(m.limit.has_value(), !m.advice.empty()) << m.name;
   }
 }
 

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/conventions.h"
-#include "mechanics/rigid_body.h"
+#include "tests/mechanics/rigid_body.h"
 #include "tests/mechanics/sample_bodies.h"
 
 namespace walktrack {

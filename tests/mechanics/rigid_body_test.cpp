@@ -1,4 +1,4 @@
-#include "mechanics/rigid_body.h"
+#include "tests/mechanics/rigid_body.h"
 
 #include <cmath>
 

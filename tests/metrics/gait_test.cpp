@@ -63,7 +63,7 @@ TEST(Gait, AStepNeedsBothStrikes) {
   }
 }
 
-TEST(Gait, ExchangedSidesExchangeTheEvents) {
+TEST(Gait, SwappedSidesSwapTheEvents) {
   const Motion motion = walk_motion({});
   const Gait gait = gait_from_motion(motion);
   const Gait mirrored = gait_from_motion(

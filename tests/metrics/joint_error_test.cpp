@@ -109,7 +109,7 @@ TEST(JointErrors, OverTimeAreTheFramesErrorsWithHoles) {
   EXPECT_NEAR(e.by_frame[18], 0.01, 1e-12);
 }
 
-TEST(JointErrors, ExchangedLegsAreSwappedWhereTheFeetAreApart) {
+TEST(JointErrors, SwappedLegsAreSwappedWhereTheFeetAreApart) {
   const Motion truth = walk_motion({});
   const Motion bad = changed(truth, [](JointPositions& joints, size_t) { mirror_legs(joints); });
   size_t apart = 0;

@@ -39,7 +39,7 @@ TEST(LegSwaps, WalkingHasNone) {
   EXPECT_EQ(leg_swaps(Motion{}), 0u);
 }
 
-TEST(LegSwaps, CountsEveryExchangeOfSpreadLegs) {
+TEST(LegSwaps, CountsEverySwapOfSpreadLegs) {
   Motion motion = walk(100);
   swap_legs_from(40, motion);
   EXPECT_EQ(leg_swaps(motion), 1u);

@@ -39,7 +39,7 @@ TEST(FootPlantErrors, MeasureAnOffsetAlongTheWalkOnly) {
   EXPECT_NEAR(e.mean_error, 0.06, 1e-9);
 }
 
-TEST(FootPlantErrors, ExchangedSidesAreNotFound) {
+TEST(FootPlantErrors, SwappedSidesAreNotFound) {
   const TestWalk walk;
   const Motion bad =
       changed(walk_motion(walk), [](JointPositions& joints, size_t) { mirror_legs(joints); });

@@ -1,4 +1,4 @@
-// Whether terms weigh what they know (lib/observation/README.md, Weights), on walks rendered by an
+// Whether terms weigh what they know (lib/observation/reports/weights.md), on walks rendered by an
 // independent program. At the true pose a log-likelihood's slopes scatter as its curvature says,
 //   E[(sum of slopes)^2] = -E[sum of second derivatives];
 // the quotient of the right side by the left is the factor by which the term might weigh more.

@@ -3,7 +3,7 @@
 //
 // A band comes from seven seeds: its middle is their median, its half width the figure's floor (a
 // change that nobody cares about) plus two standard deviations of a seed. Now and then a seed
-// exchanges the legs, so the deviation is taken from the inner five: their range over its
+// swaps the legs, so the deviation is taken from the inner five: their range over its
 // expectation for normal values. What is compared with a band is the median of three seeds: two
 // deviations of a seed are three of such a median. A band always holds that of its first three. It
 // reaches as far as the figure gets better: an improvement never fails.

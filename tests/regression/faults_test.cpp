@@ -74,7 +74,7 @@ void tremble(SuiteResult& result) {
 
 TEST(PlantedFaults, InResultsTakeAFigureOutOfItsBand) {
   const std::map<std::string, Fault> faults{
-      {"legs exchanged", each_row(mirror_legs)},
+      {"legs swapped", each_row(mirror_legs)},
       {"wrong sign of the knees' flexion", each_row(flip_knees)},
       {"2 % too large", each_row([](JointPositions& joints) {
          for (Vector3d& p : joints.at) p *= 1.02;

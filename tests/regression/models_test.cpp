@@ -18,7 +18,7 @@ TrackJob job_with(const char* model, uint64_t seed) {
   return job;
 }
 
-// Where the walker is and how they go; their legs may be exchanged, which is what the physics is
+// Where the walker is and how they go; their legs may be swapped, which is what the physics is
 // for.
 TEST(MotionModels, EachFollowsAClearWalk) {
   for (const char* model : {"anthropomorphic", "markov"}) {

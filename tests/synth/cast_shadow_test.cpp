@@ -122,7 +122,7 @@ std::string setting_name(const testing::TestParamInfo<Setting>& info) {
   return names[static_cast<size_t>(info.param)];
 }
 
-// The figures are in lib/observation/README.md.
+// The figures are in lib/observation/reports/background.md.
 TEST_P(CastShadow, IsNotTakenForAWalker) {
   BackgroundConfig unaware;
   unaware.shadow_share = 0;

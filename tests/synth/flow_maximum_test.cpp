@@ -2,7 +2,7 @@
 // moves in them (arms that the model has not, a shadow), and pairs of poses beside the true pair
 // are put to the flow term alone. Flow that is measured first fails here: it falls short of fast
 // legs and clings to background that the walker has just laid bare, so that a body 6 cm behind the
-// true one, or one that moves a tenth too slowly, was preferred (lib/observation/README.md, Flow).
+// true one, or one that moves a tenth too slowly, was preferred (lib/observation/reports/flow.md).
 #include <array>
 #include <functional>
 #include <string>

@@ -192,9 +192,9 @@ TEST(LikelihoodMaximum, IsFlatInWhatTwoViewsHardlySee) {
 
 TEST(LikelihoodMaximum, TellsTheLegsApart) {
   const TwoCameras& cameras = two_cameras();
-  Pose exchanged = striding_pose();
-  std::swap(exchanged.legs[0], exchanged.legs[1]);
-  EXPECT_GT(cameras.log_likelihood_of(striding_pose()), cameras.log_likelihood_of(exchanged) + 100);
+  Pose swapped = striding_pose();
+  std::swap(swapped.legs[0], swapped.legs[1]);
+  EXPECT_GT(cameras.log_likelihood_of(striding_pose()), cameras.log_likelihood_of(swapped) + 100);
 }
 
 }  // namespace

@@ -17,9 +17,9 @@ constexpr double kDt = 1.0 / 30;
 MotionConfig quiet() {
   MotionConfig config;
   config.model = MotionKind::kAnthropomorphic;
-  config.torque_noise_scale = config.clock = config.ball_drift = config.ball_slip = config.landing =
-      0;
-  config.turning = config.arrival = config.control_noise = config.aim_drift = 0;
+  config.torque_noise_scale = config.phase_noise = config.ball_drift = config.ball_slip =
+      config.footfall_sd = 0;
+  config.yaw_rate_sd = config.start_position_sd = config.control_noise = config.aim_drift = 0;
   return config;
 }
 
@@ -127,8 +127,8 @@ TEST(AnthropomorphicMotion, NoisyWalkersWalkOnAllTheSame) {
     EXPECT_GT(p.pose.root.z(), 0.7 * leg_length(walking.model.body.lengths));
     speed += (p.pose.root - start.pose.root).head<2>().norm() / (kFrames * kDt) / kWalkers;
   }
-  // It cannot be led to a higher speed (lib/gait/README.md), so aims that drift slow it down: by a
-  // tenth in this time, and certainly not by a fifth.
+  // It cannot be led to a higher speed (lib/gait/reports/straight_gaits.md), so aims that drift
+  // slow it down: by a tenth in this time, and certainly not by a fifth.
   EXPECT_NEAR(speed, 1.2, 0.24);
 }
 

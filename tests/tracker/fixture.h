@@ -3,6 +3,7 @@
 
 #include "body/kinematics.h"
 #include "core/conventions.h"
+#include "tests/motion_context.h"
 #include "tracker/motion/kneed_motion.h"
 #include "tracker/motion/motion.h"
 #include "tracker/motion/planar_body.h"
@@ -53,7 +54,7 @@ inline std::vector<WalkerParticle> walkers_on_their_way(const MotionContext& con
   std::vector<WalkerParticle> set = walkers(context, 1.3, count);
   for (size_t i = 0; i < set.size(); ++i) {
     Rng rng(5, Purpose::kTorque, 0, static_cast<uint32_t>(i));
-    arrive(context, set[i], rng);
+    draw_first_noise(context, set[i], rng);
     propagate(context, set[i], rng);
   }
   return set;

@@ -1,4 +1,4 @@
-// A start that the scene gives is where the scene says, to MotionConfig::given.
+// A start that the scene gives is where the scene says, to MotionConfig::given_position_sd.
 #include <gtest/gtest.h>
 
 #include "fixture.h"
@@ -14,8 +14,8 @@ double first_spread(double given, double arrival) {
   TrackerScene scene = unseen(test_model(), kFrame);
   scene.initial = DetectedWalk{.position = {1, 2}, .velocity = {0, 1.2}, .given = true};
   TrackerConfig config;
-  config.motion.given = given;
-  config.motion.arrival = arrival;
+  config.motion.given_position_sd = given;
+  config.motion.start_position_sd = arrival;
   const GaitPrior prior = load_gait_prior();
   Tracker tracker(scene, prior, config, 1, 1);
   for (int frame = 0; frame < frames_in(config.start.seconds, kFrame); ++frame) {

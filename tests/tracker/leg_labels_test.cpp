@@ -33,7 +33,7 @@ TEST(LegLabels, FindWhereALegWasTakenForTheOther) {
   for (size_t i = 0; i < 60; ++i) EXPECT_EQ(swapped[i] > 0.5, i >= 25) << i;
 }
 
-TEST(LegLabels, OneFrameAloneExchangesNothing) {
+TEST(LegLabels, OneFrameAloneSwapsNothing) {
   std::vector<NamedFrame> frames = track(60, 1);
   frames[30].odds = -3;
   for (const double p : swapped_probabilities(frames, kDt)) EXPECT_LT(p, 0.1);

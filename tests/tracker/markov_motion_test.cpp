@@ -17,7 +17,7 @@ constexpr double kDt = 1.0 / 30;
 MotionConfig quiet() {
   MotionConfig config;
   config.model = MotionKind::kMarkov;
-  config.unrest = config.turning = config.arrival = 0;
+  config.markov_noise_scale = config.yaw_rate_sd = config.start_position_sd = 0;
   return config;
 }
 
@@ -29,7 +29,7 @@ void silence(const MotionContext& context, WalkerParticle& particle) {
 WalkerParticle first_seen(const MotionContext& context, double speed) {
   WalkerParticle p = walkers(context, speed, 1)[0];
   Rng rng(1, Purpose::kTest);
-  EXPECT_EQ(arrive(context, p, rng), Outcome::kAlive);
+  EXPECT_EQ(draw_first_noise(context, p, rng), Outcome::kAlive);
   silence(context, p);
   return p;
 }

@@ -11,14 +11,14 @@ namespace {
 
 constexpr double kFrame = 1.0 / 30;
 
-class ExchangedLegs : public testing::TestWithParam<MotionKind> {
+class MirroredLegs : public testing::TestWithParam<MotionKind> {
  protected:
   Walking walking{GetParam()};
   MotionContext context = walking.context(kFrame);
   const Body& body = walking.model.body;
   std::vector<WalkerParticle> set = walkers_on_their_way(context, 30);
 
-  WalkerParticle exchanged(WalkerParticle particle) const {
+  WalkerParticle mirrored(WalkerParticle particle) const {
     mirror_legs(context, particle);
     return particle;
   }
@@ -26,10 +26,10 @@ class ExchangedLegs : public testing::TestWithParam<MotionKind> {
 };
 
 // To first order in the reach, so on the average; from the side the image stays.
-TEST_P(ExchangedLegs, PutTheOtherFootWhereAFootWas) {
+TEST_P(MirroredLegs, PutTheOtherFootWhereAFootWas) {
   double pelvis = 0, ankles = 0, knees = 0;  // m, that they are elsewhere
   for (const WalkerParticle& particle : set) {
-    const JointPositions before = joints(particle.pose), after = joints(exchanged(particle).pose);
+    const JointPositions before = joints(particle.pose), after = joints(mirrored(particle).pose);
     pelvis += (after[Joint::kPelvis] - before[Joint::kPelvis]).norm();
     for (const Side side : {Side::kLeft, Side::kRight}) {
       ankles += 0.5 * (after[ankle(side)] - before[ankle(other(side))]).norm();
@@ -42,15 +42,15 @@ TEST_P(ExchangedLegs, PutTheOtherFootWhereAFootWas) {
   EXPECT_NEAR(knees / count, 0.5 * body.lengths.hip_width, 0.04) << "half way to the hip";
 }
 
-TEST_P(ExchangedLegs, AreHalfAStrideAway) {
+TEST_P(MirroredLegs, AreHalfAStrideAway) {
   for (const WalkerParticle& particle : set)
-    EXPECT_NEAR(std::remainder(stride_phase(exchanged(particle)) - stride_phase(particle), 1.0),
+    EXPECT_NEAR(std::remainder(stride_phase(mirrored(particle)) - stride_phase(particle), 1.0),
                 stride_phase(particle) < 0.5 ? 0.5 : -0.5, 1e-12);
 }
 
-TEST_P(ExchangedLegs, AreAsBeforeWhenExchangedAgain) {
+TEST_P(MirroredLegs, AreAsBeforeWhenMirroredAgain) {
   for (const WalkerParticle& particle : set) {
-    const WalkerParticle again = exchanged(exchanged(particle));
+    const WalkerParticle again = mirrored(mirrored(particle));
     EXPECT_EQ(again.stance, particle.stance);
     EXPECT_EQ(again.walker.q, particle.walker.q) << "the plane knows no sides";
     for (size_t k = 0; k < kResidualCount; ++k) {
@@ -64,12 +64,12 @@ TEST_P(ExchangedLegs, AreAsBeforeWhenExchangedAgain) {
 }
 
 // What the one leg was about to do, the other one is.
-TEST_P(ExchangedLegs, GoOnAsTheyMoved) {
+TEST_P(MirroredLegs, GoOnAsTheyMoved) {
   const auto rate = [](const WalkerParticle& p, int k) {
     return p.residual[size_t(k)] - p.residual_before[size_t(k)];
   };
   for (const WalkerParticle& particle : set) {
-    const WalkerParticle other_way = exchanged(particle);
+    const WalkerParticle other_way = mirrored(particle);
     for (const int left : {kRotation, kAnkle, kThigh, kShank}) {
       EXPECT_NEAR(rate(other_way, left), rate(particle, left + 1), 1e-12);
       EXPECT_NEAR(rate(other_way, left + 1), rate(particle, left), 1e-12);
@@ -83,10 +83,10 @@ TEST_P(ExchangedLegs, GoOnAsTheyMoved) {
 }
 
 // Whoever goes on from there walks as anybody.
-TEST_P(ExchangedLegs, WalkOn) {
+TEST_P(MirroredLegs, WalkOn) {
   int alive = 0;
   for (size_t i = 0; i < set.size(); ++i) {
-    WalkerParticle particle = exchanged(set[i]);
+    WalkerParticle particle = mirrored(set[i]);
     const Pose start = particle.pose;
     Rng rng(9, Purpose::kTorque, 0, static_cast<uint32_t>(i));
     Outcome outcome = Outcome::kAlive;
@@ -99,7 +99,7 @@ TEST_P(ExchangedLegs, WalkOn) {
   EXPECT_GT(alive, 20);
 }
 
-TEST_P(ExchangedLegs, OfARecordAreThoseOfItsParticles) {
+TEST_P(MirroredLegs, OfARecordAreThoseOfItsParticles) {
   const std::vector<double> weights(set.size(), 1.0 / double(set.size()));
   FrameRecord record;
   record.estimate = estimate_frame(walking.model, set, weights, kFrame, 1);
@@ -120,21 +120,21 @@ TEST_P(ExchangedLegs, OfARecordAreThoseOfItsParticles) {
   EXPECT_NEAR(std::remainder(record.modes.phase - modes.phase, 1.0), 0, 1e-9);
 }
 
-TEST_P(ExchangedLegs, OfAFilterAreThoseOfItsParticles) {
+TEST_P(MirroredLegs, OfAFilterAreThoseOfItsParticles) {
   WalkerFilter filter({}, 3, 1);
   filter.start(set);
   mirror_legs(context, filter);
   const auto& states = filter.particles().states;
   ASSERT_EQ(states.size(), set.size());
   for (size_t i = 0; i < set.size(); ++i) {
-    const Pose wanted = exchanged(set[i]).pose;
+    const Pose wanted = mirrored(set[i]).pose;
     EXPECT_EQ(states[i].stance, other(set[i].stance));
     EXPECT_EQ(states[i].pose.root, wanted.root);
     EXPECT_EQ(states[i].pose.legs[0].hip_abduction, wanted.legs[0].hip_abduction);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, ExchangedLegs,
+INSTANTIATE_TEST_SUITE_P(Models, MirroredLegs,
                          testing::Values(MotionKind::kKneed, MotionKind::kAnthropomorphic,
                                          MotionKind::kMarkov));
 

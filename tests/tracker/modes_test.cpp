@@ -13,7 +13,7 @@ namespace {
 
 double around(double phase) { return phase - std::floor(phase); }
 
-TEST(StridePhase, IsHalfAStrideOnWithTheLegsExchanged) {
+TEST(StridePhase, IsHalfAStrideOnWithTheLegsMirrored) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);
   for (WalkerParticle& particle : walkers(context, 1.2, 40)) {
@@ -68,13 +68,13 @@ TEST(Leaps, AreHalfAStrideWhileTheLegsPass) {
       EXPECT_FALSE(label_switched(phase, around(phase + on)));
 }
 
-// Nobody walks so, at any moment and frame rate; whoever has their legs exchanged while they pass
+// Nobody walks so, at any moment and frame rate; whoever has their legs swapped while they pass
 // seems to.
 TEST(Leaps, AreNotOfWalkersButOfTheirLegs) {
   const Walking walking;
   for (const double rate : {30.0, 7.0}) {
     MotionConfig config;
-    config.rephasing = 0;  // which is how sets leap
+    config.phase_jump_rate = 0;  // which is how sets leap
     const MotionContext context = walking.context(1 / rate, config);
     int frames = 0, told = 0;
     for (WalkerParticle& particle : walkers_on_their_way(context, 20)) {
@@ -84,9 +84,9 @@ TEST(Leaps, AreNotOfWalkersButOfTheirLegs) {
         if (propagate(context, particle, rng) != Outcome::kAlive) break;
         ++frames;
         ASSERT_FALSE(label_switched(expected, stride_phase(particle))) << expected;
-        WalkerParticle exchanged = particle;
-        mirror_legs(context, exchanged);
-        told += label_switched(expected, stride_phase(exchanged)) ? 1 : 0;
+        WalkerParticle mirrored = particle;
+        mirror_legs(context, mirrored);
+        told += label_switched(expected, stride_phase(mirrored)) ? 1 : 0;
       }
     }
     EXPECT_GT(frames, 100) << "unseen walkers fall sooner or later";

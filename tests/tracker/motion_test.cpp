@@ -13,10 +13,10 @@ namespace {
 // All noise off: the walk of the prior, nothing else.
 MotionConfig quiet() {
   MotionConfig config;
-  config.rephasing = 0;
-  config.torque_noise_scale = config.clock = config.ball_drift = config.ball_slip = config.landing =
-      0;
-  config.misfit = config.turning = config.arrival = 0;
+  config.phase_jump_rate = 0;
+  config.torque_noise_scale = config.phase_noise = config.ball_drift = config.ball_slip =
+      config.footfall_sd = 0;
+  config.residual_scale = config.yaw_rate_sd = config.start_position_sd = 0;
   config.control_noise = config.aim_drift = 0;
   return config;
 }
@@ -60,7 +60,7 @@ TEST(ToScale, TheSmallAndTheLargeWalkAlike) {
     walking.model.walker = kneed_model(kneed_parameters(subject, kStandardGravity));
     walking.moves = make_motion_model(MotionKind::kKneed, walking.model, walking.prior);
     MotionConfig adult;
-    adult.rephasing = 0;  // asks how far the angles stray, whose processes keep their times
+    adult.phase_jump_rate = 0;  // asks how far the angles stray, whose processes keep their times
     const MotionContext context = walking.context(dt, to_scale(adult, height));
     WalkerParticle p = walkers(context, 1.3 * std::sqrt(length), 1)[0];
     for (uint32_t frame = 0; frame < 40; ++frame) {
@@ -81,12 +81,12 @@ double heading_after(double facing, double aside, double seconds) {
   const Walking walking;
   constexpr double dt = 1.0 / 30;
   MotionConfig config = quiet();
-  config.facing = facing;
+  config.heading_time_constant = facing;
   const MotionContext context = walking.context(dt, config);
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   const double speed = p.aim.speed;
   Rng rng(1, Purpose::kTest);
-  arrive(context, p, rng);
+  draw_first_noise(context, p, rng);
   for (int frame = 0; frame * dt < seconds; ++frame) {
     EXPECT_EQ(propagate(context, p, rng), Outcome::kAlive);
     silence(p, context);
@@ -115,7 +115,7 @@ TEST(Propagate, ATurnGoesOn) {
   const MotionContext context = walking.context(dt, quiet());
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   Rng rng(1, Purpose::kTest);
-  arrive(context, p, rng);
+  draw_first_noise(context, p, rng);
   for (int frame = 0; frame < 90; ++frame) {
     p.residual_before[kHeading] = p.residual[kHeading] - rate * dt;
     ASSERT_EQ(propagate(context, p, rng), Outcome::kAlive);

@@ -15,7 +15,7 @@ Rng stream(uint32_t i) { return {5, Purpose::kTorque, 1, i}; }
 
 MotionConfig with_rephasing(double rate) {
   MotionConfig config;
-  config.rephasing = rate;
+  config.phase_jump_rate = rate;
   return config;
 }
 
@@ -47,7 +47,7 @@ void expect_same_legs(const Pose& a, const Pose& b, double tolerance) {
   }
 }
 
-TEST(Rephase, ThePoseStays) {
+TEST(PhaseJump, ThePoseStays) {
   const Walking walking;
   int other_leg = 0;
   const int accepted = rephase_each(
@@ -63,14 +63,14 @@ TEST(Rephase, ThePoseStays) {
   EXPECT_GT(other_leg, 2);
 }
 
-// Gives the particle strays, now and a frame ago, of their stationary distribution, and the pose
+// Gives the particle residuals, now and a frame ago, of their stationary distribution, and the pose
 // that they make. Crouched, so that no knee straightens and is kept from bending back.
-void stray(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+void draw_residuals(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   particle.residual[kCrouch] = rad_from_deg(40);
   for (size_t k = kTilt; k <= kShankRight; ++k) {
     const MarkovConstants c = markov_constants(static_cast<ResidualAngle>(k));
     const double r = std::exp(-context.dt / c.time), correlation = 2 * r / (1 + r * r);
-    const double sd = context.config.misfit * c.spread;
+    const double sd = context.config.residual_scale * c.spread;
     const double z = rng.truncated_normal(4), other = rng.truncated_normal(4);
     particle.residual[k] = sd * z;
     particle.residual_before[k] =
@@ -80,8 +80,8 @@ void stray(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
                           particle.ball, particle.residual);
 }
 
-// Metropolis-Hastings: strays that have their distribution keep it, of now and of their change.
-TEST(Rephase, LeavesTheStraysDistribution) {
+// Metropolis-Hastings: residuals that have their distribution keep it, of now and of their change.
+TEST(PhaseJump, LeavesTheResidualsDistribution) {
   const Walking walking;
   const StepLibrary steps(walking.model, walking.prior);
   const MotionContext context = walking.context(kDt, with_rephasing(0));
@@ -90,12 +90,12 @@ TEST(Rephase, LeavesTheStraysDistribution) {
   double squares = 0, changes = 0, count = 0;
   for (WalkerParticle& particle : walkers(context, 1.3, kParticles)) {
     Rng rng = stream(static_cast<uint32_t>(count));
-    stray(context, particle, rng);
+    draw_residuals(context, particle, rng);
     for (int repeat = 0; repeat < 20; ++repeat)
       accepted += try_phase_jump(context, steps, particle, rng);
     for (size_t k = kTilt; k <= kShankRight; ++k) {
       const MarkovConstants c = markov_constants(static_cast<ResidualAngle>(k));
-      const double sd = context.config.misfit * c.spread, r = std::exp(-kDt / c.time);
+      const double sd = context.config.residual_scale * c.spread, r = std::exp(-kDt / c.time);
       const double change = particle.residual[k] - particle.residual_before[k];
       squares += std::pow(particle.residual[k] / sd, 2);
       changes += std::pow(change / sd * std::sqrt((1 + r * r) / 2) / (1 - r), 2);
@@ -109,7 +109,7 @@ TEST(Rephase, LeavesTheStraysDistribution) {
 }
 
 // A set whose walkers still swing a leg that has come down finds the new step.
-TEST(Rephase, FindsAMissedStrike) {
+TEST(PhaseJump, FindsAMissedStrike) {
   const Walking walking;
   const StepLibrary steps(walking.model, walking.prior);
   const MotionContext context = walking.context(kDt, with_rephasing(0));
@@ -138,11 +138,11 @@ TEST(Rephase, FindsAMissedStrike) {
   EXPECT_GT(found, 35);
 }
 
-TEST(Rephase, WalkersThatMayNotStrayAreLeftAlone) {
+TEST(PhaseJump, WalkersThatMayNotStrayAreLeftAlone) {
   const Walking walking;
   const StepLibrary steps(walking.model, walking.prior);
   MotionConfig config = with_rephasing(0);
-  config.misfit = 0;
+  config.residual_scale = 0;
   const MotionContext context = walking.context(kDt, config);
   for (WalkerParticle& particle : walkers_on_their_way(context, 20)) {
     Rng rng = stream(0);

@@ -53,14 +53,14 @@ TEST(StartHypotheses, KeepsWhatNothingTellsApart) {
 }
 
 // Half of what nothing tells apart stands on the other foot, and the record says so.
-TEST(StartHypotheses, SaysHowMuchSpeaksForExchangedLegs) {
+TEST(StartHypotheses, SaysHowMuchSpeaksForMirroredLegs) {
   const Blind blind;
   for (const bool phase_known : {false, true}) {
     StartHypotheses contest = blind.contest(phase_known ? std::optional(0.25) : std::nullopt);
     for (uint32_t frame = 0; !contest.decided(); ++frame)
       ASSERT_TRUE(contest.step(blind.context, {}, frame));
     for (const FrameRecord& record : contest.records())
-      EXPECT_NEAR(record.modes.exchanged, phase_known ? 0 : 0.5, 1e-9);
+      EXPECT_NEAR(record.modes.p_legs_swapped, phase_known ? 0 : 0.5, 1e-9);
   }
 }
 

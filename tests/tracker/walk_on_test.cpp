@@ -83,7 +83,7 @@ TEST(WalkOn, ASlopeOfNothingIsLevel) {
 TEST(WalkOn, LongFramesAreManyShortOnes) {
   const Walking walking;
   MotionConfig quiet;
-  quiet.clock = quiet.control_noise = quiet.aim_drift = 0;
+  quiet.phase_noise = quiet.control_noise = quiet.aim_drift = 0;
   constexpr int kShorter = 8;
   const MotionContext once = walking.context(0.4, quiet);
   const MotionContext often = walking.context(0.4 / kShorter, quiet);
@@ -161,7 +161,7 @@ TEST(WalkOn, OnASlopeHardlyAnybodyStumbles) {
     walking.model = sloped(walking.model);
     walking.moves = make_motion_model(MotionKind::kKneed, walking.model, walking.prior);
     MotionConfig quiet;
-    quiet.clock = quiet.control_noise = quiet.aim_drift = 0;
+    quiet.phase_noise = quiet.control_noise = quiet.aim_drift = 0;
     const MotionContext context = walking.context(kDt, quiet);
     StartConfig start;
     start.particles = kWalkers;

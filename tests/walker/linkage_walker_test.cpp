@@ -8,9 +8,9 @@
 #include "core/conventions.h"
 #include "tests/mechanics/random_state.h"
 #include "tests/simbody/tree.h"
+#include "tests/walker/find_gait.h"
 #include "tests/walker/goswami.h"
 #include "tests/walker/kneed_files.h"
-#include "walker/gait_cycle.h"
 #include "walker/kneed_advance.h"
 #include "walker/models.h"
 

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/conventions.h"
+#include "tests/walker/find_gait.h"
 #include "tests/walker/goswami.h"
-#include "walker/gait_cycle.h"
 #include "walker/linkage_walker.h"
 #include "walker/models.h"
 #include "walker/monopode.h"

@@ -54,7 +54,7 @@ Json quality_list(const std::vector<QualityMeasure>& quality) {
                     {"value", m.value},
                     {"unit", m.unit},
                     {"digits", m.digits},
-                    {"gate", m.gate ? Json(*m.gate) : Json()},
+                    {"gate", m.limit ? Json(*m.limit) : Json()},
                     {"at_most", m.at_most},
                     {"passed", m.passed()}});
   }

@@ -16,18 +16,18 @@
 
 namespace walktrack {
 
-// One measure of a result's quality, with the gate it has to pass, if any.
+// One measure of a result's quality, with the limit that it has to keep, if any.
 struct QualityMeasure {
   std::string name;     // e.g. "foot_slide_mm"
   std::string what;     // the same in words
   std::string meaning;  // what it says, a sentence
-  std::string advice;   // what to do when it fails its gate
+  std::string advice;   // what to do when it misses its limit
   double value = 0;
   std::string unit;  // "" = a number
   int digits = 0;    // after the point, where people read it
-  std::optional<double> gate;
+  std::optional<double> limit;
   bool at_most = true;  // or at least
-  bool passed() const { return !gate || (at_most ? value <= *gate : value >= *gate); }
+  bool passed() const { return !limit || (at_most ? value <= *limit : value >= *limit); }
 };
 
 struct RunRecord {

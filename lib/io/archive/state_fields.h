@@ -113,9 +113,10 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<TrackerState> T>
 void fields(Archive& archive, T& value) {
-  auto& [frame, starts, filter, last_seen, supports, below, beaten, losses, doubt, stature] = value;
-  archive(frame, starts, filter, last_seen, supports, a_count(below), a_count(beaten),
-          a_count(losses), a_share(doubt), stature);
+  auto& [frame, starts, filter, last_seen, log_likelihoods, below, outscored, losses,
+         p_legs_swapped, stature] = value;
+  archive(frame, starts, filter, last_seen, log_likelihoods, a_count(below), a_count(outscored),
+          a_count(losses), a_share(p_legs_swapped), stature);
 }
 
 template <typename Archive, ArchivedAs<BackgroundModel> T>
@@ -191,8 +192,8 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<StrideModes> T>
 void fields(Archive& archive, T& value) {
-  auto& [phase, exchanged, standing] = value;
-  archive(phase, exchanged, a_share(standing));
+  auto& [phase, p_legs_swapped, standing] = value;
+  archive(phase, p_legs_swapped, a_share(standing));
 }
 
 template <typename Archive, ArchivedAs<FigureFit> T>

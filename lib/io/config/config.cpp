@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "io/config/config_table.h"
 #include "io/config/presets.h"
+#include "io/config/renamed_keys.h"
 #include "io/config/yaml.h"
 
 namespace walktrack {
@@ -22,10 +23,21 @@ const Parameter* find_parameter(const std::string& key) {
 }
 
 bool is_group(const std::string& prefix) {
-  return std::any_of(config_table().groups.begin(), config_table().groups.end(),
-                     [&](const auto& group) {
-                       return group.first == prefix || group.first.starts_with(prefix + ".");
-                     });
+  const auto begins = [&](std::string_view key) { return key.starts_with(prefix + "."); };
+  return std::ranges::any_of(
+             config_table().groups,
+             [&](const auto& group) { return group.first == prefix || begins(group.first); }) ||
+         std::ranges::any_of(renamed_keys(), begins, &RenamedKey::before);
+}
+
+// The key's name of today; says so where it was given as the one of the last release.
+std::string current_key(ConfigWithOrigin& config, const InputPlace& place) {
+  const auto renamed = std::ranges::find(renamed_keys(), place.key, &RenamedKey::before);
+  if (renamed == renamed_keys().end()) return place.key;
+  config.renamed.push_back(fmt::format(
+      "{}{}: {} is called {} now; the next release refuses the old name", place.file,
+      place.line > 0 ? fmt::format(":{}", place.line) : "", renamed->before, renamed->now));
+  return std::string(renamed->now);
 }
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
@@ -44,14 +56,15 @@ std::string unknown_key(const std::string& key) {
 
 void assign(ConfigWithOrigin& config, const InputPlace& place, const std::string& text,
             const std::string& origin) {
-  const Parameter* parameter = find_parameter(place.key);
+  const std::string key = current_key(config, place);
+  const Parameter* parameter = find_parameter(key);
   if (!parameter) {
     throw UsageError(describe(place, unknown_key(place.key), "the keys of 'walktrack config'"));
   }
   if (!parameter->set(config.values, text)) {
     throw UsageError(describe(place, fmt::format("'{}'", text), parameter->allowed));
   }
-  config.origin[place.key] = origin;
+  config.origin[key] = origin;
 }
 
 // A scalar as it stands, a list as "[a, b]".

@@ -23,13 +23,13 @@
 namespace walktrack {
 
 // A result that fails one of these ends in exit code 4.
-struct GateConfig {
+struct QualityConfig {
   double lost_share = 0.1;          // of the frames after the walker was found
   double untracked_movement = 0.3;  // of the frames in which somebody moves
   double least_steps = 1;           // foot changes seen; who makes none does not walk
   double overlap = 0.55;            // of figure and foreground, mean of the worst camera
   double better_beside = 0.005;     // of the evidence, mean over frames (tracker/figure_fit.h)
-  double legs_exchanged = 0.5;      // mean probability
+  double legs_swapped = 0.5;        // mean probability
   double leg_swaps = 10;            // a minute
   double steps_off_way = 0.2;       // of the pelvis' way, by which the steps miss it
   double longest_step = 1.2;        // leg lengths
@@ -74,7 +74,7 @@ struct Config {
   TrackerConfig tracker;
   SmoothingConfig smoothing;
   KineticsConfig kinetics;
-  GateConfig gates;
+  QualityConfig quality;
   BudgetConfig budget;
   OverlayConfig overlay;
   ReportConfig report;
@@ -85,6 +85,7 @@ struct Config {
 struct ConfigWithOrigin {
   Config values;
   std::map<std::string, std::string> origin;  // key -> "fast.yaml:3" or "--set"
+  std::vector<std::string> renamed;           // a message for each key given by its old name
 };
 
 // The values of a file on top of `config`. Where there is no such file, `path` may be the name of a

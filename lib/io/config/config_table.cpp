@@ -34,12 +34,12 @@ struct TermGroups {
 
 void add_observation(ParameterTable& table) {
   using O = ObservationConfig;
-  ParameterGroup<O> o(table, "observation", "how images become likelihoods", &Config::observation);
+  ParameterGroup<O> o(table, "observation", "the likelihood of the images", &Config::observation);
   o.number("person_px", &O::person_px, 1, kAnyPositive,
-           "images are shrunk while a standing subject stays this high, px");
-  o.number("clip", &O::clip, 0, kAnyPositive, "what one pixel may say at most, nats");
+           "height of a standing subject in the shrunk images, px");
+  o.number("clip", &O::clip, 0, kAnyPositive, "limit of one pixel's log-likelihood ratio, nats");
   o.number("independent_m", &O::independent_m, 1e-3, 1,
-           "side of a patch on the body that counts as one independent pixel, m");
+           "side of a patch on the body whose pixels count as one independent observation, m");
 
   TermGroups groups{table};
   Terms::each([&]<typename Term>() { Term::describe(groups); });
@@ -48,155 +48,199 @@ void add_observation(ParameterTable& table) {
 void add_body(ParameterTable& table) {
   ParameterGroup<BodyGroups> b(table, "body", "which parts of the body are modelled",
                                &Config::body);
-  b.flag("head", &BodyGroups::head, "whether head and neck are");
-  b.flag("arms", &BodyGroups::arms, "whether the arms are");
+  b.flag("head", &BodyGroups::head, "whether head and neck are modelled");
+  b.flag("arms", &BodyGroups::arms, "whether the arms are modelled");
 }
 
 void add_motion(ParameterTable& table) {
   using M = MotionConfig;
-  ParameterGroup<M> m(table, "motion", "how the walker moves", &Config::tracker,
+  ParameterGroup<M> m(table, "motion", "the motion model of the walker", &Config::tracker,
                       &TrackerConfig::motion);
   m.choice("model", &M::model,
            {{"kneed", MotionKind::kKneed},
             {"anthropomorphic", MotionKind::kAnthropomorphic},
             {"markov", MotionKind::kMarkov}},
-           "what moves particles: the kneed walker, one of straight legs, or none");
+           "dynamics of a particle: the kneed walker, a walker with straight legs, or none");
   m.choice("path", &M::path, {{"spatial", Path::kSpatial}, {"sagittal", Path::kSagittal}},
-           "where it goes: anywhere, or along a line in whose upright plane all moves");
-  m.number("unrest", &M::unrest, 0, 100, "multiplies the noise of model markov");
-  m.number("torso_torque", &M::torso_torque, 0, 10, "torque noise, M g L per sqrt(s)");
-  m.number("hip_torque", &M::hip_torque, 0, 10, "torque noise, M g L per sqrt(s)");
-  m.number("stance_knee_torque", &M::stance_knee_torque, 0, 10, "torque noise, M g L per sqrt(s)");
-  m.number("swing_knee_torque", &M::swing_knee_torque, 0, 10, "torque noise, M g L per sqrt(s)");
-  m.number("ankle_torque", &M::ankle_torque, 0, 10, "torque noise, M g L per sqrt(s)");
-  m.number("torque_noise_scale", &M::torque_noise_scale, 0, 1000, "multiplies all five torques");
-  m.number("clock", &M::clock, 0, 1, "how far the phase strays from the walker's, s per sqrt(s)");
-  m.number("turning", &M::turning, 0, 100, "the usual rate of turning, rad/s");
-  m.number("facing", &M::facing, 0.01, 1000,
-           "time in which a heading comes back to the way that is gone, s");
-  m.number("misfit", &M::misfit, 0, 10, "multiplies how far angles stray from the walker's");
-  m.number("ball_drift", &M::ball_drift, 0, 1, "of a standing foot along its way, m per sqrt(s)");
-  m.number("ball_slip", &M::ball_slip, 0, 1, "and across it, m per sqrt(s)");
-  m.number("landing", &M::landing, 0, 1, "uncertainty of where a foot comes down, m");
-  m.number("settling", &M::settling, 1e-3, 10, "in which that dies away, s");
-  m.number("arrival", &M::arrival, 0, 10, "uncertainty of the first foot's place, m");
-  m.number("given", &M::given, 0, 10, "the same where the scene says it with `initial`, m");
-  m.number("control_noise", &M::control_noise, 0, 1, "relative, per step");
-  m.number("feedback", &M::feedback, 0, 1, "correction of controls at a support transfer");
-  m.number("aim_drift", &M::aim_drift, 0, 1, "relative, per step, of speed and step length");
-  m.number("rephasing", &M::rephasing, 0, 100,
-           "1/s: how often a particle reads its pose as another moment of a step");
-  m.flag("standing", &M::standing, "whether people may stand, set off and stop");
+           "path of the walk: anywhere, or a straight line in whose upright plane all joints move");
+  m.number("markov_noise_scale", &M::markov_noise_scale, 0, 100,
+           "factor on the noise of model markov");
+  m.number("torso_torque", &M::torso_torque, 0, 10, "noise of the torso torque, M g L per sqrt(s)");
+  m.number("hip_torque", &M::hip_torque, 0, 10, "noise of the hip torque, M g L per sqrt(s)");
+  m.number("stance_knee_torque", &M::stance_knee_torque, 0, 10,
+           "noise of the stance knee torque, M g L per sqrt(s)");
+  m.number("swing_knee_torque", &M::swing_knee_torque, 0, 10,
+           "noise of the swing knee torque, M g L per sqrt(s)");
+  m.number("ankle_torque", &M::ankle_torque, 0, 10, "noise of the ankle torque, M g L per sqrt(s)");
+  m.number("torque_noise_scale", &M::torque_noise_scale, 0, 1000,
+           "factor on the noise of all five torques");
+  m.number("phase_noise", &M::phase_noise, 0, 1,
+           "random drift of the phase of the stride, s per sqrt(s)");
+  m.number("yaw_rate_sd", &M::yaw_rate_sd, 0, 100,
+           "standard deviation of the rate of turning, rad/s");
+  m.number("heading_time_constant", &M::heading_time_constant, 0.01, 1000,
+           "time constant with which the heading returns to the direction of travel, s");
+  m.number("residual_scale", &M::residual_scale, 0, 10,
+           "factor on the residual angles, by which a person differs from the walker");
+  m.number("ball_drift", &M::ball_drift, 0, 1,
+           "drift of the stance foot along the walk, m per sqrt(s)");
+  m.number("ball_slip", &M::ball_slip, 0, 1,
+           "drift of the stance foot across the walk, m per sqrt(s)");
+  m.number("footfall_sd", &M::footfall_sd, 0, 1,
+           "standard deviation of the place of a footfall, m");
+  m.number("footfall_decay", &M::footfall_decay, 1e-3, 10,
+           "time in which the uncertainty of a footfall decays, s");
+  m.number("start_position_sd", &M::start_position_sd, 0, 10,
+           "standard deviation of the first foot's place, m");
+  m.number("given_position_sd", &M::given_position_sd, 0, 10,
+           "standard deviation of the first foot's place where the scene states `initial`, m");
+  m.number("control_noise", &M::control_noise, 0, 1,
+           "relative noise of the walker's controls, per step");
+  m.number("feedback", &M::feedback, 0, 1,
+           "strength of the correction of controls at a change of the stance foot");
+  m.number("aim_drift", &M::aim_drift, 0, 1,
+           "relative drift of the speed and step length aimed at, per step");
+  m.number("phase_jump_rate", &M::phase_jump_rate, 0, 100,
+           "rate at which particles propose another phase of the stride for their pose, 1/s");
+  m.flag("standing", &M::standing, "whether the subject may stand, set off and stop");
 }
 
 void add_filter(ParameterTable& table) {
   using F = FilterConfig;
   ParameterGroup<F> f(table, "filter", "the particle filter", &Config::tracker,
                       &TrackerConfig::filter);
-  f.integer("particles", &F::particles, 1, 10'000'000, "particles");
-  f.number("resample_below", &F::resample_below, 0, 1, "share of effective particles");
-  f.number("layer_ess", &F::layer_ess, 0, 1, "effective share that a layer may cost down to");
-  f.integer("max_layers", &F::max_layers, 1, 1000, "tempered layers of a frame; 1 = none");
-  f.integer("moves", &F::moves, 0, 1000, "moves of a particle after each layer");
+  f.integer("particles", &F::particles, 1, 10'000'000, "number of particles");
+  f.number("resample_below", &F::resample_below, 0, 1,
+           "effective share of the particles below which they are resampled");
+  f.number("layer_ess", &F::layer_ess, 0, 1,
+           "effective share of the particles that a tempered layer keeps");
+  f.integer("max_layers", &F::max_layers, 1, 1000,
+            "most tempered layers of a frame; 1 = no tempering");
+  f.integer("moves", &F::moves, 0, 1000,
+            "Metropolis-Hastings moves of a particle after each layer");
 }
 
 void add_search(ParameterTable& table) {
   using S = DetectorConfig;
-  ParameterGroup<S> s(table, "search", "finding the walker", &Config::tracker,
-                      &TrackerConfig::detector);
-  s.number("window", &S::window, 0.1, 10, "video that a walk is read from, s");
-  s.number("slowest", &S::slowest, 0, 10, "who is slower is not walking, m/s");
-  s.number("fastest", &S::fastest, 0.1, 20, "m/s");
-  s.number("complete", &S::complete, 0, 1, "least score of a moment, share of the median");
-  s.number("least_score", &S::least_score, 0, kAnyPositive, "of a figure in any frame, nats");
-  s.integer("candidates", &S::candidates, 1, 1000, "places of a frame that lines go through");
-  s.integer("grid_px", &S::grid_px, 1, 1000, "spacing of places at 640 px of image width, px");
+  ParameterGroup<S> s(table, "detector", "finding the subject in a window of frames",
+                      &Config::tracker, &TrackerConfig::detector);
+  s.number("window", &S::window, 0.1, 10, "length of video in which a walk is searched, s");
+  s.number("slowest", &S::slowest, 0, 10, "lowest speed of a walk, m/s");
+  s.number("fastest", &S::fastest, 0.1, 20, "highest speed of a walk, m/s");
+  s.number("least_share", &S::least_share, 0, 1,
+           "lowest score of a frame, as a share of the median over the window");
+  s.number("least_score", &S::least_score, 0, kAnyPositive,
+           "lowest score of the figure in any frame, nats");
+  s.integer("candidates", &S::candidates, 1, 1000,
+            "places of a frame through which straight walks are proposed");
+  s.integer("grid_px", &S::grid_px, 1, 1000,
+            "spacing of the searched places at 640 px of image width, px");
 
   using A = StartConfig;
   ParameterGroup<A> a(table, "start", "the first particles", &Config::tracker,
                       &TrackerConfig::start);
-  a.integer("phases", &A::phases, 1, 1000, "hypotheses over the phase of each foot's step");
-  a.integer("particles", &A::particles, 1, 10'000'000, "of each hypothesis");
-  a.number("seconds", &A::seconds, 0, 10, "for which hypotheses compete, s");
-  a.number("heading_deg", &A::heading_deg, 0, 180, "deviation of the first heading, degrees");
-  a.number("speed", &A::speed, 0, 2, "deviation of the first speed, relative");
-  a.number("step_length", &A::step_length, 0, 2, "deviation of the step length, relative");
+  a.integer("phases", &A::phases, 1, 1000, "start hypotheses over the phase of each foot's step");
+  a.integer("particles", &A::particles, 1, 10'000'000, "particles of each start hypothesis");
+  a.number("seconds", &A::seconds, 0, 10, "time in which the start hypotheses compete, s");
+  a.number("heading_deg", &A::heading_deg, 0, 180,
+           "standard deviation of the first heading, degrees");
+  a.number("speed", &A::speed, 0, 2, "relative standard deviation of the first speed");
+  a.number("step_length", &A::step_length, 0, 2,
+           "relative standard deviation of the first step length");
 }
 
 void add_track(ParameterTable& table) {
   using T = TrackerConfig;
   ParameterGroup<T> t(table, "track", "keeping the track", &Config::tracker);
-  t.number("lost_below", &T::lost_below, 0, 1, "share of the likelihood's median");
-  t.number("lost_after", &T::lost_after, 0, 100, "time below it until the track is lost, s");
-  t.number("beaten_after", &T::beaten_after, 0, 100,
-           "time of doing worse than a stiff figure until the track is lost, s");
-  t.number("seek", &T::seek, 0, 1000,
-           "time for which a lost walker is looked for only within reach, s");
+  t.number("lost_below", &T::lost_below, 0, 1,
+           "share of the likelihood's median below which a frame counts as lost");
+  t.number("lost_after", &T::lost_after, 0, 100,
+           "time below lost_below after which the track is lost, s");
+  t.number(
+      "outscored_after", &T::outscored_after, 0, 100,
+      "time of a lower likelihood than that of a rigid figure after which the track is lost, s");
+  t.number("reacquire_within", &T::reacquire_within, 0, 1000,
+           "time in which a lost subject is searched only within walking distance, s");
   t.number("model_error", &T::model_error, 0, 100,
-           "multiplies what bands hold beyond the particles' spread");
+           "factor on the part of the 90 % bands that is not the particles' spread");
   t.choice("estimate", &T::estimate, {{"mean", EstimateKind::kMean}, {"map", EstimateKind::kMap}},
-           "what is reported of a frame: the particles' mean, or the most probable pose near it");
-  t.number("recall", &T::recall, 0.1, 100, "past that the median is taken over, s");
+           "reported pose: the particles' mean, or the most probable pose near it");
+  t.number("evidence_window", &T::evidence_window, 0.1, 100,
+           "length of the past whose median likelihood a frame is compared with, s");
   t.integer("samples", &T::samples, 0, 1000,
-            "particles of a frame kept: the overlay's, and for bands");
+            "particles of a frame that are kept for overlays and bands");
   using L = SmoothingConfig;
-  ParameterGroup<L> l(table, "smoothing", "frames in the light of others", &Config::smoothing);
-  l.number("lag", &L::lag, 0, 2, "of frames before and after one that count, s; 0 = off");
-  l.flag("plant", &L::plant, "feet stay where they stand, above the ground");
+  ParameterGroup<L> l(table, "smoothing", "smoothing over neighbouring frames", &Config::smoothing);
+  l.number("lag", &L::lag, 0, 2,
+           "time before and after a frame over which its pose is smoothed, s; 0 = off");
+  l.flag("plant", &L::plant, "whether stance feet are held in place and above the ground");
   using K = KineticsConfig;
-  ParameterGroup<K> k(table, "kinetics", "the forces behind the motion", &Config::kinetics);
-  k.number("cutoff_hz", &K::cutoff_hz, 0, 100, "joint centres are smoothed below it, Hz; 0: not");
-  k.number("tracked_cutoff_hz", &K::tracked_cutoff_hz, 0, 100, "the same of tracked ones");
-  using G = GateConfig;
-  ParameterGroup<G> g(table, "gates", "when a result is not good enough", &Config::gates);
-  g.number("lost_share", &G::lost_share, 0, 1, "of the frames after the walker was found");
+  ParameterGroup<K> k(table, "kinetics", "ground reaction forces and joint moments",
+                      &Config::kinetics);
+  k.number("cutoff_hz", &K::cutoff_hz, 0, 100,
+           "cut-off frequency of the joint centres of motion capture, Hz; 0 = not filtered");
+  k.number("tracked_cutoff_hz", &K::tracked_cutoff_hz, 0, 100,
+           "cut-off frequency of tracked joint centres, Hz; 0 = not filtered");
+  using G = QualityConfig;
+  ParameterGroup<G> g(table, "quality", "limits of the quality checks", &Config::quality);
+  g.number("lost_share", &G::lost_share, 0, 1,
+           "most lost frames, as a share of those after the subject was found");
   g.number("untracked_movement", &G::untracked_movement, 0, 1,
-           "of the frames in which somebody moves, those without a figure");
-  g.number("least_steps", &G::least_steps, 0, 1000, "foot changes that make a walk");
+           "most untracked frames, as a share of those in which somebody moves");
+  g.number("least_steps", &G::least_steps, 0, 1000, "fewest steps of a walk");
   g.number("overlap", &G::overlap, 0, 1,
-           "of figure and foreground, mean over the frames of the worst camera");
-  g.number("better_beside", &G::better_beside, 0, 1,
-           "by which images speak more for a figure beside the reported one, mean over frames");
-  g.number("legs_exchanged", &G::legs_exchanged, 0, 1,
-           "mean probability, by the tracker's own account, of left and right being swapped");
-  g.number("leg_swaps", &G::leg_swaps, 0, 1e5, "legs swapped between frames, a minute");
+           "lowest overlap of figure and foreground, mean over the frames of the worst camera");
+  g.number(
+      "better_beside", &G::better_beside, 0, 1,
+      "largest share of the evidence by which a figure beside the reported one is better, mean");
+  g.number("legs_swapped", &G::legs_swapped, 0, 1,
+           "largest mean probability, estimated by the tracker, that left and right are swapped");
+  g.number("leg_swaps", &G::leg_swaps, 0, 1e5,
+           "most swaps of left and right between frames, per minute");
   g.number("steps_off_way", &G::steps_off_way, 0, 1000,
-           "by which the steps together miss the way of the pelvis, as a share of it");
-  g.number("longest_step", &G::longest_step, 0, 1000, "leg lengths");
+           "largest difference of the steps' sum and the pelvis' path, as a share of the path");
+  g.number("longest_step", &G::longest_step, 0, 1000, "longest step, leg lengths");
   g.number("shortest_step", &G::shortest_step, -1000, 1000,
-           "along the way, m; below 0 a foot ends behind the other one");
-  g.number("fastest", &G::fastest, 0, 1000, "speed over half a second, m/s");
+           "shortest step along the walk, m; below 0 a foot ends behind the other one");
+  g.number("fastest", &G::fastest, 0, 1000, "highest speed over half a second, m/s");
   g.number("foot_slide", &G::foot_slide, 0, 10,
-           "of a standing foot, before it is planted, mean over stances, m");
-  g.number("penetration", &G::penetration, 0, 10, "deepest foot in the ground, m");
-  g.number("jitter", &G::jitter, 0, 1e9, "mean third derivative of the joints, m/s^3");
+           "largest slide of a stance foot before it is held in place, mean over stances, m");
+  g.number("penetration", &G::penetration, 0, 10, "largest depth of a foot below the ground, m");
+  g.number("jitter", &G::jitter, 0, 1e9,
+           "largest mean third derivative of the joint centres, m/s^3");
 }
 
 void add_budget(ParameterTable& table) {
   using B = BudgetConfig;
-  ParameterGroup<B> b(table, "budget", "particles that follow the clock: no longer deterministic",
+  ParameterGroup<B> b(table, "budget",
+                      "particles adapted to a time per frame: results are no longer deterministic",
                       &Config::budget);
-  b.number("frame_ms", &B::frame_ms, 0, kAnyPositive, "that a frame may take, ms; 0 = no budget");
-  b.integer("least_particles", &B::least_particles, 1, 10'000'000, "even if frames take longer");
-  b.integer("most_particles", &B::most_particles, 1, 10'000'000, "even if there is time");
+  b.number("frame_ms", &B::frame_ms, 0, kAnyPositive,
+           "time that a frame may take, ms; 0 = no budget");
+  b.integer("least_particles", &B::least_particles, 1, 10'000'000,
+            "fewest particles, even if frames take longer");
+  b.integer("most_particles", &B::most_particles, 1, 10'000'000,
+            "most particles, even if there is time");
 }
 
 void add_report(ParameterTable& table) {
   using V = OverlayConfig;
   ParameterGroup<V> v(table, "overlay", "videos with the tracked figure", &Config::overlay);
   v.integer("width", &V::width, 0, kMostPixelsAlongASide,
-            "larger pictures are shrunk to it, px; 0 = as the video");
-  v.flag("crop", &V::crop, "show a window that follows the walker instead of the whole picture");
+            "width to which larger images are shrunk, px; 0 = as the video");
+  v.flag("crop", &V::crop,
+         "whether overlays show a window that follows the subject instead of the whole image");
   v.choice("preset", &V::preset, encoder_presets(),
-           "of the encoder: slower ones make smaller files");
+           "preset of the encoder: slower ones make smaller files");
   using R = ReportConfig;
   ParameterGroup<R> r(table, "report", "report.html", &Config::report);
   r.number("embed_mb", &R::embed_mb, 0, 1000,
-           "overlay videos inside it; larger ones beside it, MB");
+           "size up to which overlay videos are inside the report, MB; larger ones stay beside it");
   using C = CheckpointConfig;
-  ParameterGroup<C> c(table, "checkpoint", "where track --resume goes on", &Config::checkpoint);
+  ParameterGroup<C> c(table, "checkpoint", "checkpoints from which track --resume continues",
+                      &Config::checkpoint);
   c.number("seconds", &C::seconds, 0, kAnyPositive,
-           "of work between checkpoints, s; 0: after each frame");
+           "time between checkpoints, s; 0 = after each frame");
 }
 
 ParameterTable make_table() {

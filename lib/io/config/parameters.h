@@ -2,12 +2,10 @@
 // what is allowed and what it means. The configuration file, --set, error messages and
 // `walktrack config` are all served by this table; defaults are those of the structs themselves.
 //
-//   ParameterGroup<FilterConfig> filter(table, "filter", "the particle filter", &Config::filter);
-//   filter.number("ess_threshold", &FilterConfig::ess_threshold, 0, 1, "resample below this
-//   share"); filter.integer("particles", &FilterConfig::particles, 1, 10'000'000, "particles");
-//   filter.flag("smooth", &FilterConfig::smooth, "smooth the track afterwards");
-//   filter.list("sd", &FilterConfig::sd, 0, 1, "m, m, rad");        // [a, b, c]
-//   filter.choice("scheme", &FilterConfig::scheme, {{"systematic", Scheme::kSystematic}}, "…");
+//   ParameterGroup<FilterConfig> f(table, "filter", "the particle filter", &Config::tracker,
+//                                  &TrackerConfig::filter);
+//   f.integer("particles", &FilterConfig::particles, 1, 10'000'000, "number of particles");
+//   f.number("layer_ess", &FilterConfig::layer_ess, 0, 1, "effective share of the particles ...");
 #pragma once
 
 #include <array>

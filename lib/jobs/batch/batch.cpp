@@ -16,7 +16,7 @@
 #include "io/archive/result_folder.h"
 #include "io/scene/scene_template.h"
 #include "jobs/batch/batch_changes.h"
-#include "jobs/batch/claim.h"
+#include "jobs/batch/folder_lock.h"
 
 namespace walktrack {
 
@@ -33,7 +33,7 @@ constexpr int kDegradedExit = 4, kInterruptedExit = 130;  // of the sequence's p
 // A sequence that is being done.
 struct Running {
   Sequence sequence;
-  Claim claim;
+  FolderLock claim;
   ChildProcess child;
 };
 
@@ -112,7 +112,7 @@ std::optional<Running> start(const BatchJob& job, const Waiting& waiting) {
   const Sequence& sequence = waiting.sequence;
   if (waiting.done_by_another()) return std::nullopt;
   fs::create_directories(sequence.output);
-  std::optional<Claim> claim = Claim::try_take(sequence.output);
+  std::optional<FolderLock> claim = FolderLock::try_take(sequence.output);
   // Another worker may have done it between the look and the claim.
   if (!claim || waiting.done_by_another()) return std::nullopt;
   const ResultFolder folder(outputs_of(sequence), true);
@@ -127,10 +127,10 @@ std::optional<Running> start(const BatchJob& job, const Waiting& waiting) {
 
 // A worker that was killed after a sequence's last file has left its claim, which a claim taken
 // here gives back at once.
-void clear_dead_claims(const std::vector<Sequence>& sequences) {
+void clear_dead_locks(const std::vector<Sequence>& sequences) {
   for (const Sequence& sequence : sequences)
-    if (is_complete_result(sequence.output) && fs::exists(sequence.output / Claim::kFile))
-      Claim::try_take(sequence.output);
+    if (is_complete_result(sequence.output) && fs::exists(sequence.output / FolderLock::kFile))
+      FolderLock::try_take(sequence.output);
 }
 
 void note_end(const BatchJob& job, const Running& running, const ChildEnd& end, bool stopping) {
@@ -234,7 +234,7 @@ BatchOutcome run_batch(const BatchJob& job, const JobControl& control) {
   const BatchWork work = work_of(job);
   Runner runner(job, control, work.to_do, before);
   fs::create_directories(job.output);
-  clear_dead_claims(own);
+  clear_dead_locks(own);
   runner.run();
   write_batch_reports(all, batch_outputs(job));
   BatchOutcome outcome{.changed = static_cast<int>(work.left.size()),

@@ -35,7 +35,7 @@ enum class SequenceState { kWaiting, kComplete, kDegraded, kFailed };
 
 struct SequenceResult {
   SequenceState state = SequenceState::kWaiting;
-  std::string reason{};  // of failure, or of what is short of a gate
+  std::string reason{};  // of failure, or of the quality check that failed
   double seconds = 0;    // that tracking took; 0 = not known
   std::string digest{};
   BatchFigures figures{};

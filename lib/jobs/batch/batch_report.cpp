@@ -8,7 +8,7 @@
 #include "io/config/text.h"
 #include "io/drawing/report_page.h"
 #include "jobs/batch/batch.h"
-#include "jobs/batch/claim.h"
+#include "jobs/batch/folder_lock.h"
 
 namespace walktrack {
 
@@ -114,9 +114,9 @@ std::string overview_html(const std::vector<Sequence>& sequences,
 }
 
 // One writer at a time: whoever holds the folder may clear what one that was killed has left.
-Claim claim_of(const std::filesystem::path& folder) {
+FolderLock lock_of(const std::filesystem::path& folder) {
   for (;;) {
-    if (auto claim = Claim::try_take(folder)) return std::move(*claim);
+    if (auto claim = FolderLock::try_take(folder)) return std::move(*claim);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
 }
@@ -132,7 +132,7 @@ Outputs batch_outputs(const BatchJob& job) {
 
 void write_batch_reports(const std::vector<Sequence>& sequences, const Outputs& outputs) {
   refuse_what_is_not_ours(outputs);
-  const Claim claim = claim_of(outputs.folder);
+  const FolderLock claim = lock_of(outputs.folder);
   // Others may read the reports: they are replaced, never missing.
   const ResultFolder folder(outputs, true, kReports);
   std::vector<SequenceResult> results;

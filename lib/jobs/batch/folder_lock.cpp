@@ -1,4 +1,4 @@
-#include "jobs/batch/claim.h"
+#include "jobs/batch/folder_lock.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -122,7 +122,7 @@ double age_seconds(const fs::path& file) {
 
 }  // namespace
 
-std::optional<Claim> Claim::try_take(const fs::path& folder, double stale_seconds) {
+std::optional<FolderLock> FolderLock::try_take(const fs::path& folder, double stale_seconds) {
   const fs::path file = folder / kFile;
   if (!create_exclusively(file)) {
     const auto judged = identity(file);
@@ -139,17 +139,17 @@ std::optional<Claim> Claim::try_take(const fs::path& folder, double stale_second
     if (!was_judged || !create_exclusively(file)) return std::nullopt;
   }
   remove_leftovers(folder);
-  return Claim(file);
+  return FolderLock(file);
 }
 
-Claim::~Claim() {
+FolderLock::~FolderLock() {
   std::error_code ignored;
   if (!file_.empty()) fs::remove(file_, ignored);
 }
 
-Claim::Claim(Claim&& other) noexcept : file_(std::exchange(other.file_, {})) {}
+FolderLock::FolderLock(FolderLock&& other) noexcept : file_(std::exchange(other.file_, {})) {}
 
-void Claim::renew() const {
+void FolderLock::renew() const {
   // The time is set by the file system, not by this machine's clock.
   ::utimensat(AT_FDCWD, file_.c_str(), nullptr, 0);
 }

@@ -11,23 +11,23 @@ namespace walktrack {
 
 inline constexpr double kStaleSeconds = 60;
 
-class Claim {
+class FolderLock {
  public:
   static constexpr const char* kFile = ".walktrack_claim";  // its name in the folder
 
   // nullopt if another worker holds the folder.
-  static std::optional<Claim> try_take(const std::filesystem::path& folder,
-                                       double stale_seconds = kStaleSeconds);
+  static std::optional<FolderLock> try_take(const std::filesystem::path& folder,
+                                            double stale_seconds = kStaleSeconds);
   // Gives it back.
-  ~Claim();
-  Claim(Claim&& other) noexcept;
-  Claim& operator=(Claim&&) = delete;
+  ~FolderLock();
+  FolderLock(FolderLock&& other) noexcept;
+  FolderLock& operator=(FolderLock&&) = delete;
 
   // To be called more often than every kStaleSeconds.
   void renew() const;
 
  private:
-  explicit Claim(std::filesystem::path file) : file_(std::move(file)) {}
+  explicit FolderLock(std::filesystem::path file) : file_(std::move(file)) {}
   std::filesystem::path file_;  // empty = given away
 };
 

@@ -26,8 +26,8 @@ struct AnalyseJob {
 
 struct AnalyseOutcome {
   size_t steps = 0;
-  double speed = 0;               // m/s
-  std::filesystem::path look_at;  // the file to open first
+  double speed = 0;                  // m/s
+  std::filesystem::path open_first;  // the file to open first
 };
 
 // InputError for what is no motion, UsageError for an output that may not be overwritten.

@@ -55,7 +55,7 @@ void add_joint_errors(const Motion& truth, const Motion& estimate, Figures& out)
   out.add_mm("offset_up", "pelvis above it, mean", e.mean_offset.z());
   out.add("leg_length_percent", "legs longer than the truth's, %",
           kPercent * (e.leg_length_ratio - 1), 1);
-  out.add_share("swapped", "frames with legs exchanged", any ? e.swapped_share : kNone);
+  out.add_share("swapped", "frames with legs swapped", any ? e.swapped_share : kNone);
   for (size_t j = 0; j < kJointCount; ++j) {
     const std::string name(kJointNames[j]);
     const JointErrors::OfJoint& joint = e.by_joint[j];

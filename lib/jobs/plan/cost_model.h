@@ -15,12 +15,12 @@
 //   poses        q n m + s
 //
 // The coefficients are CPU times of all threads together, fitted by scripts/measure_costs.py to
-// frames after the contest of the first half second. They are those of one machine: ratios carry
-// over to others, times only roughly. Over the fifteen settings of the fit the sum was off by 9 %
-// (median), by 24 % at worst (arms), given the poses that were in fact weighed; their number varies
-// by a third between scenes, so that of ten videos, balanced and fast, the plan was off by 12 %
-// (median), by 31 % at worst. Not in it: searching and the contest of the first half second,
-// learning the background before the first frame, writing results.
+// frames after the start hypotheses of the first half second. They are those of one machine: ratios
+// carry over to others, times only roughly. Over the fifteen settings of the fit the sum was off by
+// 9 % (median), by 24 % at worst (arms), given the poses that were in fact weighed; their number
+// varies by a third between scenes, so that of ten videos, balanced and fast, the plan was off by
+// 12 % (median), by 31 % at worst. Not in it: searching and the start hypotheses of the first half
+// second, learning the background before the first frame, writing results.
 #pragma once
 
 #include <string>

@@ -114,9 +114,10 @@ void add_walker(const Config& config, Items& items) {
       return item("walker",
                   "a kneed walker simulated from frame to frame, with noise on its torques");
     case MotionKind::kAnthropomorphic:
-      return item("walker", "a walker of two straight legs; knees and trunk by habit");
+      return item("walker",
+                  "a walker with two straight legs; knees and trunk follow Markov processes");
     case MotionKind::kMarkov:
-      return item("motion", "every coordinate by habit: no walker, no ground");
+      return item("motion", "every coordinate follows a Markov process: no walker, no ground");
   }
 }
 
@@ -131,7 +132,7 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
   items.fact("legs, trunk", true, "tilt, hips, knees and ankles in the walk's upright planes",
              "always: the walker's body");
   items.fact("sideways", values.tracker.motion.path == Path::kSpatial,
-             "turning, the pelvis's list, hips sideways, 6 angles more",
+             "turning, pelvic obliquity, hips sideways, 6 angles more",
              items.origin("motion.path"));
   items.flag("head", "body.head", values.body.head, "head and neck");
   items.flag("arms", "body.arms", values.body.arms, "both arms, 6 angles more");
@@ -144,7 +145,7 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
              slope ? "the scene's gravity leans" : "the scene's gravity is upright");
   const auto hidden = std::count_if(scene.cameras.begin(), scene.cameras.end(),
                                     [](const SceneCamera& c) { return !c.occluders.empty(); });
-  items.fact("occluders", hidden > 0, "pixels that say nothing",
+  items.fact("occluders", hidden > 0, "pixels behind obstacles, which are left out",
              hidden > 0 ? fmt::format("{} of the scene's cameras have some", hidden)
                         : "the scene has none");
   items.fact("search", !scene.initial, "finding the walk in a window of frames, until it is found",
@@ -157,7 +158,7 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
   items.fact("budget", paced,
              paced ? fmt::format("{} to {} particles, by the clock: not deterministic",
                                  values.budget.least_particles, values.budget.most_particles)
-                   : "particles that follow the clock",
+                   : "particles adapted to a time per frame",
              items.origin("budget.frame_ms"));
   return items.take();
 }
@@ -177,12 +178,12 @@ std::vector<std::pair<std::string, double>> memory_of(const Scene& scene, const 
   const double hypotheses = 2.0 * start.phases * start.particles;
   std::vector<std::pair<std::string, double>> out{
       {"particles", plan.work.particles * plan.state.bytes_per_particle},
-      {"the contest of the first half second", hypotheses * plan.state.bytes_per_particle},
+      {"start hypotheses of the first half second", hypotheses * plan.state.bytes_per_particle},
       {"frames as filmed", 2 * 3 * filmed},
       {"log-ratios around the walker", sizeof(int32_t) * region * std::max(1, plan.work.classes)}};
   if (images.background.enabled) {
     out.emplace_back("background", 5 * sizeof(float) * shrunk);
-    out.emplace_back("learning it, before the first frame",
+    out.emplace_back("learning the background, before the first frame",
                      3.0 * images.background.samples * shrunk);
   }
   if (!scene.initial)

@@ -3,7 +3,7 @@
 //
 //   sagittal path  legs and trunk in upright planes of one heading, for a side view of one camera;
 //                  without an `initial` a level camera is taken to see one
-//   spatial path   turning, the pelvis's list, hips sideways: for everything else
+//   spatial path   turning, pelvic obliquity, hips sideways: for everything else
 //   arms           on the path that is set; legs, pelvis and trunk are tracked without them
 //
 // A slope is the scene's own (its gravity), and costs a walker of their own for all particles.

@@ -62,7 +62,7 @@ TrialResult try_slope(double slope_deg, const fs::path& folder) {
 // Fewer seconds of it, which nobody need make a step in.
 void cut(TestVideo& video, double seconds) {
   video.options.duration = seconds;
-  video.settings.emplace_back("gates.least_steps=0");
+  video.settings.emplace_back("quality.least_steps=0");
 }
 
 // Where the camera differs from that of the other videos.
@@ -151,7 +151,7 @@ void keep_every(Frames& frames, size_t nth) {
 }
 
 constexpr std::array kTrials{
-    // The one that has to pass the quality gates, so with half of the default particles.
+    // The one that has to pass the quality checks, so with half of the default particles.
     Trial{"ordinary walk", false,
           [](const fs::path& f) { return try_settings({"start.particles=80"}, f); }},
     Trial{"ordinary walk, start not told", false,
@@ -179,10 +179,10 @@ constexpr std::array kTrials{
     Trial{"no noise at all", false,
           [](const fs::path& f) {
             return try_settings(
-                {"motion.torque_noise_scale=0", "motion.clock=0", "motion.turning=0",
-                 "motion.misfit=0", "motion.ball_drift=0", "motion.ball_slip=0", "motion.landing=0",
-                 "motion.arrival=0", "motion.control_noise=0", "motion.aim_drift=0",
-                 "motion.rephasing=0"},
+                {"motion.torque_noise_scale=0", "motion.phase_noise=0", "motion.yaw_rate_sd=0",
+                 "motion.residual_scale=0", "motion.ball_drift=0", "motion.ball_slip=0",
+                 "motion.footfall_sd=0", "motion.start_position_sd=0", "motion.control_noise=0",
+                 "motion.aim_drift=0", "motion.phase_jump_rate=0"},
                 f);
           }},
     Trial{"noise a thousand times", false,
@@ -190,16 +190,16 @@ constexpr std::array kTrials{
             TestVideo video = video_of_walk();
             video.options.duration = 0.5;  // what flies about takes time to search for
             video.settings = {"motion.torque_noise_scale=1000",
-                              "motion.clock=1",
-                              "motion.turning=80",
-                              "motion.misfit=10",
+                              "motion.phase_noise=1",
+                              "motion.yaw_rate_sd=80",
+                              "motion.residual_scale=10",
                               "motion.ball_drift=1",
                               "motion.ball_slip=1",
-                              "motion.landing=1",
-                              "motion.arrival=10",
+                              "motion.footfall_sd=1",
+                              "motion.start_position_sd=10",
                               "motion.control_noise=1",
                               "motion.aim_drift=1",
-                              "motion.rephasing=100"};
+                              "motion.phase_jump_rate=100"};
             return try_video(video, f);
           }},
     Trial{"all log-weights -infinity", false,

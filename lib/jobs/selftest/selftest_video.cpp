@@ -179,7 +179,7 @@ TrialResult judged(const TrackOutcome& outcome, const Motion& truth, double heig
   if (!result.what.empty()) return result;
   result.what = fmt::format("{} of {} frames", outcome.tracked, outcome.frames);
   result.end = outcome.status == TrackStatus::kTracked ? TrialEnd::kTracked : TrialEnd::kDegraded;
-  if (!outcome.trouble.empty()) result.what += "; " + outcome.trouble;
+  if (!outcome.message.empty()) result.what += "; " + outcome.message;
   if (outcome.tracked == 0) return result;
   const auto errors = joint_errors(truth, read_motion(output / "joints.csv"));
   const double error = errors.by_joint[static_cast<size_t>(Joint::kPelvis)].absolute.median;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "core/anthropometry.h"
 #include "core/errors.h"
 #include "core/version.h"
 #include "io/archive/result_folder.h"
@@ -22,10 +23,13 @@ using Eigen::VectorXd;
 
 enum PartIndex { kTrunk, kLeftThigh, kRightThigh, kLeftShank, kRightShank };
 
-// Shares of height and mass (Winter 2009, tables 4.1; lengths Drillis & Contini 1966).
-constexpr double kTrunkLength = .288, kThighLength = .245, kShankLength = .285;
+// Shares of height (core/anthropometry.h); the shank reaches to the sole.
+constexpr double kTrunkLength = anthropometry::kTrunk, kThighLength = anthropometry::kThigh;
+constexpr double kShankLength = .285;
 constexpr double kHeadTop = .47;  // above the hips
-constexpr double kTrunkMass = .678, kThighMass = .100, kShankMass = .061;
+constexpr double kTrunkMass = anthropometry::kHeadArmsTrunk.mass;
+constexpr double kThighMass = anthropometry::kThighShares.mass;
+constexpr double kShankMass = anthropometry::kShankAndFoot.mass;
 constexpr double kHipHalfWidth = .0955;
 
 // Rates (rad/s, m/s) that no body reaches before its integration has diverged.

@@ -69,7 +69,7 @@ class Sweep {
 
   fs::path folder(const Trial& trial) const {
     const std::string seed = fmt::format("seed_{}", trial.seed);
-    return job_.output / "runs" / folder_name(setting_name(job_.knobs, trial.setting)) /
+    return job_.output / "runs" / folder_name(setting_name(job_.parameters, trial.setting)) /
            (trial.repeat == 0 ? seed : fmt::format("{}_again_{}", seed, trial.repeat));
   }
 
@@ -83,7 +83,7 @@ class Sweep {
       const TrackOutcome outcome = track_scene(track, quiet(before));
       if (outcome.status == TrackStatus::kInterrupted) return false;
       if (outcome.status == TrackStatus::kCutShort)
-        throw InputError(fmt::format("{}: {}", job_.scene.file.string(), outcome.trouble));
+        throw InputError(fmt::format("{}: {}", job_.scene.file.string(), outcome.message));
     }
     control_.progress("sweeping", done_, total_);
     return true;
@@ -99,7 +99,7 @@ class Sweep {
     TrackJob track;
     track.scene = job_.scene;
     track.config = job_.config;
-    apply_sweep_setting(job_.knobs, trial.setting, track.scene, track.config);
+    apply_sweep_setting(job_.parameters, trial.setting, track.scene, track.config);
     track.config.values.seed = trial.seed;
     track.output = folder(trial);
     track.overwrite = true;
@@ -192,7 +192,7 @@ std::optional<Truth> reference_of(const SweepJob& job, Sweep& sweep, const Sweep
   const Trial trial{richest, job.config.values.seed + static_cast<uint64_t>(job.seeds), 0};
   report.against_truth = false;
   report.reference =
-      fmt::format("a run of {} with seed {}", setting_name(job.knobs, richest), trial.seed);
+      fmt::format("a run of {} with seed {}", setting_name(job.parameters, richest), trial.seed);
   if (!sweep.run(trial)) return std::nullopt;
   Motion motion = sweep.joints(trial);
   const bool any = std::any_of(motion.joints.begin(), motion.joints.end(), scored_joints_known);
@@ -210,10 +210,10 @@ SweepReport run_sweep(const SweepJob& job, const JobControl& control) {
     throw UsageError("budget.frame_ms: a sweep measures settings as they are; leave it 0");
   SweepReport report;
   report.scene = job.scene.file.filename().string();
-  report.knobs = job.knobs;
+  report.parameters = job.parameters;
   report.seeds = job.seeds;
   report.threads = thread_count(job.config.values.threads);
-  const std::vector<SweepSetting> grid = sweep_grid(job.knobs);
+  const std::vector<SweepSetting> grid = sweep_grid(job.parameters);
   const size_t runs =
       grid.size() * static_cast<size_t>(job.seeds) * static_cast<size_t>(job.repeats);
   if (runs > kMostRuns)
@@ -222,7 +222,7 @@ SweepReport run_sweep(const SweepJob& job, const JobControl& control) {
   Sweep sweep(job, control);
   const bool truth_known = !job.truth.empty() || !job.scene.truth.empty();
   sweep.expect(runs + (truth_known ? 0 : 1));
-  const SweepSetting richest = richest_setting(job.knobs);
+  const SweepSetting richest = richest_setting(job.parameters);
   const std::optional<Truth> truth = reference_of(job, sweep, richest, report);
   std::vector<SweepRow> rows;
   for (const SweepSetting& setting : grid) rows.push_back({setting, {}});
@@ -239,12 +239,12 @@ SweepReport run_sweep(const SweepJob& job, const JobControl& control) {
   }
   report.interrupted = report.interrupted || !truth;
   std::erase_if(rows, [](const SweepRow& row) { return row.runs.empty(); });
-  summarise_sweep(rows, job.config.values.gates.lost_share);
+  summarise_sweep(rows, job.config.values.quality.lost_share);
   report.rows = std::move(rows);
   return report;
 }
 
-void summarise_sweep(std::vector<SweepRow>& rows, double lost_gate) {
+void summarise_sweep(std::vector<SweepRow>& rows, double most_lost_share) {
   std::vector<Trade> trades;
   for (SweepRow& row : rows) {
     std::vector<double> errors, seconds, cpu_seconds;
@@ -255,7 +255,7 @@ void summarise_sweep(std::vector<SweepRow>& rows, double lost_gate) {
       seconds.push_back(run.seconds_per_frame);
       cpu_seconds.push_back(run.cpu_seconds_per_frame);
       row.lost_share += run.lost_share / static_cast<double>(row.runs.size());
-      row.holds = row.holds && run.found && run.lost_share <= lost_gate;
+      row.holds = row.holds && run.found && run.lost_share <= most_lost_share;
     }
     const auto n = static_cast<double>(errors.size());
     row.error_mm = errors.empty() ? kNone : std::reduce(errors.begin(), errors.end()) / n;

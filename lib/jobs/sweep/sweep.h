@@ -25,7 +25,7 @@ namespace walktrack {
 struct SweepJob {
   Scene scene;
   ConfigWithOrigin config;
-  std::vector<SweepKnob> knobs;
+  std::vector<SweptParameter> parameters;
   int seeds = 3;                // of each setting, from the configuration's on
   int repeats = 1;              // of each run, for its time alone
   std::filesystem::path truth;  // empty = the scene's; if it has none, see SweepReport::reference
@@ -49,7 +49,7 @@ struct SweepRow {
   // Means over the runs; the error's standard deviation over seeds, NaN for fewer than two.
   double error_mm = 0, error_sd_mm = 0, lost_share = 0;
   double seconds_per_frame = 0, cpu_seconds_per_frame = 0;  // medians of the runs
-  bool holds = false;     // every seed found the walker and kept to the gate of lost frames
+  bool holds = false;     // every seed found the walker and kept to the limit of lost frames
   bool on_front = false;  // nothing that holds is both faster and more accurate
 
   double frames_per_second() const { return 1 / seconds_per_frame; }
@@ -57,7 +57,7 @@ struct SweepRow {
 
 struct SweepReport {
   std::string scene;
-  std::vector<SweepKnob> knobs;
+  std::vector<SweptParameter> parameters;
   std::vector<SweepRow> rows;  // in grid order; without those that no run has finished of
   std::string error_is;        // what the error is, e.g. "joint error (7 joints), mean, mm"
   // What errors are against: the truth's file, or without one a run of the richest setting with a
@@ -72,7 +72,7 @@ struct SweepReport {
 SweepReport run_sweep(const SweepJob& job, const JobControl& control);
 
 // Means, deviations and the front from the rows' runs.
-void summarise_sweep(std::vector<SweepRow>& rows, double lost_gate);
+void summarise_sweep(std::vector<SweepRow>& rows, double most_lost_share);
 
 // What somebody wants of a setting.
 struct SweepWish {

@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "io/archive/files.h"
+#include "io/config/renamed_keys.h"
 #include "observation/terms.h"
 
 namespace walktrack {
@@ -41,12 +42,14 @@ std::vector<std::string> split(const std::string& text, char separator) {
 std::string key_of(const std::string& name) {
   for (const auto& [word, key] : kShortNames)
     if (name == word) return std::string(key);
+  for (const RenamedKey& renamed : renamed_keys())
+    if (name == renamed.before) return std::string(renamed.now);
   return name;
 }
 
-[[noreturn]] void refuse(const std::string& knob, const std::string& found,
+[[noreturn]] void refuse(const std::string& parameter, const std::string& found,
                          const std::string& allowed) {
-  throw UsageError(describe({kOrigin, 0, knob}, fmt::format("'{}'", found), allowed));
+  throw UsageError(describe({kOrigin, 0, parameter}, fmt::format("'{}'", found), allowed));
 }
 
 void refuse_unknown(const std::string& name) {
@@ -54,12 +57,12 @@ void refuse_unknown(const std::string& name) {
   for (const auto& [word, key] : kShortNames) names.emplace_back(word);
   const std::string words = fmt::format("{}", fmt::join(names, ", "));
   for (const auto& [key, value] : config_values({})) names.push_back(key);
-  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  if (std::find(names.begin(), names.end(), key_of(name)) != names.end()) return;
   const std::string nearest = nearest_word(name, names);
   throw UsageError(describe({kOrigin, 0, name},
                             nearest.empty()
-                                ? "an unknown knob"
-                                : fmt::format("an unknown knob, did you mean '{}'?", nearest),
+                                ? "an unknown parameter"
+                                : fmt::format("an unknown parameter, did you mean '{}'?", nearest),
                             words + " and the keys of 'walktrack config'"));
 }
 
@@ -108,57 +111,57 @@ std::vector<std::pair<std::string, std::string>> term_flags(const std::string& v
 }
 
 // How much a value promises; nullopt for a word.
-std::optional<double> richness(const std::string& knob, const std::string& value) {
+std::optional<double> richness(const std::string& parameter, const std::string& value) {
   if (value == "true" || value == "on") return 1;
   if (value == "false" || value == "off") return 0;
   if (value == kAllTerms) return static_cast<double>(term_switches().size());
   const std::optional<double> number = number_from_text(value);
-  if (number || (knob != kCameras && knob != kTerms)) return number;
+  if (number || (parameter != kCameras && parameter != kTerms)) return number;
   return static_cast<double>(split(value, '+').size());
 }
 
-SweepKnob knob_of(const std::string& word) {
+SweptParameter parameter_of(const std::string& word) {
   const size_t equals = word.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
     throw UsageError(describe({"", 0, kOrigin}, fmt::format("'{}'", word),
                               "NAME=VALUE:VALUE, several separated by commas"));
-  SweepKnob knob{word.substr(0, equals), split(word.substr(equals + 1), ':')};
-  refuse_unknown(knob.name);
-  for (size_t i = 0; i < knob.values.size(); ++i)
-    if (std::find(knob.values.begin(), knob.values.begin() + static_cast<long>(i),
-                  knob.values[i]) != knob.values.begin() + static_cast<long>(i))
-      refuse(knob.name, knob.values[i], "every value once");
-  return knob;
+  SweptParameter parameter{word.substr(0, equals), split(word.substr(equals + 1), ':')};
+  refuse_unknown(parameter.name);
+  for (size_t i = 0; i < parameter.values.size(); ++i)
+    if (std::find(parameter.values.begin(), parameter.values.begin() + static_cast<long>(i),
+                  parameter.values[i]) != parameter.values.begin() + static_cast<long>(i))
+      refuse(parameter.name, parameter.values[i], "every value once");
+  return parameter;
 }
 
 }  // namespace
 
-std::vector<SweepKnob> sweep_knobs(const std::vector<std::string>& words, const Scene& scene,
-                                   const ConfigWithOrigin& config) {
-  std::vector<SweepKnob> knobs;
+std::vector<SweptParameter> swept_parameters(const std::vector<std::string>& words,
+                                             const Scene& scene, const ConfigWithOrigin& config) {
+  std::vector<SweptParameter> parameters;
   for (const std::string& list : words) {
     for (const std::string& word : split(list, ',')) {
-      SweepKnob knob = knob_of(word);
-      for (const SweepKnob& other : knobs)
-        if (key_of(other.name) == key_of(knob.name))
-          refuse(knob.name, knob.name, "every knob once");
-      for (const std::string& value : knob.values) {
+      SweptParameter parameter = parameter_of(word);
+      for (const SweptParameter& other : parameters)
+        if (key_of(other.name) == key_of(parameter.name))
+          refuse(parameter.name, parameter.name, "every parameter once");
+      for (const std::string& value : parameter.values) {
         Scene tried_scene = scene;
         ConfigWithOrigin tried = config;
-        apply_sweep_setting({knob}, {value}, tried_scene, tried);
+        apply_sweep_setting({parameter}, {value}, tried_scene, tried);
       }
-      knobs.push_back(std::move(knob));
+      parameters.push_back(std::move(parameter));
     }
   }
-  return knobs;
+  return parameters;
 }
 
-std::vector<SweepSetting> sweep_grid(const std::vector<SweepKnob>& knobs) {
+std::vector<SweepSetting> sweep_grid(const std::vector<SweptParameter>& parameters) {
   std::vector<SweepSetting> grid{{}};
-  for (const SweepKnob& knob : knobs) {
+  for (const SweptParameter& parameter : parameters) {
     std::vector<SweepSetting> longer;
     for (const SweepSetting& setting : grid) {
-      for (const std::string& value : knob.values) {
+      for (const std::string& value : parameter.values) {
         longer.push_back(setting);
         longer.back().push_back(value);
       }
@@ -168,45 +171,48 @@ std::vector<SweepSetting> sweep_grid(const std::vector<SweepKnob>& knobs) {
   return grid;
 }
 
-SweepSetting richest_setting(const std::vector<SweepKnob>& knobs) {
+SweepSetting richest_setting(const std::vector<SweptParameter>& parameters) {
   SweepSetting richest;
-  for (const SweepKnob& knob : knobs) {
-    richest.push_back(knob.values.front());
-    for (const std::string& value : knob.values) {
-      const auto rich = richness(knob.name, value), before = richness(knob.name, richest.back());
+  for (const SweptParameter& parameter : parameters) {
+    richest.push_back(parameter.values.front());
+    for (const std::string& value : parameter.values) {
+      const auto rich = richness(parameter.name, value),
+                 before = richness(parameter.name, richest.back());
       if (!rich || !before || *rich > *before) richest.back() = value;
     }
   }
   return richest;
 }
 
-void apply_sweep_setting(const std::vector<SweepKnob>& knobs, const SweepSetting& setting,
+void apply_sweep_setting(const std::vector<SweptParameter>& parameters, const SweepSetting& setting,
                          Scene& scene, ConfigWithOrigin& config) {
-  const SettingWords words = setting_words(knobs, setting);
+  const SettingWords words = setting_words(parameters, setting);
   if (!words.config.empty()) apply_config_file(config, words.config);
   if (!words.cameras.empty()) scene.cameras = chosen_cameras(words.cameras, scene.cameras);
   for (const auto& [key, value] : words.parameters)
     apply_setting(config, key + "=" + value, kOrigin);
 }
 
-std::string setting_name(const std::vector<SweepKnob>& knobs, const SweepSetting& setting) {
+std::string setting_name(const std::vector<SweptParameter>& parameters,
+                         const SweepSetting& setting) {
   std::string name;
-  for (size_t i = 0; i < knobs.size(); ++i)
-    name += fmt::format("{}{}={}", i == 0 ? "" : " ", knobs[i].name, setting[i]);
+  for (size_t i = 0; i < parameters.size(); ++i)
+    name += fmt::format("{}{}={}", i == 0 ? "" : " ", parameters[i].name, setting[i]);
   return name;
 }
 
-SettingWords setting_words(const std::vector<SweepKnob>& knobs, const SweepSetting& setting) {
+SettingWords setting_words(const std::vector<SweptParameter>& parameters,
+                           const SweepSetting& setting) {
   SettingWords words;
-  for (size_t i = 0; i < knobs.size(); ++i) {
-    if (knobs[i].name == kConfig) {
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].name == kConfig) {
       words.config = setting[i];
-    } else if (knobs[i].name == kCameras) {
+    } else if (parameters[i].name == kCameras) {
       words.cameras = setting[i];
-    } else if (knobs[i].name == kTerms) {
+    } else if (parameters[i].name == kTerms) {
       for (auto& flag : term_flags(setting[i])) words.parameters.push_back(std::move(flag));
     } else {
-      words.parameters.emplace_back(key_of(knobs[i].name), setting[i]);
+      words.parameters.emplace_back(key_of(parameters[i].name), setting[i]);
     }
   }
   return words;

@@ -1,5 +1,5 @@
-// The grid of a sweep: which knobs are turned, to which values, and what that makes of a scene and
-// its configuration.
+// The grid of a sweep: which parameters are turned, to which values, and what that makes of a scene
+// and its configuration.
 //
 //   particles=50:100:300      filter.particles           scale=60:120     observation.person_px
 //   moves, layers, arms       filter.moves, filter.max_layers, body.arms
@@ -7,7 +7,7 @@
 //   keypoints=off:on          observation.keypoints.enabled
 //   terms=all:background+flow   the likelihood terms that are on, by their switches
 //   cameras=1:2:side+front      the first so many of the scene, or those named
-//   config=fast:balanced:mine.yaml   what -c takes; the other knobs come on top of it
+//   config=fast:balanced:mine.yaml   what -c takes; the other parameters come on top of it
 //   any key of `walktrack config`
 #pragma once
 
@@ -20,31 +20,32 @@
 
 namespace walktrack {
 
-struct SweepKnob {
+struct SweptParameter {
   std::string name;                 // as it was asked for
   std::vector<std::string> values;  // at least one
 };
 
-// A value for each knob, in their order.
+// A value for each parameter, in their order.
 using SweepSetting = std::vector<std::string>;
 
-// Knobs from words "NAME=V1:V2,NAME=V1:V2". UsageError for what is unknown, doubled, or refused by
-// this scene or configuration.
-std::vector<SweepKnob> sweep_knobs(const std::vector<std::string>& words, const Scene& scene,
-                                   const ConfigWithOrigin& config);
+// Parameters from words "NAME=V1:V2,NAME=V1:V2". UsageError for what is unknown, doubled, or
+// refused by this scene or configuration.
+std::vector<SweptParameter> swept_parameters(const std::vector<std::string>& words,
+                                             const Scene& scene, const ConfigWithOrigin& config);
 
-// All combinations, the last knob turning fastest.
-std::vector<SweepSetting> sweep_grid(const std::vector<SweepKnob>& knobs);
+// All combinations, the last parameter turning fastest.
+std::vector<SweepSetting> sweep_grid(const std::vector<SweptParameter>& parameters);
 
-// Of each knob the value that ought to be the most accurate: the largest number, most cameras, most
-// terms, true before false; of words the last.
-SweepSetting richest_setting(const std::vector<SweepKnob>& knobs);
+// Of each parameter the value that ought to be the most accurate: the largest number, most cameras,
+// most terms, true before false; of words the last.
+SweepSetting richest_setting(const std::vector<SweptParameter>& parameters);
 
-void apply_sweep_setting(const std::vector<SweepKnob>& knobs, const SweepSetting& setting,
+void apply_sweep_setting(const std::vector<SweptParameter>& parameters, const SweepSetting& setting,
                          Scene& scene, ConfigWithOrigin& config);
 
 // "particles=50 scale=80".
-std::string setting_name(const std::vector<SweepKnob>& knobs, const SweepSetting& setting);
+std::string setting_name(const std::vector<SweptParameter>& parameters,
+                         const SweepSetting& setting);
 
 // What `track` has to be told for it.
 struct SettingWords {
@@ -52,6 +53,7 @@ struct SettingWords {
   std::vector<std::pair<std::string, std::string>> parameters;  // key, value
   std::string cameras;                                          // to keep in the scene; empty = all
 };
-SettingWords setting_words(const std::vector<SweepKnob>& knobs, const SweepSetting& setting);
+SettingWords setting_words(const std::vector<SweptParameter>& parameters,
+                           const SweepSetting& setting);
 
 }  // namespace walktrack

@@ -32,7 +32,7 @@ std::string csv_value(double value, int decimals) {
 Json json_value(double value) { return std::isnan(value) ? Json() : Json(value); }
 
 std::string name_of(const SweepReport& report, const SweepRow& row) {
-  const std::string name = setting_name(report.knobs, row.setting);
+  const std::string name = setting_name(report.parameters, row.setting);
   return name.empty() ? "as configured" : name;
 }
 
@@ -60,7 +60,7 @@ bool closer(const SweepRow& a, const SweepRow& b) { return a.error_mm < b.error_
 bool any(const SweepRow&) { return true; }
 
 std::string options(const SweepReport& report, const SweepRow& row) {
-  const SettingWords words = setting_words(report.knobs, row.setting);
+  const SettingWords words = setting_words(report.parameters, row.setting);
   std::string text = words.config.empty() ? "" : " -c " + words.config;
   for (const auto& [key, value] : words.parameters) text += fmt::format(" --set {}={}", key, value);
   if (!words.cameras.empty()) text += fmt::format(" (of the scene's cameras: {})", words.cameras);
@@ -127,7 +127,7 @@ std::vector<std::string> sweep_advice(const SweepReport& report, const SweepWish
 
 std::string sweep_csv(const SweepReport& report) {
   std::string text;
-  for (const SweepKnob& knob : report.knobs) text += csv_cell(knob.name) + ",";
+  for (const SweptParameter& parameter : report.parameters) text += csv_cell(parameter.name) + ",";
   text +=
       "error_mm,error_sd_mm,lost_percent,seconds_per_frame,cpu_seconds_per_frame,frames_per_second,"
       "seeds,holds,"
@@ -155,8 +155,8 @@ std::string sweep_json(const SweepReport& report, const std::vector<std::string>
                {"advice", advice}};
   for (const SweepRow& row : report.rows) {
     Json one;
-    for (size_t i = 0; i < report.knobs.size(); ++i)
-      one["setting"][report.knobs[i].name] = row.setting[i];
+    for (size_t i = 0; i < report.parameters.size(); ++i)
+      one["setting"][report.parameters[i].name] = row.setting[i];
     one["error_mm"] = json_value(row.error_mm);
     one["error_sd_mm"] = json_value(row.error_sd_mm);
     one["lost_share"] = row.lost_share;
@@ -195,7 +195,7 @@ std::string sweep_markdown(const SweepReport& report, const std::vector<std::str
                                      : "lost");
   text +=
       "\n`front`: nothing is both faster and more accurate. `lost`: a seed did not find the "
-      "walker, or lost them for more than the gate allows.\n\n";
+      "walker, or lost them for more than the quality check allows.\n\n";
   for (const std::string& sentence : advice) text += fmt::format("- {}\n", sentence);
   return text;
 }

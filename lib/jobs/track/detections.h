@@ -34,7 +34,7 @@ struct WorkingScale {
 // program has the network.
 bool keypoints_wanted(const Scene& scene, const Config& config);
 // Whether flow is: as configured; `auto` is off, for it has not been seen to gain
-// (observation/README.md, Flow).
+// (observation/reports/flow.md).
 bool flow_wanted(const Config& config);
 // The configuration's terms with all that decided: on or off.
 ObservationConfig decided_terms(const Scene& scene, const Config& config);

@@ -17,7 +17,7 @@ TrackedFrames named(const TrackedFrames& frames, const Body& body,
                     const std::filesystem::path& file) {
   std::vector<NamedFrame> seen;
   for (const FrameRecord& record : frames.records)
-    seen.push_back({record.tracked, record.names, record.modes.exchanged});
+    seen.push_back({record.tracked, record.names, record.modes.p_legs_swapped});
   const std::vector<double> swapped = swapped_probabilities(seen, 1 / frames.frame_rate);
   TrackedFrames out{frames.frame_rate, FrameFile(file)};
   std::filesystem::remove(file);  // what is open can still be read, and leaves nothing behind
@@ -25,7 +25,7 @@ TrackedFrames named(const TrackedFrames& frames, const Body& body,
   for (FrameRecord record : frames.records) {
     const double p = *probability++;
     if (p > 0.5) mirror_legs(body, record);
-    if (record.tracked) record.modes.exchanged = std::min(p, 1 - p);
+    if (record.tracked) record.modes.p_legs_swapped = std::min(p, 1 - p);
     out.records.append(record);
   }
   return out;

@@ -11,7 +11,7 @@ namespace walktrack {
 // Whether any frame says anything of the names.
 bool says_names(const TrackedFrames& frames);
 
-// The frames with the legs exchanged where that is likelier than not, and with the probability that
+// The frames with the legs swapped where that is likelier than not, and with the probability that
 // they are swapped all the same; in a file that leaves nothing behind.
 TrackedFrames named(const TrackedFrames& frames, const Body& body,
                     const std::filesystem::path& file);

@@ -18,7 +18,7 @@ class NextFrame {
  public:
   // What fetching took; CPU of the threads that did it for a camera each.
   struct Cost {
-    Spent decode, prepare;
+    Elapsed decode, prepare;
   };
 
   // All have to outlive this.

@@ -37,7 +37,7 @@ constexpr QualityWords kWords[] = {
      "The figure is likely to be beside the person: look at the overlay video, say where the walk "
      "begins (initial), or run walktrack check."},
     {"legs_exchanged_percent", "Left and right may be swapped, mean probability", "%", 0,
-     "How probable it is, by the tracker's own account, that the left leg is taken for the right.",
+     "How probable it is, as the tracker estimates, that the left leg is taken for the right.",
      "The images hardly tell left from right here: a second camera from another side does. Until "
      "then do not compare left with right."},
     {"leg_swaps_per_min", "Left and right swapped between frames", "/min", 1,
@@ -51,8 +51,7 @@ constexpr QualityWords kWords[] = {
      "on something else than the subject's legs."},
     {"longest_step_leg_lengths", "Longest step, in leg lengths", "", 2,
      "People's steps are at most about as long as their legs.",
-     "A foot was lost or the figure label_switched: look at the longest step in the overlay video. "
-     "Is the "
+     "A foot was lost or the figure jumped: look at the longest step in the overlay video. Is the "
      "subject's height right?"},
     {"shortest_step_m", "Shortest step", "m", 2,
      "Less than nothing is a step that ends behind the other foot.",
@@ -60,8 +59,7 @@ constexpr QualityWords kWords[] = {
      "that step in the overlay video."},
     {"fastest_m_s", "Fastest half second", "m/s", 2,
      "Speed of the pelvis over the ground; nobody walks faster than 2.5 m/s.",
-     "The figure label_switched to another place: look at the speed over time. Is the frame rate "
-     "right?"},
+     "The figure jumped to another place: look at the speed over time. Is the frame rate right?"},
     {"scale_sd_percent", "Distance and size, standard deviation", "%", 1,
      "By how much the whole figure may be too near and too small, or too far and too large, with "
      "its steps and speed: what the cameras leave open. No check sees an error of this kind.",

@@ -2,7 +2,7 @@
 // of the tables that are written of it.
 //
 // It holds the overlay videos, an interactive view of the figure in space, curves over the gait
-// cycle beside a published normal range, events, what the filter says of itself, quality gates,
+// cycle beside a published normal range, events, what the filter says of itself, quality checks,
 // settings and run.json itself. Positions in it are in the library's world axes.
 #pragma once
 

@@ -31,11 +31,11 @@ double seconds_since(Clock::time_point start) {
 double process_cpu_seconds() { return cpu_seconds(CLOCK_PROCESS_CPUTIME_ID); }
 double thread_cpu_seconds() { return cpu_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
-Spent spent_since(const Moment& moment) {
+Elapsed elapsed_since(const TimePoint& moment) {
   return {seconds_since(moment.clock), process_cpu_seconds() - moment.cpu};
 }
 
-void Stopwatch::add(std::string_view stage, const Spent& spent) {
+void Stopwatch::add(std::string_view stage, const Elapsed& spent) {
   grow(stages_, stage, spent.seconds);
   grow(cpu_stages_, stage, spent.cpu);
 }

@@ -16,22 +16,22 @@ double seconds_since(Clock::time_point start);
 double process_cpu_seconds();
 double thread_cpu_seconds();
 
-struct Spent {
+struct Elapsed {
   double seconds = 0, cpu = 0;
 };
 
 // A point in time, and of the work of all threads.
-struct Moment {
+struct TimePoint {
   Clock::time_point clock = Clock::now();
   double cpu = process_cpu_seconds();
 };
-Spent spent_since(const Moment& moment);
+Elapsed elapsed_since(const TimePoint& moment);
 
 // Seconds by stage, in the order of first use.
 class Stopwatch {
  public:
   using Stages = std::vector<std::pair<std::string, double>>;
-  void add(std::string_view stage, const Spent& spent);
+  void add(std::string_view stage, const Elapsed& spent);
   const Stages& stages() const { return stages_; }
   const Stages& cpu_stages() const { return cpu_stages_; }
 

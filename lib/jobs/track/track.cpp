@@ -141,7 +141,7 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
   out.inputs = inputs;
   out.config = job.config;
   out.status = status_word(outcome.status);
-  if (!outcome.trouble.empty()) out.notes.push_back(outcome.trouble);
+  if (!outcome.message.empty()) out.notes.push_back(outcome.message);
   out.notes.insert(out.notes.end(), outcome.checks.begin(), outcome.checks.end());
   const bool paced = job.config.values.budget.frame_ms > 0;
   if (paced) out.notes.push_back(pace_note(job.config.values.budget));
@@ -177,7 +177,8 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
       {"left_stance",
        by_frame(frames, [](const FrameRecord& r) { return r.estimate.left_stance; })},
       {"stride_phase", by_frame(frames, [](const FrameRecord& r) { return r.modes.phase; })},
-      {"legs_exchanged", by_frame(frames, [](const FrameRecord& r) { return r.modes.exchanged; })},
+      {"legs_exchanged",
+       by_frame(frames, [](const FrameRecord& r) { return r.modes.p_legs_swapped; })},
       {"standing", by_frame(frames, [](const FrameRecord& r) { return r.modes.standing; })},
       {"speed", pelvis_speeds(frames)}};
   add_evidence(job.scene, frames, out.by_frame);
@@ -209,7 +210,7 @@ TrackStatus judge(TrackRun& run, const Quality& quality, const SceneVideo& video
     return TrackStatus::kNotFound;
   }
   trouble = first_failure(quality);
-  return trouble.empty() ? TrackStatus::kTracked : TrackStatus::kBelowGates;
+  return trouble.empty() ? TrackStatus::kTracked : TrackStatus::kQualityFailed;
 }
 
 // With every term off there would be nothing but the walker's own gait.
@@ -314,7 +315,7 @@ std::string_view status_word(TrackStatus status) {
       return "tracked";
     case TrackStatus::kNotFound:
       return "not found";
-    case TrackStatus::kBelowGates:
+    case TrackStatus::kQualityFailed:
       return "below gates";
     case TrackStatus::kInterrupted:
       return "interrupted";
@@ -328,11 +329,11 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const auto start = Clock::now();
   TrackJob job = given;
   job.config.values.observation = decided_terms(job.scene, job.config.values);
-  const Moment looking;
+  const TimePoint looking;
   require_a_term(job.config.values.observation);
   TrackOutcome outcome;
   outcome.checks = looked_at(job, control);
-  const Spent checking = spent_since(looking);
+  const Elapsed checking = elapsed_since(looking);
   SceneVideo video(job.scene);
   require_room_for_search(job.scene, job.config.values, video.frame_rate());
   const Outputs outputs = track_outputs(job);
@@ -346,7 +347,7 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   TrackRun run(job, video, folder, origin, std::move(checkpoint), control);
   run.watch().add("checks", checking);
   const bool interrupted = follow_video(run, video, control, outcome);
-  const Moment writing;
+  const TimePoint writing;
   const SmoothingConfig& smoothing = job.config.values.smoothing;
   std::optional<TrackedFrames> sided, light, still;
   if (says_names(run.frames()))
@@ -360,10 +361,10 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const Scene scene = with_stature(job.scene, run.stature());
   const AnalysedMotion analysed =
       analysed_motion(frames, scene, job.config.values.tracker.model_error);
-  Quality quality =
-      quality_of(frames, moving, job.config.values.gates, leg_length(body_lengths(scene.subject)));
+  Quality quality = quality_of(frames, moving, job.config.values.quality,
+                               leg_length(body_lengths(scene.subject)));
   quality.push_back(quality_measure("scale_sd_percent", 100 * analysed.figure_error.scale));
-  outcome.status = judge(run, quality, video, interrupted, control, outcome.trouble);
+  outcome.status = judge(run, quality, video, interrupted, control, outcome.message);
   outcome.tracked = count(frames).tracked;
   if (run.stature()) control.say(size_note(*run.stature()));
   for (const std::string& note : run.notes()) control.say(note);
@@ -372,16 +373,16 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   forces.cutoff_hz = forces.tracked_cutoff_hz;
   const WrittenTables tables = write_tables(analysed, uncertainty, forces, folder);
   outcome.walk = tables.walk;
-  if (outcome.status == TrackStatus::kBelowGates) outcome.failed_checks = failures(quality);
+  if (outcome.status == TrackStatus::kQualityFailed) outcome.failed_checks = failures(quality);
   std::vector<ReportClip> clips;
   if (job.overlay && outcome.frames > 0)
     clips = write_overlays(job, frames, folder, run.threads(), control);
-  run.watch().add("output", spent_since(writing));
+  run.watch().add("output", elapsed_since(writing));
   const double seconds = seconds_since(start);
   outcome.frames_per_second = (outcome.frames - run.first_frame()) / seconds;
   const std::string record =
       run_json(record_of(job, inputs, run, frames, outcome, quality, tables, seconds));
-  outcome.look_at = write_report(
+  outcome.open_first = write_report(
       folder, {job.scene.file, analysed, uncertainty, job.scene.cameras, record, clips});
   const bool partial =
       outcome.status == TrackStatus::kInterrupted || outcome.status == TrackStatus::kCutShort;

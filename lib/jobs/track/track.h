@@ -38,10 +38,10 @@ struct TrackJob {
 
 enum class TrackStatus {
   kTracked,
-  kNotFound,     // nobody walks in this video
-  kBelowGates,   // tracked, but a quality gate of the configuration failed
-  kInterrupted,  // told to stop; what was done is kept
-  kCutShort,     // a video ended with trouble; what was done is kept
+  kNotFound,       // nobody walks in this video
+  kQualityFailed,  // tracked, but a quality check failed
+  kInterrupted,    // told to stop; what was done is kept
+  kCutShort,       // a video ended with trouble; what was done is kept
 };
 
 struct TrackOutcome {
@@ -51,10 +51,10 @@ struct TrackOutcome {
   std::optional<double> stride_frames_per_second;  // see TrackRun
   bool resumable = false;  // for kInterrupted: there is a checkpoint to go on from
   WalkSummary walk;
-  std::vector<QualityMeasure> failed_checks;  // for kBelowGates
+  std::vector<QualityMeasure> failed_checks;  // for kQualityFailed
   std::vector<std::string> checks;            // what the scene's checks found
-  std::string trouble;                        // for kCutShort and kBelowGates: what happened
-  std::filesystem::path look_at;              // the file to open first
+  std::string message;                        // for kCutShort and kQualityFailed: what happened
+  std::filesystem::path open_first;           // the file to open first
 };
 
 // As run.json has it.

@@ -16,14 +16,14 @@ namespace walktrack {
 
 namespace {
 
-QualityMeasure at_most(std::string_view name, double value, double gate) {
+QualityMeasure at_most(std::string_view name, double value, double limit) {
   QualityMeasure m = quality_measure(name, value);
-  m.gate = gate;
+  m.limit = limit;
   return m;
 }
 
-QualityMeasure at_least(std::string_view name, double value, double gate) {
-  QualityMeasure m = at_most(name, value, gate);
+QualityMeasure at_least(std::string_view name, double value, double limit) {
+  QualityMeasure m = at_most(name, value, limit);
   m.at_most = false;
   return m;
 }
@@ -33,7 +33,7 @@ double percent(double part, double whole) { return whole > 0 ? 100 * part / whol
 // What is counted over the frames of a track.
 struct Counts {
   int tracked = 0, lost = 0, moving = 0;  // frames; lost: after the first tracked one
-  double exchanged = 0;                   // sum of probabilities
+  double p_legs_swapped = 0;              // sum of probabilities
   double better_beside = 0;               // sum of shares
 };
 
@@ -42,7 +42,7 @@ Counts count(const TrackedFrames& frames) {
   for (const FrameRecord& record : frames.records) {
     if (record.tracked) {
       ++out.tracked;
-      out.exchanged += record.modes.exchanged;
+      out.p_legs_swapped += record.modes.p_legs_swapped;
       out.better_beside += record.fit.better_beside;
       continue;
     }
@@ -53,20 +53,20 @@ Counts count(const TrackedFrames& frames) {
 }
 
 // Of a configuration without silhouettes nothing is known, and nothing measured.
-void add_overlap(const TrackedFrames& frames, const GateConfig& gates, Quality& out) {
+void add_overlap(const TrackedFrames& frames, const QualityConfig& limits, Quality& out) {
   std::vector<double> overlaps = mean_overlaps(frames);
   std::erase_if(overlaps, [](double overlap) { return std::isnan(overlap); });
   if (overlaps.empty()) return;
   out.push_back(
-      at_least("overlap_percent", 100 * *std::ranges::min_element(overlaps), 100 * gates.overlap));
+      at_least("overlap_percent", 100 * *std::ranges::min_element(overlaps), 100 * limits.overlap));
 }
 
 // What planting feet takes away, of the frames before it.
-Quality quality_before(const TrackedFrames& moving, const GateConfig& gates) {
+Quality quality_before(const TrackedFrames& moving, const QualityConfig& limits) {
   const Motion motion = motion_of(moving);
   const Plausibility p = plausibility(motion, gait_from_motion(motion));
-  return {at_most("tracked_foot_slide_mm", 1000 * p.mean_foot_slide, 1000 * gates.foot_slide),
-          at_most("tracked_penetration_mm", 1000 * p.penetration, 1000 * gates.penetration)};
+  return {at_most("tracked_foot_slide_mm", 1000 * p.mean_foot_slide, 1000 * limits.foot_slide),
+          at_most("tracked_penetration_mm", 1000 * p.penetration, 1000 * limits.penetration)};
 }
 
 }  // namespace
@@ -87,30 +87,30 @@ Quality quality_of_motion(const Motion& motion, double rate, double leg) {
 }
 
 Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
-                   const GateConfig& gates, double leg) {
+                   const QualityConfig& limits, double leg) {
   const Counts counts = count(frames);
   Quality out{
       at_most("lost_percent", percent(counts.lost, counts.tracked + counts.lost),
-              100 * gates.lost_share),
+              100 * limits.lost_share),
       at_most("untracked_movement_percent", percent(counts.moving, counts.tracked + counts.moving),
-              100 * gates.untracked_movement),
-      at_least("foot_changes", foot_changes(frames), gates.least_steps)};
-  add_overlap(frames, gates, out);
+              100 * limits.untracked_movement),
+      at_least("foot_changes", foot_changes(frames), limits.least_steps)};
+  add_overlap(frames, limits, out);
   out.push_back(at_most("better_beside_percent", percent(counts.better_beside, counts.tracked),
-                        100 * gates.better_beside));
-  out.push_back(at_most("legs_exchanged_percent", percent(counts.exchanged, counts.tracked),
-                        100 * gates.legs_exchanged));
-  const std::map<std::string, double> most{{"leg_swaps_per_min", gates.leg_swaps},
-                                           {"steps_off_way_percent", 100 * gates.steps_off_way},
-                                           {"longest_step_leg_lengths", gates.longest_step},
-                                           {"fastest_m_s", gates.fastest},
-                                           {"jitter_m_s3", gates.jitter}};
+                        100 * limits.better_beside));
+  out.push_back(at_most("legs_exchanged_percent", percent(counts.p_legs_swapped, counts.tracked),
+                        100 * limits.legs_swapped));
+  const std::map<std::string, double> most{{"leg_swaps_per_min", limits.leg_swaps},
+                                           {"steps_off_way_percent", 100 * limits.steps_off_way},
+                                           {"longest_step_leg_lengths", limits.longest_step},
+                                           {"fastest_m_s", limits.fastest},
+                                           {"jitter_m_s3", limits.jitter}};
   for (QualityMeasure& m : quality_of_motion(motion_of(frames), frames.frame_rate, leg)) {
-    if (const auto limit = most.find(m.name); limit != most.end()) m.gate = limit->second;
-    if (m.name == "shortest_step_m") m = at_least(m.name, m.value, gates.shortest_step);
+    if (const auto limit = most.find(m.name); limit != most.end()) m.limit = limit->second;
+    if (m.name == "shortest_step_m") m = at_least(m.name, m.value, limits.shortest_step);
     out.push_back(std::move(m));
   }
-  for (QualityMeasure& m : quality_before(moving, gates)) out.push_back(std::move(m));
+  for (QualityMeasure& m : quality_before(moving, limits)) out.push_back(std::move(m));
   return out;
 }
 
@@ -141,7 +141,7 @@ Quality failures(const Quality& quality) {
 std::string failure_text(const QualityMeasure& m) {
   return fmt::format("{}: {:.{}f}{}{} (allowed: {} {:g})", m.what, m.value, m.digits,
                      m.unit.empty() ? "" : " ", m.unit, m.at_most ? "at most" : "at least",
-                     *m.gate);
+                     *m.limit);
 }
 
 std::string first_failure(const Quality& quality) {

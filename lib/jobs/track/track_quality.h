@@ -1,5 +1,5 @@
 // How good a track is, as far as it can tell itself: numbers that people ask for, each with the
-// gate of the configuration that it has to pass.
+// limit of the configuration that it has to keep.
 #pragma once
 
 #include <optional>
@@ -19,16 +19,16 @@ using Quality = std::vector<QualityMeasure>;
 // a quarter of what a walker covers in that time.
 inline constexpr double kSomebodyMoves = 0.15;  // m^2
 
-// What any motion shows, without gates: feet, ground and trembling are judged by
+// What any motion shows, without limits: feet, ground and trembling are judged by
 // metrics/plausibility.h, swapped legs by metrics/leg_swaps.h. `rate` in Hz.
 // `leg`: the subject's leg length, m.
 Quality quality_of_motion(const Motion& motion, double rate, double leg);
 
-// The same of a track with its gates, after what was lost, in the order that they are shown in.
-// `moving`: the frames before their feet were planted; the gates on feet are for those, for planted
-// ones tell little of a track that fails.
+// The same of a track with its limits, after what was lost, in the order that they are shown in.
+// `moving`: the frames before their feet were planted; the limits on feet are for those, for
+// planted ones tell little of a track that fails.
 Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
-                   const GateConfig& gates, double leg);
+                   const QualityConfig& limits, double leg);
 
 // By camera, the mean over the frames that tell of how well the figure lies on the person
 // (FigureFit::overlap); NaN for a camera that tells nothing.
@@ -36,10 +36,10 @@ std::vector<double> mean_overlaps(const TrackedFrames& frames);
 
 Quality failures(const Quality& quality);
 
-// What a failed gate says: the measure, its value and what is allowed.
+// What a failed check says: the measure, its value and what is allowed.
 std::string failure_text(const QualityMeasure& failed);
 
-// What the first failed gate says against the result; empty if all passed.
+// What the first failed check says against the result; empty if all passed.
 std::string first_failure(const Quality& quality);
 
 }  // namespace walktrack

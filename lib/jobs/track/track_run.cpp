@@ -26,9 +26,10 @@ int threads_of(const TrackJob& job) {
 TrackSetup timed_set_up(const TrackJob& job, double frame_rate,
                         const std::vector<ObserverState>& learned, const JobControl& control,
                         Stopwatch& watch) {
-  const Moment start;
+  const TimePoint start;
   TrackSetup setup = set_up(job.scene, job.config.values, frame_rate, learned, control);
-  if (job.config.values.observation.background.enabled) watch.add("background", spent_since(start));
+  if (job.config.values.observation.background.enabled)
+    watch.add("background", elapsed_since(start));
   return setup;
 }
 
@@ -92,7 +93,7 @@ void TrackRun::skip(const JobControl& control) {
 }
 
 bool TrackRun::step() {
-  const Moment start;
+  const TimePoint start;
   const bool tracked = tracker_.tracking();
   if (!next_.fetched()) fetch();
   if (!next_.there()) return false;
@@ -160,19 +161,19 @@ std::vector<Region> TrackRun::regions() const {
 
 // The first frame, of the video or from a checkpoint on.
 void TrackRun::fetch() {
-  const Moment start;
+  const TimePoint start;
   const NextFrame::Cost cost = next_.fetch(regions_.empty() ? regions() : regions_,
                                            tracker_.tracking(), threads_, row_threads());
-  const Spent all = spent_since(start);
+  const Elapsed all = elapsed_since(start);
   watch_.add("decode", cost.decode);
   watch_.add("evidence",
              {all.seconds - cost.decode.seconds, std::max(0.0, all.cpu - cost.decode.cpu)});
 }
 
 void TrackRun::complete() {
-  const Moment start;
+  const TimePoint start;
   next_.complete(static_cast<double>(frames_read_) / frames_.frame_rate, threads_, evidence_);
-  watch_.add("evidence", spent_since(start));
+  watch_.add("evidence", elapsed_since(start));
 }
 
 void TrackRun::push() { keep(tracker_.push(evidence_)); }
@@ -200,7 +201,7 @@ void TrackRun::keep(std::vector<FrameRecord> records) {
 void TrackRun::follow() {
   const bool tracked = tracker_.tracking();
   regions_ = regions();
-  const Moment start;
+  const TimePoint start;
   NextFrame::Cost cost;
   run_beside(
       threads_,
@@ -209,7 +210,7 @@ void TrackRun::follow() {
         filter_seconds_ = seconds_since(start.clock);
       },
       [&] { cost = next_.fetch(regions_, tracked, threads_, tracked ? 1 : row_threads()); });
-  const Spent all = spent_since(start);
+  const Elapsed all = elapsed_since(start);
   const double waited = all.seconds - filter_seconds_;
   const double decode = std::min(waited, cost.decode.seconds);
   watch_.add("decode", {decode, cost.decode.cpu});
@@ -217,14 +218,14 @@ void TrackRun::follow() {
   watch_.add("filter",
              {filter_seconds_, std::max(0.0, all.cpu - cost.decode.cpu - cost.prepare.cpu)});
   if (!tracked || tracker_.tracking() || !next_.there()) return;
-  const Moment lost;
+  const TimePoint lost;
   next_.prepare(regions(), false, threads_, row_threads());
-  watch_.add("evidence", spent_since(lost));
+  watch_.add("evidence", elapsed_since(lost));
 }
 
 // Under a budget, as many particles for the next frame as there is time for. Frames of searching
 // and starting take what they take.
-void TrackRun::pace(const Moment& since) {
+void TrackRun::pace(const TimePoint& since) {
   if (!budget_.on()) return;
   if (!tracker_.tracking()) {
     particles_used_.push_back(std::numeric_limits<double>::quiet_NaN());
@@ -241,18 +242,18 @@ void TrackRun::pace(const Moment& since) {
 // themselves.
 void TrackRun::learn() {
   if (!tracker_.tracking() || !setup_.observers.front().learns()) return;
-  const Moment start;
+  const TimePoint start;
   const Body& body = tracker_.body();
   const PosedBody found(body, tracker_.mean_pose());
   parallel_for(setup_.observers.size(), threads_, [&](size_t c) {
     setup_.observers[c].learn(evidence_[c], project_parts(setup_.scene.cameras[c], found.parts),
                               &found);
   });
-  watch_.add("appearance", spent_since(start));
+  watch_.add("appearance", elapsed_since(start));
 }
 
 void TrackRun::write_checkpoint() {
-  const Moment start;
+  const TimePoint start;
   Checkpoint checkpoint{origin_, frames_read_, frames_.records.size(), frames_.records.bytes(),
                         {},      regions_,     tracker_.state()};
   for (const Observer& observer : setup_.observers)
@@ -260,7 +261,7 @@ void TrackRun::write_checkpoint() {
   frames_.records.flush();
   walktrack::write_checkpoint(checkpoint_file_, checkpoint);
   timer_.wrote(start.clock);
-  watch_.add("checkpoints", spent_since(start));
+  watch_.add("checkpoints", elapsed_since(start));
 }
 
 }  // namespace walktrack

@@ -93,7 +93,7 @@ class TrackRun {
   void watch_movement();
   void follow();
   void learn();
-  void pace(const Moment& since);
+  void pace(const TimePoint& since);
   void write_checkpoint();
 
   const TrackJob& job_;

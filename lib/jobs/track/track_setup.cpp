@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
+#include "core/anthropometry.h"
 #include "core/errors.h"
 #include "core/parallel_for.h"
 #include "io/video/video.h"
@@ -78,9 +79,8 @@ Observer make_observer(const Scene& scene, const SceneCamera& camera, const Conf
 
 void set_beginning(const Scene& scene, double frame_rate, TrackerScene& out) {
   if (!scene.initial) return;
-  constexpr double kUsualSpeed = 1.25;  // m/s, where the scene does not say
   const InitialState& given = *scene.initial;
-  const double speed = given.speed.value_or(kUsualSpeed);
+  const double speed = given.speed.value_or(anthropometry::kUsualSpeed);
   out.initial = DetectedWalk{
       .position = given.position,
       .velocity = speed * Eigen::Vector2d(std::cos(given.heading), std::sin(given.heading)),

@@ -37,7 +37,7 @@ Json json_of(const QualityMeasure& check) {
   return {{"name", check.name},
           {"what", check.what},
           {"value", or_null(check.value)},
-          {check.at_most ? "at_most" : "at_least", or_null(check.gate.value_or(NAN))},
+          {check.at_most ? "at_most" : "at_least", or_null(check.limit.value_or(NAN))},
           {"unit", check.unit},
           {"advice", check.advice}};
 }
@@ -63,7 +63,7 @@ std::string summary_text(const TrackOutcome& outcome) {
     text += fmt::format("\n  failed: {}", failure_text(check));
     if (!check.advice.empty()) text += fmt::format("\n    {}", check.advice);
   }
-  return text + fmt::format("\n  open {}", outcome.look_at.string());
+  return text + fmt::format("\n  open {}", outcome.open_first.string());
 }
 
 std::string summary_json(const TrackOutcome& outcome, const std::string& result, int exit_code) {
@@ -75,7 +75,7 @@ std::string summary_json(const TrackOutcome& outcome, const std::string& result,
       {"status", status_word(outcome.status)},
       {"exit", exit_code},
       {"result", result},
-      {"open", outcome.look_at.string()},
+      {"open", outcome.open_first.string()},
       {"frames", outcome.frames},
       {"tracked_frames", outcome.tracked},
       {"frames_per_second", or_null(outcome.frames_per_second)},
@@ -86,7 +86,7 @@ std::string summary_json(const TrackOutcome& outcome, const std::string& result,
       {"step_length_m", json_of(outcome.walk.step_length)},
       {"failed_checks", failed},
       {"resumable", outcome.resumable},
-      {"trouble", outcome.trouble}};
+      {"trouble", outcome.message}};
   return line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

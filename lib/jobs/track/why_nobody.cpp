@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/anthropometry.h"
 #include "io/video/scene_video.h"
 #include "tracker/scene.h"
 
@@ -12,13 +13,13 @@ namespace walktrack {
 
 namespace {
 
+using anthropometry::kUsualSpeed;
 using Eigen::Vector2d;
 
-constexpr double kShortest = 0.5;     // s, of what is searched
-constexpr double kBetween = 0.4;      // s between frames that are looked at
-constexpr int kMostLooks = 40;        // frames
-constexpr double kUsualSpeed = 1.25;  // m/s, of the figures
-constexpr double kFar = 4;            // how many times smaller figures are tried, too
+constexpr double kShortest = 0.5;  // s, of what is searched
+constexpr double kBetween = 0.4;   // s between frames that are looked at
+constexpr int kMostLooks = 40;     // frames
+constexpr double kFar = 4;         // how many times smaller figures are tried, too
 
 // The best figure of a frame, nats; 0 = none is better than an empty scene.
 struct Seen {

@@ -274,7 +274,7 @@ bool seen_throughout(const Walk& walk, const Window& window, const DetectorConfi
   std::vector<double> scores = scores_along(window, walk.line, walk.line.velocity, 1);
   const double least = worst_moment(scores, window.dt, 1);
   std::nth_element(scores.begin(), scores.begin() + long(scores.size() / 2), scores.end());
-  return least >= config.least_score && least >= config.complete * scores[scores.size() / 2];
+  return least >= config.least_score && least >= config.least_share * scores[scores.size() / 2];
 }
 
 // What fits worse than an empty scene for a moment, half-way up, is of somebody who is hidden then:

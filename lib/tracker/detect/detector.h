@@ -18,13 +18,13 @@
 namespace walktrack {
 
 struct DetectorConfig {
-  double window = 1.2;     // s of video that a walk is read from: two steps
-  double slowest = 0.35;   // m/s: who is slower is not walking
-  double fastest = 3.0;    // m/s
-  double complete = 0.5;   // no moment's score below this share of the window's median
-  double least_score = 6;  // nats, of the figure in any frame
-  int candidates = 10;     // places of a frame that lines are laid through
-  int grid_px = 8;         // spacing of the pixel grid at 640 px of image width
+  double window = 1.2;       // s of video that a walk is read from: two steps
+  double slowest = 0.35;     // m/s: who is slower is not walking
+  double fastest = 3.0;      // m/s
+  double least_share = 0.5;  // no moment's score below this share of the window's median
+  double least_score = 6;    // nats, of the figure in any frame
+  int candidates = 10;       // places of a frame that lines are laid through
+  int grid_px = 8;           // spacing of the pixel grid at 640 px of image width
 };
 
 // Where the person was and how they moved, on the ground, metres and m/s.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/anthropometry.h"
 #include "core/conventions.h"
 #include "tracker/motion/kneed_motion.h"
 #include "tracker/motion/markov_motion.h"
@@ -59,7 +60,7 @@ void set(const StraightControls& straight, KneedControls& controls) {
 // The walker with a trunk, and with knees bent about the lines of its legs: thigh and shank are
 // about as long.
 KneedState shown_state(const KneedState& walker, Side stance, const ResidualAngles& residual) {
-  constexpr double kDeepestBend = 150 * kPi / 180;  // rad
+  constexpr double kDeepestBend = anthropometry::kDeepestKneeBendDeg * kPi / 180;  // rad
   KneedState shown = walker;
   shown.q[kTorso] = residual[kTilt];
   const auto bend = [&](Side side, int thigh, int shank) {
@@ -87,7 +88,8 @@ MarkovConstants AnthropomorphicMotion::constants(const MotionConfig& config,
       return {0, 1, 0, 0, 0};  // knees are free
     case kThigh:
     case kThighRight:
-      return {0, 0.15, config.misfit * rad_from_deg(8), rad_from_deg(-30), rad_from_deg(30)};
+      return {0, 0.15, config.residual_scale * rad_from_deg(8), rad_from_deg(-30),
+              rad_from_deg(30)};
     case kTilt:
     case kAnkle:
     case kAnkleRight:
@@ -125,8 +127,9 @@ Outcome AnthropomorphicMotion::walk(const MotionContext& context, WalkerParticle
                                     Rng& rng) const {
   const StraightModel model =
       model_on(context.model, gravity_along(context.model, particle.residual[kHeading]));
-  const double stray = context.config.clock * std::sqrt(context.dt) * rng.truncated_normal(3);
-  double left = std::max(0.0, context.dt * std::exp(particle.residual_before[kPace]) + stray);
+  const double phase_error =
+      context.config.phase_noise * std::sqrt(context.dt) * rng.truncated_normal(3);
+  double left = std::max(0.0, context.dt * std::exp(particle.residual_before[kPace]) + phase_error);
   while (left > 0) {
     StraightState state = straight(particle.walker);
     const StraightAdvance done =
@@ -163,7 +166,7 @@ void AnthropomorphicMotion::change_support(const MotionContext& context, WalkerP
       particle.controls);
 }
 
-// Who stumbles goes on as the gait that it aims at would at this moment of the step.
+// A walker that stumbles continues as the gait that it aims at would at this moment of the step.
 void AnthropomorphicMotion::catch_step(const BodyModel& model, WalkerParticle& particle) const {
   const StraightGait gait = aimed_gait(model, particle);
   const double phase = std::clamp(particle.walker.since_transfer / gait.period, 0.0, 0.95);

@@ -9,7 +9,7 @@
 
 namespace walktrack {
 
-// Without the configuration's share in it, MotionConfig::misfit.
+// Without the configuration's share in it, MotionConfig::residual_scale.
 MarkovConstants markov_constants(ResidualAngle residual);
 
 // The walker at a share of a step of a gait of the prior, on the gait's slope.

@@ -106,7 +106,7 @@ void keep_rates(const ResidualAngles& now, const ResidualAngles& before, WalkerP
 
 MarkovConstants MarkovMotion::constants(const MotionConfig& config, ResidualAngle residual) const {
   MarkovConstants c = free_constants(residual);
-  c.spread *= config.unrest;
+  c.spread *= config.markov_noise_scale;
   if (residual != kRootHeight) return c;
   return {leg_ * c.rest, c.time, leg_ * c.spread, leg_ * c.lowest, leg_ * c.highest, c.period};
 }
@@ -142,9 +142,9 @@ void MarkovMotion::predict(const MotionContext& context, std::span<WalkerParticl
 }
 
 bool MarkovMotion::linearise_noise(const MotionContext& context, WalkerParticle& particle) const {
-  const double change = context.config.unrest * context.dt * std::sqrt(context.dt);
+  const double change = context.config.markov_noise_scale * context.dt * std::sqrt(context.dt);
   particle.ball_sigma = change * Eigen::Vector2d(kAlong, kAcross);
-  if (particle.arriving) particle.ball_sigma.setConstant(context.config.arrival);
+  if (particle.arriving) particle.ball_sigma.setConstant(context.config.start_position_sd);
   return true;
 }
 
@@ -154,7 +154,7 @@ void MarkovMotion::apply_noise(const MotionContext& context, WalkerParticle& par
   const Body& body = context.model.body;
   particle.pose = pose_at(body, particle.residual, particle.ball);
   if (!particle.arriving) return;
-  // Whoever is first seen is on the way already.
+  // The subject is walking already when first seen.
   keep_rates(now, before, particle);
   const double heading = particle.residual[kHeading];
   const Eigen::Vector2d way =

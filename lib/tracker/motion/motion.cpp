@@ -51,12 +51,12 @@ void update_travel_velocity(const MotionContext& context, WalkerParticle& partic
       kept * particle.way + (1 - kept) * turned(velocity, -0.5 * (now.heading + before.heading));
 }
 
-// The prediction turns to the way; that is no turning which goes on.
+// The predicted heading relaxes to the direction of travel; this adds nothing to its rate.
 void relax_heading_to_travel(const MotionContext& context, WalkerParticle& particle) {
-  // Who hardly goes faces anywhere.
+  // Of a subject who hardly moves the heading is free.
   const double ahead = std::max(particle.way.x(), 0.25 * particle.aim.speed);
   const double off = std::atan2(particle.way.y(), ahead);
-  const double turn = off * (1 - std::exp(-context.dt / context.config.facing));
+  const double turn = off * (1 - std::exp(-context.dt / context.config.heading_time_constant));
   particle.predicted_residual[kHeading] += turn;
   particle.residual_before[kHeading] += turn;
   particle.way = turned(particle.way, -turn);
@@ -103,7 +103,7 @@ double frame_noise(const MotionConfig& config, ResidualAngle residual, const Mar
                    double dt) {
   const double r = std::exp(-dt / c.time), rr = r * r;
   const double sine = std::sin(2 * kPi * dt / c.period);
-  return residual == kHeading ? config.turning * dt * std::sqrt(1 - rr)
+  return residual == kHeading ? config.yaw_rate_sd * dt * std::sqrt(1 - rr)
                               : c.spread * std::sqrt(((1 - rr) * (1 - rr) + 4 * rr * sine * sine) *
                                                      (1 - rr) / (1 + rr));
 }
@@ -112,16 +112,16 @@ MotionConfig to_scale(const MotionConfig& config, double height) {
   const double length = height / kAdultHeight, time = std::sqrt(length);
   MotionConfig scaled = config;
   scaled.torque_noise_scale *= std::sqrt(time);  // of a share of M g L per root second
-  scaled.clock *= std::sqrt(time);
-  scaled.turning /= time;
-  scaled.facing *= time;
+  scaled.phase_noise *= std::sqrt(time);
+  scaled.yaw_rate_sd /= time;
+  scaled.heading_time_constant *= time;
   scaled.ball_drift *= length / std::sqrt(time);
   scaled.ball_slip *= length / std::sqrt(time);
-  scaled.landing *= length;
-  scaled.settling *= time;
-  scaled.arrival *= length;
-  scaled.given *= length;
-  scaled.rephasing /= time;
+  scaled.footfall_sd *= length;
+  scaled.footfall_decay *= time;
+  scaled.start_position_sd *= length;
+  scaled.given_position_sd *= length;
+  scaled.phase_jump_rate /= time;
   return scaled;
 }
 
@@ -155,18 +155,7 @@ PriorGait aimed_gait(const MotionContext& context, const WalkerParticle& particl
                                  : gait(in_plane(model, particle.residual[kHeading]));
 }
 
-MotionContext motion_context(const BodyModel& model, const GaitPrior& prior,
-                             const MotionModel& moves, const MotionConfig& config, double dt) {
-  return {model,
-          prior,
-          moves,
-          config,
-          noise_scale(moves, config, model, dt),
-          markov_steps(moves, config, dt),
-          dt};
-}
-
-Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
+Outcome draw_first_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   particle.arriving = true;
   particle.way = {particle.aim.speed, 0};
   return predict(context, particle, rng) ? Outcome::kAlive : Outcome::kDead;

@@ -8,7 +8,7 @@
 // so that the process does not depend on the frame rate; truncated at anatomical limits. Without a
 // period w = 0: critically damped. The heading has no rest: b = 0, and its rate has the standard
 // deviation s; but people face the way that they go: it comes back to that of about the last step
-// within MotionConfig::facing. On a sagittal path it stays what it is.
+// within MotionConfig::heading_time_constant. On a sagittal path it stays what it is.
 #pragma once
 
 #include <array>
@@ -30,24 +30,25 @@ struct MotionConfig {
   double stance_knee_torque = 0.008;
   double swing_knee_torque = 0.004;
   double ankle_torque = 0.040;
-  double clock = 0.05;          // s per sqrt(s): how far people's phase strays from the walker's
-  double turning = 0.08;        // rad/s: the usual rate of turning
-  double facing = 0.3;          // s in which a heading comes back to the way by 1 - 1/e
-  double misfit = 0.7;          // multiplies how far people's angles stray from the walker's
-  double ball_drift = 0.03;     // m per sqrt(s): the drawn foot does not roll as the walker's does
-  double ball_slip = 0.012;     // m per sqrt(s): nor does a standing foot quite keep its line
-  double landing = 0.02;        // m, along and across: where a foot comes down
-  double settling = 0.05;       // s after the strike in which that uncertainty dies away
-  double arrival = 0.15;        // m, the same when a walker is first found
-  double given = 0.1;           // m, the same when the scene says where
-  double control_noise = 0.05;  // relative, per step (gait/gait_prior.h)
-  double feedback = 1;          // strength of the correction of controls at a support transfer
-  double aim_drift = 0.06;      // relative, per step, of the speed and the step length aimed at
-  double rephasing =
+  double phase_noise = 0.05;  // s per sqrt(s): how far people's phase residuals from the walker's
+  double yaw_rate_sd = 0.08;  // rad/s: the usual rate of turning
+  double heading_time_constant = 0.3;  // s in which a heading comes back to the way by 1 - 1/e
+  double residual_scale = 0.7;         // multiplies how far people's angles stray from the walker's
+  double ball_drift = 0.03;      // m per sqrt(s): the drawn foot does not roll as the walker's does
+  double ball_slip = 0.012;      // m per sqrt(s): nor does a standing foot quite keep its line
+  double footfall_sd = 0.02;     // m, along and across: where a foot comes down
+  double footfall_decay = 0.05;  // s after the strike in which that uncertainty dies away
+  double start_position_sd = 0.15;  // m, the same when a walker is first found
+  double given_position_sd = 0.1;   // m, the same when the scene says where
+  double control_noise = 0.05;      // relative, per step (gait/gait_prior.h)
+  double feedback = 1;              // strength of the correction of controls at a support transfer
+  double aim_drift = 0.06;          // relative, per step, of the speed and the step length aimed at
+  double phase_jump_rate =
       30;  // 1/s: how often a particle reads its pose anew (tracker/moves/phase_jump.h)
   double torque_noise_scale = 0.15;  // multiplies all five torques
   bool standing = true;  // people may stand, set off and stop (tracker/motion/standing.h)
-  double unrest = 1.5;   // multiplies the noise of model kMarkov; tuned on the demo, 1 = as fitted
+  double markov_noise_scale =
+      1.5;  // multiplies the noise of model kMarkov; tuned on the demo, 1 = as fitted
 };
 
 // The same for somebody larger or smaller, who walks to scale: lengths grow in proportion to the
@@ -55,7 +56,7 @@ struct MotionConfig {
 inline constexpr double kAdultHeight = 1.75;  // m
 MotionConfig to_scale(const MotionConfig& config, double height);
 
-// The process of one residual angles from frame to frame.
+// The process of a residual angle from frame to frame.
 struct MarkovStep {
   double momentum = 0, pull = 0;             // a, b
   double rest = 0, lowest = 0, highest = 0;  // rad
@@ -87,11 +88,8 @@ struct MotionContext {
 // The prior's gait that a particle aims at, on the slope that it meets.
 PriorGait aimed_gait(const MotionContext& context, const WalkerParticle& particle);
 
-MotionContext motion_context(const BodyModel& model, const GaitPrior& prior,
-                             const MotionModel& moves, const MotionConfig& config, double dt);
-
 // The first frame of a particle: nothing moves, but its noise is drawn.
-Outcome arrive(const MotionContext& context, WalkerParticle& particle, Rng& rng);
+Outcome draw_first_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng);
 // One frame forward and its noise drawn, everybody's from their own stream (spans of one size). A
 // particle's result does not depend on those that go with it, the time that it takes does.
 void propagate(const MotionContext& context, std::span<WalkerParticle> particles,

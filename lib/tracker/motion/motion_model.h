@@ -23,15 +23,15 @@ struct MotionContext;
 
 enum class MotionKind { kKneed, kAnthropomorphic, kMarkov };
 
-// Constants of the Markov process of one residual angles, which tracker/motion/motion.h describes.
+// Constants of the Markov process of a residual angle, which tracker/motion/motion.h describes.
 struct MarkovConstants {
   double rest, time, spread;                                // rad, s, rad (the heading: rad/s)
   double lowest, highest;                                   // rad
   double period = std::numeric_limits<double>::infinity();  // s, of its swinging; infinite: none
 };
 
-// Who falls, or whose state grows beyond bounds, is caught (goes on as the prior's gait); dead is
-// only who has no state left to go on from.
+// A walker that falls, or whose state grows beyond bounds, is caught (goes on as the prior's gait);
+// dead is only who has no state left to go on from.
 enum class Outcome { kAlive, kFallen, kDiverged, kDead };
 
 // Indices of WalkerParticle::noise that are changed together.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "body/kinematics.h"
+#include "core/anthropometry.h"
 #include "core/conventions.h"
 #include "tracker/motion/stride.h"
 
@@ -19,7 +20,7 @@ size_t index(Side side) { return static_cast<size_t>(side); }
 // Knees do not bend backwards, nor further than until the heel meets the thigh: there the leg's
 // shank follows its thigh.
 void clamp_knees(KneedState& s) {
-  constexpr double kDeepestBend = 150 * kPi / 180;  // rad
+  constexpr double kDeepestBend = anthropometry::kDeepestKneeBendDeg * kPi / 180;  // rad
   const auto keep = [&](int shank, int thigh) {
     s.q[shank] = std::clamp(s.q[shank], s.q[thigh], s.q[thigh] + kDeepestBend);
   };

@@ -1,5 +1,7 @@
 #include "tracker/motion/planar_body.h"
 
+#include "core/anthropometry.h"
+
 namespace walktrack {
 
 KneedParameters kneed_parameters(const Subject& subject, double gravity) {
@@ -15,10 +17,14 @@ KneedParameters kneed_parameters(const Subject& subject, double gravity) {
   p.foot_radius = 0.3 * leg;
   p.foot_forward = 0.0539 * leg;
   p.foot_up = p.foot_radius - lengths.ankle_height;
-  const double torso = .678 * mass, thigh = .100 * mass, shank = .061 * mass;
-  p.torso = {torso, .626 * lengths.trunk, inertia(torso, .496 * lengths.trunk)};
-  p.thigh = {thigh, .433 * lengths.thigh, inertia(thigh, .323 * lengths.thigh)};
-  p.shank = {shank, (1 - .606) * lengths.shank, 0, inertia(shank, .416 * lengths.shank)};
+  const auto &torso = anthropometry::kHeadArmsTrunk, &thigh = anthropometry::kThighShares,
+             &shank = anthropometry::kShankAndFoot;
+  p.torso = {torso.mass * mass, torso.centre * lengths.trunk,
+             inertia(torso.mass * mass, torso.gyration * lengths.trunk)};
+  p.thigh = {thigh.mass * mass, thigh.centre * lengths.thigh,
+             inertia(thigh.mass * mass, thigh.gyration * lengths.thigh)};
+  p.shank = {shank.mass * mass, (1 - shank.centre) * lengths.shank, 0,
+             inertia(shank.mass * mass, shank.gyration * lengths.shank)};
   return p;
 }
 

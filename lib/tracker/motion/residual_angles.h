@@ -8,20 +8,26 @@
 
 namespace walktrack {
 
-// The strays are the residual angles from kTilt on, in this number: trunk, thighs, shanks.
-inline constexpr size_t kStrayCount = kShankRight - kTilt + 1;
+// The residuals are the residual angles from kTilt on, in this number: trunk, thighs, shanks.
+inline constexpr size_t kInPlaneCount = kShankRight - kTilt + 1;
 
-// -log of the strays' own density (tracker/motion/motion.h), but for a constant; infinite beyond
+// -log of the residuals' own density (tracker/motion/motion.h), but for a constant; infinite beyond
 // their limits.
-double strays_improbability(const MotionContext& context, const ResidualAngles& residual);
+double residual_energy(const MotionContext& context, const ResidualAngles& residual);
 
-// Gives `reading`, whose walker, stance and aim are set, the strays with which it shows `pose`.
-void stray_to(const Pose& pose, WalkerParticle& reading);
+// Gives `reading`, whose walker, stance and aim are set, the residuals with which it shows `pose`.
+void fit_residuals_to(const Pose& pose, WalkerParticle& reading);
 
-// Strays of a frame ago, drawn as those of now let expect.
-void draw_strays_before(const MotionContext& context, WalkerParticle& reading, Rng& rng);
+// Residuals of a frame ago, drawn as those of now let expect.
+void draw_residuals_before(const MotionContext& context, WalkerParticle& reading, Rng& rng);
 
 // Puts the ball of the standing foot where `reading` has its root over that of `pose`.
 void stand_under(const BodyModel& model, const Pose& pose, WalkerParticle& reading);
+
+// Metropolis-Hastings: `reading`, whose walker, stance and aim are set, takes the particle's place
+// where it explains the particle's pose with likelier residuals; whether it did. Without a number,
+// when both are beyond limits or nothing may stray, the particle stays.
+bool try_reading(const MotionContext& context, WalkerParticle reading, WalkerParticle& particle,
+                 Rng& rng);
 
 }  // namespace walktrack

@@ -20,7 +20,8 @@ constexpr double kSlower = -0.25, kSlower_sd = 0.12;  // of kPace, a logarithm
 // Moments of a step at which they may be: before the legs have passed each other.
 constexpr double kLatest = 0.6;
 
-// A standing person sways and shifts weight in seconds, where a walker's strays change in a tenth.
+// A standing person sways and shifts weight in seconds, where a walker's residuals change in a
+// tenth.
 double standing_time(ResidualAngle residual, double walking) {
   switch (residual) {
     case kThigh:
@@ -57,9 +58,9 @@ bool sets_off(const MotionContext& context, const StepLibrary& steps, WalkerPart
   reading.walker =
       step->moments[static_cast<size_t>(rng.uniform() * kLatest * double{LibraryStep::kMoments})];
   if (rng.uniform() < 0.5) reading.stance = other(particle.stance);
-  stray_to(particle.pose, reading);
-  if (!std::isfinite(strays_improbability(context, reading.residual))) return false;
-  draw_strays_before(context, reading, rng);
+  fit_residuals_to(particle.pose, reading);
+  if (!std::isfinite(residual_energy(context, reading.residual))) return false;
+  draw_residuals_before(context, reading, rng);
   const MarkovConstants c = markov_constants(kPace);
   reading.residual[kPace] =
       std::clamp(kSlower + kSlower_sd * rng.truncated_normal(3), c.lowest, c.highest);
@@ -72,15 +73,7 @@ bool sets_off(const MotionContext& context, const StepLibrary& steps, WalkerPart
 bool stops(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   WalkerParticle reading = particle;
   stand(reading);
-  stray_to(particle.pose, reading);
-  // As in rephasing, a walker whose pose is that of a walk goes on walking.
-  const double gain = strays_improbability(context, particle.residual) -
-                      strays_improbability(context, reading.residual);
-  if (!(std::log(rng.uniform()) < gain)) return false;
-  draw_strays_before(context, reading, rng);
-  stand_under(context.model, particle.pose, reading);
-  particle = reading;
-  return true;
+  return try_reading(context, reading, particle, rng);  // who shows a walk goes on walking
 }
 
 }  // namespace

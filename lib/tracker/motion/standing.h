@@ -2,14 +2,15 @@
 // (interacting multiple models, Blom & Bar-Shalom 1988). In every frame a standing particle may set
 // off into a step, and a walking one stop; which of them live is for the images to say.
 //
-// Who stands is a walker at rest on straight legs whose feet and trunk stray from there slowly: no
-// clock, no steps, no torques. Whoever sets off reads the pose as an early moment of a step of
-// either leg, slower at first than the step will be; whoever stops reads it as standing, with
-// strays that take the swinging leg in. Both keep the pose as it is (tracker/motion/strays.h).
+// Standing is a walker at rest on straight legs whose feet and trunk leave it slowly: no
+// clock, no steps, no torques. A particle that sets off takes the pose as an early moment of a step
+// of either leg, slower at first than the step will be; one that stops takes it as standing, with
+// residuals that take the swinging leg in. Both keep the pose as it is
+// (tracker/motion/residual_angles.h).
 #pragma once
 
+#include "tracker/motion/residual_angles.h"
 #include "tracker/motion/step_library.h"
-#include "tracker/motion/strays.h"
 
 namespace walktrack {
 

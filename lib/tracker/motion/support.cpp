@@ -8,11 +8,12 @@ namespace walktrack {
 
 Eigen::Vector2d foot_sigma(const MotionContext& context, const WalkerParticle& particle) {
   const MotionConfig& config = context.config;
-  if (particle.arriving) return Eigen::Vector2d::Constant(config.arrival);
+  if (particle.arriving) return Eigen::Vector2d::Constant(config.start_position_sd);
   const double root = std::sqrt(context.dt);
   if (particle.regime == Regime::kStanding)
     return Eigen::Vector2d::Constant(config.ball_slip * root);
-  const double fresh = config.landing * std::exp(-particle.walker.since_transfer / config.settling);
+  const double fresh =
+      config.footfall_sd * std::exp(-particle.walker.since_transfer / config.footfall_decay);
   return {std::hypot(config.ball_drift * root, fresh), std::hypot(config.ball_slip * root, fresh)};
 }
 

@@ -37,7 +37,7 @@ void change_support(const MotionContext& context, WalkerParticle& particle, Rng&
   choose_controls(context, particle, rng);
 }
 
-// Who stumbles catches the step: the walker goes on as the gait that it aims at would at this
+// A walker that stumbles catches the step: it continues as the gait that it aims at would at this
 // moment of the step.
 void catch_step(const MotionContext& context, WalkerParticle& particle) {
   const PriorGait gait = aimed_gait(context, particle);
@@ -80,14 +80,15 @@ void gather(const MotionContext& context, std::span<WalkerParticle> particles, s
                       p.walker);
     group.states.push_back(p.walker);
     group.controls.push_back(p.controls);
-    const double stray = context.config.clock * std::sqrt(context.dt) * rngs[i].truncated_normal(3);
-    const double time = context.dt * std::exp(p.residual_before[kPace]) + stray;
+    const double phase_error =
+        context.config.phase_noise * std::sqrt(context.dt) * rngs[i].truncated_normal(3);
+    const double time = context.dt * std::exp(p.residual_before[kPace]) + phase_error;
     group.left.push_back(std::max(0.0, time));
   }
 }
 
 // To the end of everybody's time, or to the next event. On a slope gravity depends on the heading,
-// so that everybody has a model of their own there.
+// so that every particle has a model of its own there.
 void advance(const MotionContext& context, std::span<const WalkerParticle> particles,
              Group& group) {
   if (context.model.downhill.isZero())

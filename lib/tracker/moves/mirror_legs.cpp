@@ -12,7 +12,7 @@ namespace {
 // the negative of the other leg's, rad (to first order).
 double reach(const Body& body) { return body.lengths.hip_width / leg_length(body.lengths); }
 
-void exchange_extras(ResidualAngles& residual) {
+void swap_residuals(ResidualAngles& residual) {
   for (const ResidualAngle left :
        {kAbduction, kRotation, kAnkle, kThigh, kShank, kShoulder, kShoulderAbduction, kElbow})
     std::swap(residual[size_t(left)], residual[size_t(left) + 1]);
@@ -30,12 +30,12 @@ constexpr std::pair<Joint, Joint> kPairs[] = {{Joint::kLeftKnee, Joint::kRightKn
                                               {Joint::kLeftElbow, Joint::kRightElbow},
                                               {Joint::kLeftWrist, Joint::kRightWrist}};
 
-void exchange_joints(JointPositions& joints) {
+void swap_joints(JointPositions& joints) {
   for (const auto& [left, right] : kPairs) std::swap(joints[left], joints[right]);
 }
 
-// `middle`: of the exchanged pose. About them the angles spread as the other leg's did.
-void exchange_angles(const JointAngles& middle, std::array<Spread, kJointAngleCount>& angles) {
+// `middle`: of the mirrored pose. About them the angles spread as the other leg's did.
+void swap_angles(const JointAngles& middle, std::array<Spread, kJointAngleCount>& angles) {
   constexpr int kOther = kHipFlexionL - kHipFlexionR;
   for (int i = kHipFlexionR; i <= kAnkleAngleR; ++i)
     std::swap(angles[size_t(i)], angles[size_t(i + kOther)]);
@@ -58,7 +58,7 @@ Pose swapped_limbs(const Pose& pose) {
 }
 
 // Legs that do not reach sideways: the pelvis stays where it is, and the feet change their places.
-void exchange_feet(const MotionContext& context, WalkerParticle& particle) {
+void swap_feet(const MotionContext& context, WalkerParticle& particle) {
   const Eigen::Vector2d root = particle.pose.root.head<2>();
   context.moves.apply_noise(context, particle);
   particle.predicted_ball += root - particle.pose.root.head<2>();
@@ -68,7 +68,7 @@ void exchange_feet(const MotionContext& context, WalkerParticle& particle) {
 
 }  // namespace
 
-Pose exchanged_legs(const Body& body, const Pose& pose) {
+Pose mirrored_legs(const Body& body, const Pose& pose) {
   Pose out = swapped_limbs(pose);
   for (LegPose& leg : out.legs) leg.hip_abduction = -leg.hip_abduction - reach(body);
   return out;
@@ -80,17 +80,17 @@ void mirror_legs(const MotionContext& context, WalkerParticle& particle) {
   particle.stance = other(particle.stance);
   for (ResidualAngles* residual :
        {&particle.predicted_residual, &particle.residual_before, &particle.residual}) {
-    exchange_extras(*residual);
+    swap_residuals(*residual);
     if (reaches) reach_across(reach(body), *residual);
   }
   ResidualAngles noise;
   std::copy_n(particle.noise.begin() + kExtraNoise, kResidualCount, noise.begin());
-  exchange_extras(noise);
+  swap_residuals(noise);
   if (reaches) reach_across(0, noise);
   std::copy_n(noise.begin(), kResidualCount, particle.noise.begin() + kExtraNoise);
-  if (!reaches) return exchange_feet(context, particle);
+  if (!reaches) return swap_feet(context, particle);
   context.moves.apply_noise(context, particle);
-  particle.pose_before = exchanged_legs(body, particle.pose_before);
+  particle.pose_before = mirrored_legs(body, particle.pose_before);
 }
 
 void mirror_legs(const MotionContext& context, WalkerFilter& filter) {
@@ -101,13 +101,13 @@ void mirror_legs(const MotionContext& context, WalkerFilter& filter) {
 
 void mirror_legs(const Body& body, FrameRecord& record) {
   FrameEstimate& estimate = record.estimate;
-  estimate.pose = exchanged_legs(body, estimate.pose);
-  exchange_joints(estimate.joints);
+  estimate.pose = mirrored_legs(body, estimate.pose);
+  swap_joints(estimate.joints);
   for (const auto& [left, right] : kPairs)
     std::swap(estimate.spread[size_t(left)], estimate.spread[size_t(right)]);
-  exchange_angles(joint_angles(estimate.pose), estimate.angles);
+  swap_angles(joint_angles(estimate.pose), estimate.angles);
   estimate.left_stance = 1 - estimate.left_stance;
-  for (JointPositions& sample : record.samples) exchange_joints(sample);
+  for (JointPositions& sample : record.samples) swap_joints(sample);
   record.modes.phase = std::fmod(record.modes.phase + 0.5, 1.0);
 }
 

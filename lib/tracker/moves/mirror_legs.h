@@ -1,5 +1,5 @@
-// The same walk with the legs exchanged: the left leg does what the right one did, half a stride
-// away, and each foot stays where a foot was. Arms swing against the legs and are exchanged with
+// The same walk with the legs swapped: the left leg does what the right one did, half a stride
+// away, and each foot stays where a foot was. Arms swing against the legs and are swapped with
 // them; the pelvis stays as it is, so each leg now starts from the other hip and reaches its place
 // by another abduction. Seen from the side nothing changes.
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace walktrack {
 
-Pose exchanged_legs(const Body& body, const Pose& pose);
+Pose mirrored_legs(const Body& body, const Pose& pose);
 
 // Now and a frame ago, with the frame's noise; the particle is realised.
 void mirror_legs(const MotionContext& context, WalkerParticle& particle);

@@ -3,14 +3,14 @@
 // People put a foot down early, late or short. The walker of a particle that has missed a strike
 // goes on swinging the leg that has come down; for a while the residual angles stray far enough to
 // show the right pose all the same, then the hip sinks and the track is lost, or the legs are
-// exchanged. Here the pose stays as it is and the walker changes: it becomes that of any moment of
+// swapped. Here the pose stays as it is and the walker changes: it becomes that of any moment of
 // a step of either leg, and the residual angles make up the new difference.
 //
 // This is a Metropolis-Hastings step along the walkers that show the same pose, with respect to the
-// strays' own distribution (tracker/motion/motion.h): the moment that explains the pose with less
-// straying is taken up. How fast they stray is drawn anew, so that the walker goes on as its moment
-// does: a leg that merely passes the other one is soon told from the other leg. Walkers that fit
-// their pose are left alone.
+// residuals' own distribution (tracker/motion/motion.h): the moment that explains the pose with
+// less straying is taken up. How fast they stray is drawn anew, so that the walker goes on as its
+// moment does: a leg that merely passes the other one is soon told from the other leg. Walkers that
+// fit their pose are left alone.
 #pragma once
 
 #include "tracker/motion/motion.h"
@@ -19,9 +19,9 @@
 namespace walktrack {
 
 // Reads it as a moment of one of `steps`. Whether the proposal was accepted; then walker, stance,
-// controls, aim, ball and the strays (residual and residual_before from kTilt to kShankRight) are
-// the new ones. They show the particle's pose, but for the height of the hip, which the standing
-// leg gives.
+// controls, aim, ball and the residuals (residual and residual_before from kTilt to kShankRight)
+// are the new ones. They show the particle's pose, but for the height of the hip, which the
+// standing leg gives.
 bool try_phase_jump(const MotionContext& context, const StepLibrary& steps,
                     WalkerParticle& particle, Rng& rng);
 

@@ -16,7 +16,7 @@ struct NamedFrame {
                        // asked where it begins
 };
 
-// A track exchanges the legs so often, 1/s: 4 of 40 tracks of rendered walks of some five seconds
+// A track swaps the legs so often, 1/s: 4 of 40 tracks of rendered walks of some five seconds
 // did, most of them once.
 inline constexpr double kSwapsPerSecond = 0.02;
 

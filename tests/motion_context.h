@@ -1,0 +1,20 @@
+// What particles move in, where no tracker has made it.
+#pragma once
+
+#include "tracker/motion/motion.h"
+
+namespace walktrack {
+
+inline MotionContext motion_context(const BodyModel& model, const GaitPrior& prior,
+                                    const MotionModel& moves, const MotionConfig& config,
+                                    double dt) {
+  return {model,
+          prior,
+          moves,
+          config,
+          noise_scale(moves, config, model, dt),
+          markov_steps(moves, config, dt),
+          dt};
+}
+
+}  // namespace walktrack

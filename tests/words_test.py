@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""Holds documents, help texts and the configuration's comments to the project's words (tests/words.txt), and the links
+between documents to files that exist.
+
+    words_test.py WALKTRACK SOURCE_FOLDER
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+WORDS_LEFT_OUT = {"CHANGELOG.md", "README.md"}  # places from the top; the first tells of old names
+GENERATED = {"build", "out", ".git"}
+
+
+def rules(source):
+    for line in (source / "tests/words.txt").read_text().splitlines():
+        if line and not line.startswith("#"):
+            pattern, preferred = line.split("\t")
+            yield re.compile(pattern, re.IGNORECASE), preferred
+
+
+def without_code(text):
+    """The same lines with code blanked."""
+    blank = lambda found: re.sub(r"[^\n]", " ", found.group(0))
+    text = re.sub(r"^```.*?^```", blank, text, flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(r"^    .*$", blank, text, flags=re.MULTILINE)
+    return re.sub(r"`[^`\n]*`|\]\([^)]*\)", blank, text)
+
+
+def documents(source):
+    for file in sorted(source.rglob("*.md")):
+        place = file.relative_to(source)
+        if not GENERATED.intersection(place.parts):
+            yield str(place), file
+
+
+def help_texts(walktrack):
+    text = lambda *words: subprocess.run([walktrack, *words], capture_output=True, text=True, check=True).stdout
+    yield "walktrack --help", text("--help")
+    for name in text("--help-words").split():
+        if not name.startswith("--"):
+            yield f"walktrack {name} --help", text(name, "--help")
+    yield "walktrack config", text("config")
+
+
+def unwanted(place, text, words):
+    for pattern, preferred in words:
+        for found in pattern.finditer(text):
+            line = text.count("\n", 0, found.start()) + 1
+            yield f"{place}:{line}: '{found.group(0)}' is called: {preferred}"
+
+
+def anchors(text):
+    """What headings are called in links."""
+    for heading in re.findall(r"^#+ (.*)$", text, re.MULTILINE):
+        yield re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-")
+
+
+def broken_links(place, file):
+    text = file.read_text()
+    for path, anchor in re.findall(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)", text):
+        if "://" in path:
+            continue
+        target = file.parent / path if path else file
+        if not target.exists():
+            yield f"{place}: leads nowhere: {path}"
+        elif anchor and anchor not in anchors(target.read_text()):
+            yield f"{place}: leads to no heading: {path}#{anchor}"
+
+
+def main():
+    walktrack, source = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+    words = list(rules(source))
+    problems, looked_at = [], 0
+    for place, file in documents(source):
+        problems += broken_links(place, file)
+        if place not in WORDS_LEFT_OUT:
+            problems += unwanted(place, without_code(file.read_text()), words)
+        looked_at += 1
+    for place, text in help_texts(str(walktrack)):
+        problems += unwanted(place, text, words)
+        looked_at += 1
+    print("\n".join(problems))
+    print(f"{looked_at} documents and help texts, {len(words)} words, {len(problems)} problems")
+    sys.exit(1 if problems or looked_at < 20 else 0)
+
+
+main()
