@@ -137,8 +137,8 @@ TEST(Config, WritesThroughGroupsToTheMembers) {
   EXPECT_EQ(observation.foreground.classes, (std::array{0, 1, 1, 2, 0}));
   EXPECT_EQ(config.origin.at("observation.flow.dof"), "c.yaml:3");
   EXPECT_EQ(config_as_yaml(config, ConfigScope::kChanged, false),
-            "observation:  # how images become likelihoods\n  clip: 2.5\n"
-            "  foreground:  # how the walker looks\n    classes: [0, 1, 1, 2, 0]\n"
+            "observation:  # the likelihood of the images\n  clip: 2.5\n"
+            "  foreground:  # the subject's appearance\n    classes: [0, 1, 1, 2, 0]\n"
             "  flow:  # optical flow\n    enabled: on\n    dof: 8\n");
 }
 
