@@ -27,7 +27,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # The command lines are those of g++: its warnings are its own business.
 OPTIONS = ["--quiet", "--extra-arg=-w", f"--config-file={ROOT}/.clang-tidy"]
 GROUP_OPTION = "--header-filter=(lib|apps)/.*\\.(h|cpp)$"
-GROUP_SIZE = 6
+GROUP_SIZE = 10
 WITHOUT_NAMES = ["--checks=-readability-identifier-naming"]
 
 
@@ -75,7 +75,11 @@ def key_of(entry, headers, common):
 def names_of(path):
     """What a source defines in its first column, more or less."""
     definition = r"^(?!namespace|using namespace)[\w:<][^;={}()]*?\b(\w+)(?=\(| = |\{| \{|;)"
-    return set(re.findall(definition, path.read_text(), re.M))
+    further = r"^(?:inline )?constexpr [^;(]*;"  # more constants of the same line
+    text = path.read_text()
+    constants = {name for line in re.findall(further, text, re.M)
+                 for name in re.findall(r"\b(k\w+)(?= = |\{)", line)}
+    return constants | set(re.findall(definition, text, re.M))
 
 
 def grouped(due):

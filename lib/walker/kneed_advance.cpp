@@ -52,24 +52,24 @@ struct Motion {
   }
 };
 
-double guard_value(Guard guard, const Node& node) {
+double guard_value(KneedGuard guard, const Node& node) {
   const KneedState& s = node.state;
   switch (guard) {
-    case Guard::kStanceKnee:
+    case KneedGuard::kStanceKnee:
       return s.stance_stop ? node.acceleration.stop_torque[0]
                            : s.q[kStanceShank] - s.q[kStanceThigh];
-    case Guard::kSwingKnee:
+    case KneedGuard::kSwingKnee:
       return s.swing_stop ? node.acceleration.stop_torque[1] : s.q[kSwingShank] - s.q[kSwingThigh];
-    case Guard::kFootHeight:
+    case KneedGuard::kFootHeight:
       return node.foot.height;
-    case Guard::kFootBehind:
+    case KneedGuard::kFootBehind:
       return -node.foot.lead;
   }
   return 0;
 }
 
 // Time in (begin, end] at which the guard, positive before and not positive at `end`, reaches zero.
-double locate(const Motion& motion, Guard guard, const Node& from, double begin, double end) {
+double locate(const Motion& motion, KneedGuard guard, const Node& from, double begin, double end) {
   const auto value = [&](double t) {
     return guard_value(guard, t == 0 ? from : motion.step(from, t));
   };
@@ -87,7 +87,7 @@ bool foot_incident(const Motion& motion, const Node& from, const Node& to, doubl
   SwingFoot entry = before;
   if (before.lead <= 0) {
     if (std::min(before.height, after.height) > 0) return false;
-    ahead_since = locate(motion, Guard::kFootBehind, from, 0, h);
+    ahead_since = locate(motion, KneedGuard::kFootBehind, from, 0, h);
     entry = motion.step(from, ahead_since).foot;
   }
   if (entry.height < -kGuardTolerance) {
@@ -96,7 +96,7 @@ bool foot_incident(const Motion& motion, const Node& from, const Node& to, doubl
     return true;
   }
   if (after.height > 0) return false;
-  incident = {locate(motion, Guard::kFootHeight, from, ahead_since, h), IncidentKind::kStrike};
+  incident = {locate(motion, KneedGuard::kFootHeight, from, ahead_since, h), IncidentKind::kStrike};
   return true;
 }
 
@@ -104,7 +104,7 @@ bool foot_incident(const Motion& motion, const Node& from, const Node& to, doubl
 bool first_incident(const Motion& motion, const Node& from, const Node& to, double h,
                     Incident& first) {
   bool found = foot_incident(motion, from, to, h, first);
-  for (const Guard knee : {Guard::kStanceKnee, Guard::kSwingKnee}) {
+  for (const KneedGuard knee : {KneedGuard::kStanceKnee, KneedGuard::kSwingKnee}) {
     if (guard_value(knee, to) >= -kGuardTolerance) continue;
     const double time = locate(motion, knee, from, 0, h);
     if (found && first.time <= time) continue;

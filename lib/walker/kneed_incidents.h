@@ -22,7 +22,7 @@ inline constexpr double kAtStop = 1e-9;
 inline constexpr double kAtRest = 1e-9;
 
 // Positive while all is well (a held stop's torque included); an event is the fall through zero.
-enum class Guard { kStanceKnee, kSwingKnee, kFootHeight, kFootBehind };
+enum class KneedGuard { kStanceKnee, kSwingKnee, kFootHeight, kFootBehind };
 
 enum class IncidentKind { kStop, kStrike, kStumble };
 

@@ -7,15 +7,15 @@
 namespace walktrack {
 namespace {
 
-double guard_value(Guard guard, const Lanes& lanes, const LanePoint& at, size_t lane) {
+double guard_value(KneedGuard guard, const Lanes& lanes, const LanePoint& at, size_t lane) {
   switch (guard) {
-    case Guard::kStanceKnee:
+    case KneedGuard::kStanceKnee:
       return lanes.held[0][lane] != 0 ? at.stop_torque[0][lane] : at.q[3][lane];
-    case Guard::kSwingKnee:
+    case KneedGuard::kSwingKnee:
       return lanes.held[1][lane] != 0 ? at.stop_torque[1][lane] : at.q[4][lane];
-    case Guard::kFootHeight:
+    case KneedGuard::kFootHeight:
       return at.height[0][lane];
-    case Guard::kFootBehind:
+    case KneedGuard::kFootBehind:
       return -at.lead[0][lane];
   }
   return 0;
@@ -115,10 +115,10 @@ LaneIncident::LaneIncident(const Lanes& lanes, const LanePoint& end, size_t lane
     if (lanes.at.lead[0][lane] > 0)
       foot_ahead(height, lanes.at.height_rate[0][lane], end);
     else if (std::min(height, end.height[0][lane]) <= 0)
-      pending_[static_cast<size_t>(Guard::kFootBehind)] = true;
+      pending_[static_cast<size_t>(KneedGuard::kFootBehind)] = true;
   }
   height_then_ = height;
-  for (const Guard knee : {Guard::kStanceKnee, Guard::kSwingKnee})
+  for (const KneedGuard knee : {KneedGuard::kStanceKnee, KneedGuard::kSwingKnee})
     pending_[static_cast<size_t>(knee)] = guard_value(knee, lanes, end, lane) < -kGuardTolerance;
   start_next(lanes, end);
 }
@@ -134,18 +134,18 @@ void LaneIncident::foot_ahead(double height, double height_rate, const LanePoint
   if (height < -kGuardTolerance)
     note(ahead_since_, height_rate < 0 ? IncidentKind::kStrike : IncidentKind::kStumble);
   else if (end.height[0][lane_] <= 0)
-    pending_[static_cast<size_t>(Guard::kFootHeight)] = true;
+    pending_[static_cast<size_t>(KneedGuard::kFootHeight)] = true;
 }
 
 void LaneIncident::start_next(const Lanes& lanes, const LanePoint& end) {
   searching_ = false;
-  for (const Guard guard :
-       {Guard::kFootBehind, Guard::kFootHeight, Guard::kStanceKnee, Guard::kSwingKnee}) {
+  for (const KneedGuard guard : {KneedGuard::kFootBehind, KneedGuard::kFootHeight,
+                                 KneedGuard::kStanceKnee, KneedGuard::kSwingKnee}) {
     bool& waits = pending_[static_cast<size_t>(guard)];
     if (!waits) continue;
     waits = false;
     current_ = guard;
-    const bool foot = guard == Guard::kFootHeight;
+    const bool foot = guard == KneedGuard::kFootHeight;
     search_ = {foot ? ahead_since_ : 0,
                foot ? height_then_ : guard_value(guard, lanes, lanes.at, lane_), h_,
                guard_value(guard, lanes, end, lane_)};
@@ -160,7 +160,7 @@ double LaneIncident::trial() const {
 }
 
 void LaneIncident::take(const Lanes& lanes, const LanePoint& at, const LanePoint& end) {
-  const bool behind = current_ == Guard::kFootBehind;
+  const bool behind = current_ == KneedGuard::kFootBehind;
   if (!search_.done()) {
     search_.take(guard_value(current_, lanes, at, lane_));
     // The foot's height is wanted where it passes: that is one more trial, at the root.
@@ -171,7 +171,7 @@ void LaneIncident::take(const Lanes& lanes, const LanePoint& at, const LanePoint
     height_then_ = at.height[0][lane_];
     foot_ahead(height_then_, at.height_rate[0][lane_], end);
   } else {
-    const bool foot = current_ == Guard::kFootHeight;
+    const bool foot = current_ == KneedGuard::kFootHeight;
     note(search_.root(), foot ? IncidentKind::kStrike : IncidentKind::kStop);
   }
   start_next(lanes, end);

@@ -43,8 +43,8 @@ class LaneIncident {
 
   size_t lane_ = 0;
   double h_ = 0;
-  bool pending_[4]{};  // by Guard
-  Guard current_ = Guard::kFootHeight;
+  bool pending_[4]{};  // by KneedGuard
+  KneedGuard current_ = KneedGuard::kFootHeight;
   FallSearch search_;
   bool searching_ = false, found_ = false;
   Incident first_;

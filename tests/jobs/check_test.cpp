@@ -323,7 +323,8 @@ std::vector<FigurePath> walked_paths(const std::vector<Camera>& cameras, size_t 
       const double t = (frame - (i == late ? lag : 0)) / 30.0;
       const Vector3d point(1.2 * (t - 1.5), 0.5 * std::sin(t), 1.3 + 0.02 * std::sin(12 * t));
       const auto pixel = project(cameras[i], point);
-      paths[i].push_back(Figure{*pixel + noise_px * Vector2d(rng.normal(), rng.normal()), {}, {}});
+      paths[i].push_back(
+          MovingFigure{*pixel + noise_px * Vector2d(rng.normal(), rng.normal()), {}, {}});
     }
   }
   return paths;

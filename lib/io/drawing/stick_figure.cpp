@@ -18,18 +18,19 @@ constexpr double kFigurePx = 220;  // height of the tallest figure
 constexpr double kPitchPx = 150;   // from one figure of a strip to the next
 constexpr double kMarginPx = 50;
 
-struct Colour {
+struct LineColour {
   int red, green, blue;
 };
-constexpr std::array kGroupColours{Colour{40, 40, 40}, Colour{200, 60, 40}, Colour{40, 90, 200}};
-constexpr Colour kGround{150, 150, 150};
+constexpr std::array kGroupColours{LineColour{40, 40, 40}, LineColour{200, 60, 40},
+                                   LineColour{40, 90, 200}};
+constexpr LineColour kGround{150, 150, 150};
 
-const Colour& colour_of(int group) { return kGroupColours[static_cast<size_t>(group) % 3]; }
+const LineColour& colour_of(int group) { return kGroupColours[static_cast<size_t>(group) % 3]; }
 
 // A line in pixels, x right, y down.
 struct Drawn {
   Vector2d from, to;
-  Colour colour;
+  LineColour colour;
   double width;
 };
 
@@ -97,7 +98,7 @@ Strip laid_out(const std::vector<StickFigure>& figures, double slope) {
   return strip;
 }
 
-cv::Scalar bgr(const Colour& colour) {
+cv::Scalar bgr(const LineColour& colour) {
   return {static_cast<double>(colour.blue), static_cast<double>(colour.green),
           static_cast<double>(colour.red)};
 }

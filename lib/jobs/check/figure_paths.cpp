@@ -121,7 +121,7 @@ Blob largest_blob(const cv::Mat& moving) {
 }
 
 // The blob's outermost pixels, column by column, px of the shrunk image.
-void add_ends(const Blob& blob, int image_rows, Figure& figure) {
+void add_ends(const Blob& blob, int image_rows, MovingFigure& figure) {
   const cv::Rect& box = blob.around;
   for (int x = 0; x < box.width; ++x) {
     int top = -1, bottom = -1;
@@ -139,7 +139,7 @@ void add_ends(const Blob& blob, int image_rows, Figure& figure) {
 
 // The largest moving blob, px of the shrunk image; its middle is that of the upper part, for its
 // shadow lies below. None if it touches the image's side.
-std::optional<Figure> figure_in(const cv::Mat& frame, const cv::Mat& background) {
+std::optional<MovingFigure> figure_in(const cv::Mat& frame, const cv::Mat& background) {
   cv::Mat difference;
   cv::absdiff(frame, background, difference);
   const cv::Mat everywhere = difference > kDifference;
@@ -156,12 +156,13 @@ std::optional<Figure> figure_in(const cv::Mat& frame, const cv::Mat& background)
   if (box.x < 2 || box.x + box.width > frame.cols - 2) return std::nullopt;
   const int upper = static_cast<int>(std::ceil(kUpperPart * box.height));
   const cv::Moments moments = cv::moments(blob.mask.rowRange(0, upper), true);
-  Figure figure{{box.x + moments.m10 / moments.m00, box.y + moments.m01 / moments.m00}, {}, {}};
+  MovingFigure figure{
+      {box.x + moments.m10 / moments.m00, box.y + moments.m01 / moments.m00}, {}, {}};
   add_ends(blob, frame.rows, figure);
   return figure;
 }
 
-Figure enlarged(Figure figure, int factor) {
+MovingFigure enlarged(MovingFigure figure, int factor) {
   const auto enlarge = [&](Vector2d& pixel) { pixel = (pixel.array() + 0.5) * factor - 0.5; };
   enlarge(figure.middle);
   for (auto* ends : {&figure.tops, &figure.bottoms})
