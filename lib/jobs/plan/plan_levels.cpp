@@ -62,8 +62,9 @@ PlanState state_of(const Scene& scene, const Config& config) {
   state.walker = static_cast<int>(KneedState{}.q.size() + KneedState{}.qd.size());
   // Of the standing foot; the way that the root goes, or the heading that it keeps.
   state.place = 2 + (turns(model) ? 2 : 1);
-  state.pose = 2 * free;    // with their rates, as values of two frames
-  state.controls = kControlSize + 2;  // four springs with dampers and rest angles, a push-off; the step's aim
+  state.pose = 2 * free;  // with their rates, as values of two frames
+  state.controls =
+      kControlSize + 2;  // four springs with dampers and rest angles, a push-off; the step's aim
   state.noise = kExtraNoise + free;
   // Two copies of each state, three weights, a parent and flags.
   state.bytes_per_particle = 2.0 * sizeof(WalkerParticle) + 6.0 * sizeof(double);
