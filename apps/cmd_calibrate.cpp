@@ -46,7 +46,7 @@ struct BoardOptions {
   void declare(CommandLine& line) {
     auto add = line.options().add_options();
     add("board", po::value(&kind)->default_value("chessboard")->value_name("KIND"),
-        "kind of board: chessboard, circles or asymmetric-circles");
+        "chessboard, circles or asymmetric-circles");
     add("size", po::value(&size)->value_name("CxR"),
         "number of inner corners or circles, e.g. 9x6");
     add("spacing", po::value(&spacing)->value_name("M"),
@@ -57,8 +57,8 @@ struct BoardOptions {
     constexpr std::array<std::string_view, 3> kKinds{"chessboard", "circles", "asymmetric-circles"};
     const auto known = std::find(kKinds.begin(), kKinds.end(), kind);
     if (known == kKinds.end())
-      throw UsageError(describe({"", 0, "--board"}, kind,
-                                "kind of board: chessboard, circles or asymmetric-circles"));
+      throw UsageError(
+          describe({"", 0, "--board"}, kind, "chessboard, circles or asymmetric-circles"));
     if (size.empty() && spacing == 0) return std::nullopt;
     Board out{static_cast<BoardKind>(known - kKinds.begin()), 0, 0, spacing};
     const auto counts = two_whole_numbers(size, 3, 100);
@@ -79,8 +79,7 @@ LensModel lens_model(const std::string& name) {
   if (name == "brown") return LensModel::kBrown;
   if (name == "rational") return LensModel::kRational;
   if (name == "fisheye") return LensModel::kFisheye;
-  throw UsageError(
-      describe({"", 0, "--model"}, name, "lens model: pinhole, brown, rational or fisheye"));
+  throw UsageError(describe({"", 0, "--model"}, name, "pinhole, brown, rational or fisheye"));
 }
 
 struct ImportOptions {
@@ -142,7 +141,7 @@ int run_calibrate(const Arguments& arguments) {
   add("camera", po::value(&camera)->value_name("FILE"),
       "take the lens of this calibration instead");
   add("model", po::value(&model)->default_value("brown")->value_name("LENS"),
-      "lens model: pinhole, brown, rational or fisheye");
+      "pinhole, brown, rational or fisheye");
   add("floor", po::value(&floor)->value_name("PATH"),
       "picture or video of the camera in its place");
   add("points", po::value(&points)->value_name("FILE"), "measured points, CSV");

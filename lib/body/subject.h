@@ -1,7 +1,7 @@
-// Who is tracked: stature and mass give every segment.
+// The subject who is tracked: stature and mass give every segment.
 //
-// Segment lengths, masses, centres of mass and radii of gyration: Winter, "Biomechanics and Motor
-// Control of Human Movement", 4th ed. 2009, table 4.1 (Dempster) and fig. 4.1 (Drillis & Contini).
+// Segment lengths: core/anthropometry.h, and Winter, "Biomechanics and Motor Control of Human
+// Movement", 4th ed. 2009, table 4.1 (Dempster) and fig. 4.1 (Drillis & Contini).
 // Breadths, depths and circumferences: Gordon et al., "1988 Anthropometric Survey of U.S. Army
 // Personnel", 1989, male medians divided by the median stature 1.756 m. Metres, kilograms.
 #pragma once

@@ -17,7 +17,7 @@ namespace walktrack {
 struct StrideModes {
   double phase = 0;           // of the mode reported, shares of the stride in [0, 1)
   double p_legs_swapped = 0;  // mass of the other one: probability that the legs are swapped,
-                              // in a FrameRecord of tracker/tracker.h with the doubt of the start
+                              // in a FrameRecord of walker_filter.h with that left by the start
   double standing = 0;  // probability of standing; above one half there is no phase to speak of
 };
 

@@ -1,6 +1,6 @@
-// The subject as a kneed walker: the one place where anthropometrics become planar parameters.
+// The subject as a kneed walker of their own lengths; of average ones: gait/walker_units.h.
 //
-// Masses, centres of mass and radii of gyration: Winter 2009, table 4.1 (Dempster), as shares of
+// Masses, centres of mass and radii of gyration: core/anthropometry.h, as shares of
 // the subject's mass and of the segment's length; shank and foot are one part. The rolling foot has
 // .3 leg lengths of radius, its arc's centre 5 cm (at a leg of .9275 m) ahead of the shank's axis
 // and as high above the ankle as makes the ankle stand at its height (lib/walker, kneed_walker.h).
