@@ -9,7 +9,7 @@ import re
 import subprocess
 import sys
 
-WORDS_LEFT_OUT = {"CHANGELOG.md", "README.md"}  # places from the top; the first tells of old names
+WORDS_LEFT_OUT = {"CHANGELOG.md"}  # tells of old names
 GENERATED = {"build", "out", ".git"}
 
 
