@@ -9,6 +9,7 @@ int run_analyse(const Arguments& arguments);
 int run_batch(const Arguments& arguments);
 int run_calibrate(const Arguments& arguments);
 int run_check(const Arguments& arguments);
+int run_compare(const Arguments& arguments);
 int run_config(const Arguments& arguments);
 int run_cycle(const Arguments& arguments);
 int run_evaluate(const Arguments& arguments);

@@ -25,6 +25,7 @@ constexpr std::array kCommands{
     Command{"batch", "track every scene below a folder, resumable", run_batch},
     Command{"calibrate", "find the lens and the place of a camera", run_calibrate},
     Command{"check", "find mistakes in a scene, its calibrations and videos", run_check},
+    Command{"compare", "compare results: before and after, left and right", run_compare},
     Command{"config", "print the commented defaults or the effective configuration", run_config},
     Command{"cycle", "find a limit cycle of a walker and its properties", run_cycle},
     Command{"evaluate", "measure estimates against a truth", run_evaluate},
