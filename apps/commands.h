@@ -13,6 +13,7 @@ int run_compare(const Arguments& arguments);
 int run_config(const Arguments& arguments);
 int run_cycle(const Arguments& arguments);
 int run_evaluate(const Arguments& arguments);
+int run_init(const Arguments& arguments);
 int run_plan(const Arguments& arguments);
 int run_prior(const Arguments& arguments);
 int run_render(const Arguments& arguments);

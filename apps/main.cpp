@@ -29,6 +29,7 @@ constexpr std::array kCommands{
     Command{"config", "print the commented defaults or the effective configuration", run_config},
     Command{"cycle", "find a limit cycle of a walker and its properties", run_cycle},
     Command{"evaluate", "measure estimates against a truth", run_evaluate},
+    Command{"init", "make a scene of a video and the subject's height", run_init},
     Command{"plan", "say what tracking would model, why, and what it costs", run_plan},
     Command{"prior", "build or show the table of gaits", run_prior},
     Command{"render", "render a motion as synthetic video with its truth", run_render},
