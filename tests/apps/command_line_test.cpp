@@ -155,7 +155,7 @@ TEST(CommandLine, NamesMistakes) {
       {{"init", "a.mp4", "--height", "175"}, 2, "--height: found 175, allowed: 0.5 to 2.5"},
       {{"init", "a.mp4", "--height", "1.7", "--fov-deg", "0"}, 2, "--fov-deg: found 0, allowed: 5"},
       {{"init", "a.mp4", "--height", "1.7"}, 2, "--output is missing"},
-      {{"init", "/no.mp4", "--height", "1.7", "-o", "/tmp/x"}, 3, "/no.mp4: found no file"},
+      {{"init", "/no.mp4", "--height", "1.7", "-o", "/nowhere/x"}, 3, "/no.mp4: found no file"},
       {{"plan"}, 2, "SCENE.yaml is missing"},
       {{"plan", "/nowhere.yaml"}, 3, "/nowhere.yaml: no such file"},
       {{"track", "x", "-o", "/tmp/x", "--fps", "0"},
