@@ -9,6 +9,7 @@
 #include "core/parallel_for.h"
 #include "jobs/batch/batch.h"
 #include "jobs/batch/batch_changes.h"
+#include "jobs/batch/shard.h"
 #include "terminal.h"
 
 namespace walktrack {
@@ -16,20 +17,6 @@ namespace walktrack {
 namespace po = boost::program_options;
 
 namespace {
-
-// "2/8", from 1.
-void parse_shard(const std::string& text, BatchJob& job) {
-  const size_t slash = text.find('/');
-  try {
-    job.shard = std::stoi(text.substr(0, slash));
-    job.shards = slash == std::string::npos ? 0 : std::stoi(text.substr(slash + 1));
-  } catch (const std::exception&) {
-    job.shards = 0;
-  }
-  if (job.shard < 1 || job.shard > job.shards) {
-    throw UsageError(describe({"", 0, "--shard"}, fmt::format("'{}'", text), "i/n, i from 1 to n"));
-  }
-}
 
 // This program tracking one sequence, with the options that it was given itself.
 std::vector<std::string> track_command(const CommonOptions& common, int jobs, bool ignore_checks) {
@@ -107,7 +94,9 @@ int run_batch(const Arguments& arguments) {
                                "take every video below FOLDER in the place of this scene\'s video")(
       "jobs,j", po::value(&job.jobs)->default_value(1)->value_name("N"),
       "number of sequences at a time")("shard", po::value(&shard)->value_name("i/n"),
-                                       "do every n-th sequence, from the i-th")(
+                                       "do every n-th sequence, from the i-th; auto: as Slurm or "
+                                       "AWS Batch number this worker, auto/n: "
+                                       "as a Kubernetes Indexed Job of n does")(
       "time-limit", po::value(&job.limits.seconds)->value_name("S"), "time of one sequence")(
       "memory-limit", po::value(&job.limits.memory_mb)->value_name("MB"), "memory of one sequence")(
       "resume", po::bool_switch(&resume),
@@ -129,7 +118,9 @@ int run_batch(const Arguments& arguments) {
     throw UsageError(
         "--resume and --yes exclude each other: what has changed is left as it is or done again");
   }
-  parse_shard(shard, job);
+  const Shard share = shard_from(shard, process_environment());
+  job.shard = share.index;
+  job.shards = share.count;
   job.folder = folder;
   job.scene_template = scene_template;
   job.output = line.required_output();

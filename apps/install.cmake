@@ -12,7 +12,7 @@ add_custom_command(TARGET walktrack POST_BUILD VERBATIM BYPRODUCTS ${MANUAL}
 install(FILES ${MANUAL} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 
 install(FILES completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME walktrack)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs ${PROJECT_SOURCE_DIR}/data/demo
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs ${PROJECT_SOURCE_DIR}/data/demo ${PROJECT_SOURCE_DIR}/data/schemas
   DESTINATION ${CMAKE_INSTALL_DATADIR}/walktrack)
 if(WALKTRACK_HAS_POSE_NET)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/pose_net DESTINATION ${CMAKE_INSTALL_DATADIR}/walktrack)

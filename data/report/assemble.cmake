@@ -10,7 +10,7 @@ function(read_parts into)
 endfunction()
 
 read_parts(STYLE libraries/uplot.min.css style.css)
-read_parts(SCRIPT libraries/uplot.min.js libraries/ogl.min.js data.js player.js space.js charts.js tables.js main.js)
+read_parts(SCRIPT libraries/uplot.min.js libraries/ogl.min.js elements.js data.js player.js space.js chart.js charts.js tables.js main.js)
 file(READ ${FOLDER}/page.html PAGE)
 file(READ ${FOLDER}/normal_gait.csv NORMAL_GAIT)
 string(REPLACE "<!--STYLE-->\n" "${STYLE}" PAGE "${PAGE}")
@@ -21,6 +21,12 @@ read_parts(STYLE style.css)
 file(READ ${FOLDER}/batch.html BATCH)
 string(REPLACE "<!--STYLE-->\n" "${STYLE}" BATCH "${BATCH}")
 string(REPLACE "<!--SCRIPT-->\n" "${SCRIPT}" BATCH "${BATCH}")
+
+read_parts(SCRIPT libraries/uplot.min.js elements.js chart.js compare.js)
+read_parts(STYLE libraries/uplot.min.css style.css)
+file(READ ${FOLDER}/compare.html COMPARE)
+string(REPLACE "<!--STYLE-->\n" "${STYLE}" COMPARE "${COMPARE}")
+string(REPLACE "<!--SCRIPT-->\n" "${SCRIPT}" COMPARE "${COMPARE}")
 
 file(WRITE ${OUTPUT} "// Made from data/report by assemble.cmake.
 #include \"io/drawing/report_page.h\"
@@ -34,6 +40,11 @@ std::string_view report_template() {
 
 std::string_view batch_template() {
   static constexpr char kText[] = R\"template(${BATCH})template\";
+  return {kText, sizeof(kText) - 1};
+}
+
+std::string_view compare_template() {
+  static constexpr char kText[] = R\"template(${COMPARE})template\";
   return {kText, sizeof(kText) - 1};
 }
 

@@ -61,7 +61,7 @@ TEST(AngleSignals, LeanForwardsIsPositive) {
     for (const char* angle : {"hip_flexion", "knee_angle", "ankle_angle"})
       columns.emplace_back(fmt::format("{}_{}_deg", angle, side), 20);
   folder.write("angles.csv", table(columns, 3));
-  for (const Signal& signal : angle_signals(folder)) {
+  for (const Signal& signal : angle_signals(folder.path())) {
     EXPECT_EQ(signal.value[1], signal.name == "pelvis_tilt" ? 8 : 20) << signal.name;
     EXPECT_EQ(signal.p95[1] - signal.p05[1], 2) << signal.name;
   }

@@ -209,6 +209,47 @@ class Report(unittest.TestCase):
             self.assertEqual(path.exists(), True, link)
             self.assertEqual(path.name == "report.html", row["state"] != "failed", link)
 
+    def test_compares_groups_and_sides(self):
+        """Two walks of which the second is slower, then the two sides of the first."""
+        lines = (demo / "truth.csv").read_text().splitlines()
+        results = []
+        for name, slower in (("before", 1), ("after <b>", 1.2)):
+            motion = self.folder / "slower.csv"
+            motion.write_text("\n".join([lines[0]] + [f"{slower * float(t):.6f},{rest}" for t, rest in
+                                                      (line.split(",", 1) for line in lines[1:])]) + "\n")
+            results.append(self.folder / name)
+            self.assertEqual(run("analyse", motion, "-o", results[-1]).returncode, 0)
+        out = self.folder / "compared"
+        result = run("compare", *results, "-o", out, "--draws", 200)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.open(out / "compare.html")
+        compared = json.loads((out / "compare.json").read_text())
+        self.assertEqual(self.texts("h1"), ["before, after <b>"])
+        reference, other = compared["comparisons"][0]["samples"]
+        rows = self.texts("#parameter-tables tbody tr")
+        self.assertEqual(len(rows), len(compared["parameters"]))
+        speed = other["parameters"]["speed_m_s"]
+        self.assertIn(f"{speed['mean']:.2f} ± {speed['sd']:.2f}, n = {speed['count']}", rows[0])
+        self.assertIn(f"−{-speed['difference']:.2f} −{-speed['low']:.2f} to −{-speed['high']:.2f}", rows[0])
+        self.assertTrue(rows[0].endswith("differs"), rows[0])
+        self.assertEqual(sum(row.endswith("differs") for row in rows),
+                         sum(p.get("exceeds", False) for p in other["parameters"].values()))
+        self.assertEqual(len(self.texts("#curve-charts canvas")), 8)
+        self.assertEqual(self.texts("#sides button"), ["Both sides", "Left side", "Right side"])
+        self.browser.value("document.querySelector('#sides button:nth-child(2)').focus()")
+        self.browser.key("Enter", "Enter", "\r")
+        left = compared["comparisons"][1]["samples"][1]["parameters"]["speed_m_s"]
+        self.assertIn(f"n = {left['count']}", self.texts("#parameter-tables tbody tr")[0])
+        self.assertNotEqual(left["count"], speed["count"])
+        self.small_and_on_paper("compare", range(2, 6))
+        self.check_quiet(out / "compare.html")
+        sides = self.folder / "sides"
+        self.assertEqual(run("compare", results[0], "-o", sides, "--draws", 200).returncode, 0)
+        self.open(sides / "compare.html")
+        self.assertEqual(self.texts("#parameter-tables thead th")[1:3], ["right", "left"])
+        self.assertEqual(self.texts("#sides button"), [])
+        self.check_quiet(sides / "compare.html")
+
     def fits_on_paper(self):
         """On A4 across without its margins, 269 mm, no column is cut off."""
         self.browser.size(1017, 700)

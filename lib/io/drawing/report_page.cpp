@@ -47,8 +47,7 @@ void choose_embedded(std::vector<ReportClip>& clips, uintmax_t max_bytes) {
   }
 }
 
-void write_report_page(const fs::path& path, const ReportPage& page) {
-  const std::string_view text = report_template();
+void write_report_page(const fs::path& path, const ReportPage& page, std::string_view text) {
   const size_t title = text.find(kTitlePlace), data = text.find(kDataPlace);
   AtomicFile out(path);
   out.write(text.substr(0, title));

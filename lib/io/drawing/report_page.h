@@ -27,9 +27,15 @@ struct ReportPage {
 // Marks as embedded the clips, from the first on, that together have at most `max_bytes`.
 void choose_embedded(std::vector<ReportClip>& clips, uintmax_t max_bytes);
 
+// The page without title, data and videos.
+std::string_view report_template();
+// The same of a comparison.
+std::string_view compare_template();
+
 // Videos are copied through block by block. std::runtime_error naming what cannot be read or
 // written.
-void write_report_page(const std::filesystem::path& path, const ReportPage& page);
+void write_report_page(const std::filesystem::path& path, const ReportPage& page,
+                       std::string_view page_template = report_template());
 
 // RFC 4648, with padding.
 std::string base64(std::string_view bytes);
@@ -37,8 +43,6 @@ std::string base64(std::string_view bytes);
 // JSON inside a <script> element: no "<" is left, so nothing in it can end the element.
 std::string json_in_html(std::string_view json);
 
-// The page without title, data and videos.
-std::string_view report_template();
 // The page of a batch with its places <!--HEADLINE-->, <!--STATES-->, <!--HEADINGS-->, <!--ROWS-->.
 std::string_view batch_template();
 // data/report/normal_gait.csv.

@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "io/tables/csv.h"
+#include "io/tables/marker_file.h"
 
 namespace walktrack {
 
@@ -124,6 +125,7 @@ int listed_joint_count(const Motion& motion) {
 }
 
 Motion read_motion(const std::filesystem::path& path, const WorldFrame& world) {
+  if (is_marker_file(path)) return read_marker_motion(path);
   const CsvTable table = read_csv(path);
   check_columns(table);
   Motion motion{read_times(table), read_joints(table, "")};

@@ -16,8 +16,9 @@
 
 namespace walktrack {
 
-// Into the library's world. InputError naming line and column for what is no such table: a missing
-// or misspelt column, times that do not increase, text for a number.
+// Into the library's world; a TRC or C3D file (marker_file.h) is upright by itself. InputError
+// naming line and column for what is no such table: a missing or misspelt column, times that do not
+// increase, text for a number.
 Motion read_motion(const std::filesystem::path& path, const WorldFrame& world = {});
 std::string motion_csv(const Motion& motion, const WorldFrame& world = {});
 

@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "io/tables/csv.h"
+#include "io/tables/marker_file.h"
 #include "io/tables/motion_file.h"
 #include "jobs/evaluate/evaluate.h"
 
@@ -80,6 +81,7 @@ Motion key_points(const CsvTable& table, double rate) {
 }  // namespace
 
 Truth read_truth(const std::filesystem::path& path, std::optional<double> frame_rate) {
+  if (is_marker_file(path)) return read_motion(path);
   const CsvTable table = read_csv(path);
   const auto has = [&](const char* column) { return table.find_column(column).has_value(); };
   if (has("t") && has("pelvis_x")) return read_motion(path);

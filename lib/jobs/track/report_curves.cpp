@@ -82,8 +82,8 @@ Json cycle_json(const Signal& signal, const std::vector<Stride>& strides) {
 
 }  // namespace
 
-std::vector<Signal> angle_signals(const ResultFolder& folder) {
-  const auto table = folder.file("angles.csv");
+std::vector<Signal> angle_signals(const std::filesystem::path& folder) {
+  const auto table = folder / "angles.csv";
   std::vector<Signal> out;
   for (const Side side : kSides) {
     const char letter = side == Side::kLeft ? 'l' : 'r';

@@ -20,8 +20,8 @@ struct Signal {
   std::vector<double> time, value, p05, p95;
 };
 
-// Of angles.csv: degrees, forward lean positive.
-std::vector<Signal> angle_signals(const ResultFolder& folder);
+// Of angles.csv of a result folder: degrees, forward lean positive.
+std::vector<Signal> angle_signals(const std::filesystem::path& folder);
 
 // Of kinetics.csv: vertical load of each foot in body weights, moments in N m/kg.
 std::vector<Signal> load_signals(const ResultFolder& folder, const AnalysedMotion& analysed);

@@ -1,0 +1,53 @@
+// walktrack compare: what differs between results, or between left and right.
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "core/errors.h"
+#include "jobs/compare/compare.h"
+#include "terminal.h"
+
+namespace walktrack {
+
+namespace po = boost::program_options;
+
+int run_compare(const Arguments& arguments) {
+  std::vector<std::string> groups;
+  std::string unit = "strides";
+  size_t draws = CompareJob{}.draws;
+  CommandLine line(
+      {.name = "compare",
+       .operands = "GROUP [GROUP ...]",
+       .about =
+           "Compares results of 'walktrack track', 'analyse' or 'batch': joint angles over the "
+           "gait cycle and\ngait parameters, with differences from the first group, their 95 % "
+           "bands by bootstrap over\nstrides, and the minimal detectable change. A group is a "
+           "result, a folder with results below it, or\nNAME=FOLDER,FOLDER. One group alone: "
+           "its left side against its right side.",
+       .example = "walktrack compare out/analysis -o out/sides"});
+  auto add = line.options().add_options();
+  add("unit", po::value(&unit)->value_name("UNIT"),
+      "what is drawn in the bootstrap: strides (of one person), or trials (each result counts "
+      "once: of several people or days)");
+  add("draws", po::value(&draws)->value_name("N"), "of the bootstrap; default: 2000");
+  line.operands("GROUP", &groups);
+  if (!line.parse(arguments)) return kDone;
+  if (unit != "strides" && unit != "trials")
+    throw UsageError(fmt::format("--unit: found '{}', allowed: strides, trials", unit));
+  if (draws < 100 || draws > 100000)
+    throw UsageError(fmt::format("--draws: found {}, allowed: 100 to 100000", draws));
+  CompareJob job;
+  for (const std::string& group : groups) job.groups.push_back(compare_group(group));
+  job.output = line.required_output();
+  job.unit = unit == "trials" ? CompareUnit::kTrials : CompareUnit::kStrides;
+  job.draws = draws;
+  job.seed = line.config().values.seed;
+  job.overwrite = line.common().overwrite;
+  const CompareOutcome outcome = compare(job);
+  Terminal(line.common())
+      .control()
+      .say(fmt::format("{} of {} differences exceed the minimal detectable change; open {}",
+                       outcome.exceeding, outcome.compared, outcome.look_at.string()));
+  return kDone;
+}
+
+}  // namespace walktrack

@@ -1,0 +1,199 @@
+// The points of a C3D file (C3D User Guide, c3d.org): little-endian, numbers or floats.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/errors.h"
+#include "io/export/c3d_parameters.h"
+#include "io/tables/marker_file.h"
+
+namespace walktrack {
+
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr int kIntel = 84;
+constexpr int kAnyParameters = 0x50;
+
+class Bytes {
+ public:
+  Bytes(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
+
+  [[noreturn]] void fail(const std::string& found, const std::string& allowed) const {
+    throw InputError(describe({file_, 0, ""}, found, allowed));
+  }
+  std::string_view text(size_t at, size_t count) const {
+    if (at > bytes_.size() || count > bytes_.size() - at)
+      fail(fmt::format("an end after {} bytes", bytes_.size()), "a whole C3D file");
+    return bytes_.substr(at, count);
+  }
+  int byte(size_t at) const { return static_cast<unsigned char>(text(at, 1)[0]); }
+  int signed_byte(size_t at) const { return static_cast<signed char>(text(at, 1)[0]); }
+  int word(size_t at) const { return byte(at) + 256 * byte(at + 1); }
+  int signed_word(size_t at) const { return static_cast<int16_t>(word(at)); }
+  double real(size_t at) const {
+    const auto low = static_cast<uint32_t>(word(at)), high = static_cast<uint32_t>(word(at + 2));
+    return std::bit_cast<float>(low | high << 16);
+  }
+  size_t size() const { return bytes_.size(); }
+  const std::string& file() const { return file_; }
+
+ private:
+  std::string_view bytes_;
+  std::string file_;
+};
+
+struct Parameter {
+  int type = 0;
+  std::vector<size_t> dimensions;
+  size_t data = 0;  // where it begins
+};
+using Parameters = std::map<std::string, Parameter>;  // "POINT:LABELS"
+
+std::string upper(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return out;
+}
+
+// Groups and parameters come in any order; each says how far the next one is.
+Parameters parameters_of(const Bytes& bytes) {
+  size_t at = kC3dBlock * static_cast<size_t>(std::max(1, bytes.byte(0)) - 1);
+  if (bytes.byte(1) != kAnyParameters) bytes.fail("another kind of file", "a C3D file");
+  if (bytes.byte(at + 3) != kIntel)
+    bytes.fail("numbers of another processor (DEC or MIPS)",
+               "a little-endian C3D file; most programs that save C3D can write one");
+  std::map<int, std::string> groups;
+  std::map<std::pair<int, std::string>, Parameter> found;
+  for (at += 4;;) {
+    const auto letters = static_cast<size_t>(std::abs(bytes.signed_byte(at)));
+    const int id = bytes.signed_byte(at + 1);
+    if (letters == 0) break;
+    const std::string name = upper(bytes.text(at + 2, letters));
+    const size_t next = at + 2 + letters;
+    size_t here = next + 2;
+    if (id < 0) {
+      groups[-id] = name;
+    } else {
+      Parameter parameter{bytes.signed_byte(here), {}, 0};
+      const int dimensions = bytes.byte(here + 1);
+      here += 2;
+      for (int i = 0; i < dimensions; ++i)
+        parameter.dimensions.push_back(static_cast<size_t>(bytes.byte(here++)));
+      parameter.data = here;
+      found[{id, name}] = parameter;
+    }
+    const int step = bytes.word(next);
+    if (step == 0) break;
+    at = next + static_cast<size_t>(step);
+  }
+  Parameters out;
+  for (const auto& [key, parameter] : found)
+    if (groups.contains(key.first)) out[groups[key.first] + ":" + key.second] = parameter;
+  return out;
+}
+
+std::string trimmed(std::string_view text) {
+  const size_t last = text.find_last_not_of(std::string_view(" \0", 2));
+  return std::string(text.substr(0, last == std::string_view::npos ? 0 : last + 1));
+}
+
+// The texts of a parameter; none where it is missing.
+std::vector<std::string> texts(const Bytes& bytes, const Parameters& all, const std::string& key) {
+  const auto found = all.find(key);
+  if (found == all.end() || found->second.type != -1 || found->second.dimensions.empty()) return {};
+  const Parameter& parameter = found->second;
+  const size_t length = parameter.dimensions[0];
+  if (length == 0) return {};
+  size_t count = 1;
+  for (size_t i = 1; i < parameter.dimensions.size(); ++i) count *= parameter.dimensions[i];
+  std::vector<std::string> out;
+  for (size_t i = 0; i < count; ++i)
+    out.push_back(trimmed(bytes.text(parameter.data + i * length, length)));
+  return out;
+}
+
+std::vector<std::string> labels_of(const Bytes& bytes, const Parameters& all) {
+  std::vector<std::string> out = texts(bytes, all, "POINT:LABELS");
+  for (int k = 2; all.contains(fmt::format("POINT:LABELS{}", k)); ++k)
+    for (std::string& label : texts(bytes, all, fmt::format("POINT:LABELS{}", k)))
+      out.push_back(std::move(label));
+  return out;
+}
+
+double metres_per(const Bytes& bytes, const Parameters& all) {
+  const auto units = texts(bytes, all, "POINT:UNITS");
+  if (units.empty() || units[0] == "mm") return 1e-3;
+  if (units[0] == "m") return 1;
+  if (units[0] == "cm") return 1e-2;
+  bytes.fail(fmt::format("points in '{}'", units[0]), "m, cm or mm");
+}
+
+// What the header says of the data.
+struct Layout {
+  size_t points, start, frame_bytes, frames;
+  bool floats;
+  double scale, rate;
+};
+
+Layout layout_of(const Bytes& bytes) {
+  Layout out{};
+  out.points = static_cast<size_t>(bytes.word(2));
+  const auto analog = static_cast<size_t>(bytes.word(4));  // values a frame
+  const int first = bytes.word(6), last = bytes.word(8);
+  out.scale = bytes.real(12);
+  out.floats = out.scale < 0;
+  out.start = kC3dBlock * static_cast<size_t>(std::max(1, bytes.word(16)) - 1);
+  out.rate = bytes.real(20);
+  out.frame_bytes = (4 * out.points + analog) * (out.floats ? 4 : 2);
+  if (out.points == 0 || out.frame_bytes == 0) bytes.fail("no points", "a C3D file of points");
+  if (!(out.rate > 0 && out.rate < 1e5))
+    bytes.fail(fmt::format("a frame rate of {:g} Hz", out.rate), "one above 0");
+  if (out.start >= bytes.size()) bytes.fail("no data", "a whole C3D file");
+  // The header's counter ends at 65,535; longer recordings go on to the end of the file.
+  const size_t there = (bytes.size() - out.start) / out.frame_bytes;
+  out.frames = last >= 65535 ? there : static_cast<size_t>(std::max(0, last - first + 1));
+  if (out.frames > there)
+    bytes.fail(fmt::format("{} of {} frames", there, out.frames), "a whole C3D file");
+  return out;
+}
+
+Eigen::Vector3d point_at(const Bytes& bytes, const Layout& layout, size_t at, double metres) {
+  const size_t width = layout.floats ? 4 : 2;
+  const auto value = [&](size_t k) {
+    return layout.floats ? bytes.real(at + k * width) : bytes.signed_word(at + k * width);
+  };
+  const double residual = value(3);
+  if (!(residual >= 0)) return Eigen::Vector3d::Constant(kUnknown);
+  return Eigen::Vector3d(value(0), value(1), value(2)) * (layout.floats ? 1 : layout.scale) *
+         metres;
+}
+
+}  // namespace
+
+MarkerTable markers_from_c3d(std::string_view content, const std::string& file) {
+  const Bytes bytes(content, file);
+  const Parameters parameters = parameters_of(bytes);
+  const Layout layout = layout_of(bytes);
+  const double metres = metres_per(bytes, parameters);
+  MarkerTable out{file, labels_of(bytes, parameters), {}, {}};
+  out.names.resize(std::min(out.names.size(), layout.points));
+  if (out.names.empty()) bytes.fail("points without names", "POINT:LABELS");
+  for (size_t i = 0; i < layout.frames; ++i) {
+    out.time.push_back(static_cast<double>(i) / layout.rate);
+    auto& row = out.points.emplace_back();
+    for (size_t k = 0; k < out.names.size(); ++k)
+      row.push_back(point_at(
+          bytes, layout, layout.start + i * layout.frame_bytes + 4 * k * (layout.floats ? 4 : 2),
+          metres));
+  }
+  return out;
+}
+
+}  // namespace walktrack

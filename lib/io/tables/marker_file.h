@@ -1,0 +1,47 @@
+// Motion capture of other programs: TRC (OpenSim, Pose2Sim, OpenCap, Cortex) and C3D (c3d.org;
+// Vicon, Qualisys, Motion Analysis) files of joint centres or markers, as a motion.
+//
+// Which axis is up follows from hips and ankles. Points are known by their names, upper or lower
+// case, without a subject's "name:" and without "_", "-", ".", "study":
+//   joint centres   LHip, LHJC, LeftHip, Hip_L, LFEP; LKnee, LKJC, LFEO; LAnkle, LAJC, LTIO; LToe,
+//                   LBigToe; Neck, C7; Head; LShoulder, LSJC, LSHO; LElbow, LEJC; LWrist, LWJC
+//   both sides of a joint, whose middle is taken: LKNE, LKnee, LLFE with LKNM, LMKnee, LMKNE, LMFE;
+//                   LANK, LAnkle, LLM with LANM, LMAnkle, LMANK, LMM
+//   pelvis markers  LASI, RASI and LPSI, RPSI or SACR: hip centres by the regression of Harrington
+//   et
+//                   al., J. Biomech. 40 (2007)
+// and the same with R. The pelvis is the middle of the hips. Other points are passed over.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "body/motion.h"
+
+namespace walktrack {
+
+// Points over time as the file has them, in metres; NaN where a point was not seen.
+struct MarkerTable {
+  std::string file;  // what messages call it
+  std::vector<std::string> names;
+  std::vector<double> time;                          // s, increasing
+  std::vector<std::vector<Eigen::Vector3d>> points;  // [row][name]
+};
+
+MarkerTable markers_from_trc(std::string_view text, const std::string& file);
+MarkerTable markers_from_c3d(std::string_view bytes, const std::string& file);
+
+// z up, in metres. InputError naming what is missing where there are not two hips, knees and
+// ankles.
+Motion motion_from_markers(const MarkerTable& markers);
+
+// By the name's ending: .trc, .c3d.
+bool is_marker_file(const std::filesystem::path& path);
+// InputError with place, found and allowed.
+Motion read_marker_motion(const std::filesystem::path& path);
+
+}  // namespace walktrack

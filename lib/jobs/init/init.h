@@ -1,0 +1,52 @@
+// `walktrack init`: from a video of somebody who walks past a camera, and their height, to a scene
+// that can be tracked, without a chessboard or a measured point.
+//
+// The camera stands still and nearly level, and sees the walk from the side. Scale and floor come
+// from where head and feet are over the walk (camera/view_from_walker.h), the focal length from a
+// stated field of view, else from what the file says of its lens, else from a usual one. Speeds and
+// steps across the picture need the scale alone; distance from the camera and everything across the
+// walk are as uncertain as the focal length, and are not to be used.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera/view_from_walker.h"
+#include "core/job_control.h"
+#include "jobs/check/check.h"
+
+namespace walktrack {
+
+struct InitJob {
+  std::filesystem::path video;
+  double height = 0;                 // of the subject, m
+  std::filesystem::path background;  // frames of the empty scene; empty = none
+  std::optional<double> mass;        // kg
+  std::optional<double> fov_deg;     // along the longer side of the picture
+  std::optional<double> tilt_deg;    // how far the camera looks down, where that was measured
+  std::optional<double> frame_rate;  // Hz, of images
+  int threads = 0;                   // 0 = as many as there are
+  std::filesystem::path output;
+  bool overwrite = false;
+  std::vector<std::string> command_line;
+};
+
+struct InitOutcome {
+  WalkerView view;
+  double fov_deg = 0, fov_sd_deg = 0;
+  std::string fov_from;              // in words
+  size_t positions = 0;              // of the walker, each over a stride
+  double nearest = 0, farthest = 0;  // of them from the camera, m
+  CheckReport check;
+  std::filesystem::path scene, picture;
+};
+
+// InputError where nobody is seen to walk through the picture, or not whole.
+InitOutcome init_scene(const InitJob& job, const JobControl& control);
+
+// For people: what came of it, with bands, and what it may be used for.
+std::string init_text(const InitOutcome& outcome);
+
+}  // namespace walktrack

@@ -1,0 +1,44 @@
+// Where head and feet of the one who walks are in a video whose camera is not known: from what
+// differs from the background, and where the program has its pose network only where that sees a
+// person.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <opencv2/core/mat.hpp>
+
+#include "camera/view_from_walker.h"
+#include "core/job_control.h"
+#include "jobs/init/init.h"
+
+namespace walktrack {
+
+// Somebody in one frame, px of the video.
+struct SeenFigure {
+  double time;  // s
+  int frame;    // of the video
+  double u_px, top_px, bottom_px;
+};
+
+struct SeenWalk {
+  int width_px = 0, height_px = 0;
+  double frame_rate = 0;  // Hz
+  double looks_hz = 0;    // frames looked at in a second
+  std::vector<SeenFigure> figures;
+};
+
+// InputError naming the video where it has no frame rate. At most a minute in which somebody is
+// seen is looked at.
+SeenWalk seen_walk(const InitJob& job, const JobControl& control);
+
+// Means over pieces of the walk that last about a stride; frames in which somebody is half hidden
+// or grown together with something are passed over. With the time of its middle.
+struct WalkerPosition {
+  SeenStature seen;
+  double time;
+};
+std::vector<WalkerPosition> stride_positions(std::span<const SeenFigure> figures, double looks_hz);
+
+}  // namespace walktrack

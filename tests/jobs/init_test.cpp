@@ -1,0 +1,132 @@
+#include "jobs/init/init.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/errors.h"
+#include "io/calibration/calibration.h"
+#include "jobs/init/seen_walker.h"
+#include "observation/pose_net/pose_net.h"
+#include "tests/message_of.h"
+#include "tests/run_program.h"
+
+namespace walktrack {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const fs::path kDemo = fs::path(WALKTRACK_SOURCE_DIR) / "data/demo";
+const fs::path kData = fs::path(WALKTRACK_SOURCE_DIR) / "../shared/data";
+
+class Init : public testing::Test {
+ protected:
+  InitJob job(const fs::path& video, double height, const fs::path& background = {}) const {
+    InitJob out;
+    out.video = video;
+    out.height = height;
+    out.background = background;
+    out.output = place_.path() / "out";
+    out.overwrite = true;
+    return out;
+  }
+  const TemporaryFolder place_;
+};
+
+// Metres a pixel at the middle of the walk, by a calibration.
+double scale_by(const Camera& camera, const fs::path& record) {
+  const auto json = nlohmann::json::parse(read_file(record)).at("positions");
+  const auto& middle = json.at(json.size() / 2);
+  const auto foot =
+      ground_point(camera, {middle.at("u_px").get<double>(), middle.at("bottom_px").get<double>()});
+  return camera_point(camera, *foot).z() / camera.focal_px.x();
+}
+
+TEST_F(Init, MakesASceneThatPassesItsChecks) {
+  const InitOutcome found =
+      init_scene(job(kDemo / "side.mp4", 1.75, kDemo / "side_background.mp4"), {});
+  EXPECT_FALSE(found.check.failed());
+  EXPECT_GE(found.positions, 4u);
+  const Scene scene = read_scene(found.scene);
+  EXPECT_EQ(scene.subject.height, 1.75);
+  EXPECT_TRUE(fs::equivalent(scene.cameras[0].video, kDemo / "side.mp4"));
+  EXPECT_TRUE(fs::equivalent(scene.cameras[0].background, kDemo / "side_background.mp4"));
+  EXPECT_GT(fs::file_size(found.picture), 10000u);
+  const Camera truth = read_calibration(kDemo / "side.yaml", "side");
+  EXPECT_NEAR(found.view.metres_per_px.value / scale_by(truth, place_.path() / "out/init.json"), 1,
+              0.03);
+  // The camera looks down by 3 degrees, which a walk straight across does not tell.
+  EXPECT_NEAR(found.view.height.value, camera_centre(truth).z(), 2 * found.view.height.sd);
+  EXPECT_THAT(init_text(found), HasSubstr("Not for: distance from the camera"));
+}
+
+// With the lens and the tilt stated, the camera stands where it stands.
+TEST_F(Init, KnowsHeightAndDistanceWhereLensAndTiltAreStated) {
+  const Camera truth = read_calibration(kDemo / "side.yaml", "side");
+  InitJob stated = job(kDemo / "side.mp4", 1.75, kDemo / "side_background.mp4");
+  stated.fov_deg = 2 * std::atan(0.5 * truth.width_px / truth.focal_px.x()) * 180 / M_PI;
+  stated.tilt_deg = std::asin(-truth.rotation(2, 2)) * 180 / M_PI;
+  const InitOutcome found = init_scene(stated, {});
+  EXPECT_NEAR(found.view.height.value, camera_centre(truth).z(), 0.05);
+  EXPECT_NEAR(found.view.distance.value / -camera_centre(truth).y(), 1, 0.04);
+  EXPECT_LT(found.view.height.sd, 0.06);
+}
+
+// Two walks of one person by an independent renderer; kSeenShare was fitted on them and others.
+TEST_F(Init, ScaleOfIndependentRendersIsRight) {
+  for (const char* name : {"cmu_02_01", "cmu_02_02"}) {
+    const fs::path folder = kData / "rendered" / name;
+    if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
+    const InitOutcome found =
+        init_scene(job(folder / "cam0.mp4", 1.71, folder / "cam0_background.mp4"), {});
+    const Camera truth = read_calibration(folder / "cam0.yaml", "cam0");
+    EXPECT_NEAR(found.view.metres_per_px.value / scale_by(truth, place_.path() / "out/init.json"),
+                1, 0.03)
+        << name;
+  }
+}
+
+// Nothing was fitted on this one: a real video, with somebody else in it. The aim was 3 % for both;
+// the camera's height is 3.5 % off, for a walk straight across does not tell 1 degree of tilt and
+// roll, which move it by 3 to 6 %.
+TEST_F(Init, OfTheRealSideViewIsTheGivenCalibration) {
+  const fs::path folder = kData / "sports2d_side";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  if (!has_pose_net()) GTEST_SKIP() << "without the pose network";
+  const InitOutcome found = init_scene(job(folder / "video.mp4", 1.65), {});
+  const Camera given = read_calibration(folder / "side.yaml", "side");
+  EXPECT_NEAR(found.view.height.value / camera_centre(given).z(), 1, 0.04);
+  EXPECT_NEAR(found.view.metres_per_px.value / scale_by(given, place_.path() / "out/init.json"), 1,
+              0.03);
+}
+
+TEST_F(Init, SaysWhenNobodyWalksThroughThePicture) {
+  EXPECT_THAT(
+      message_of([&] { init_scene(job(kDemo / "side_background.mp4", 1.75), {}); }),
+      HasSubstr("side_background.mp4: found nobody who is seen whole, allowed: somebody who "
+                "walks through the picture from the side"));
+  EXPECT_FALSE(fs::exists(place_.path() / "out"));
+  EXPECT_THAT(message_of([&] { init_scene(job(place_ / "no.mp4", 1.75), {}); }),
+              HasSubstr("no.mp4"));
+}
+
+TEST(StridePositions, AreMeansOfWholeFigures) {
+  std::vector<SeenFigure> figures;
+  for (int i = 0; i < 22; ++i) {
+    const double bob = i % 5 == 0 ? 2 : -0.5;  // a head goes up and down
+    figures.push_back({0.1 * i, 3 * i, 100.0 + 10 * i, 50 + bob, 250});
+  }
+  figures[4].bottom_px = 180;  // half hidden
+  const auto positions = stride_positions(figures, 10);
+  ASSERT_EQ(positions.size(), 3u);
+  EXPECT_NEAR(positions[1].seen.top_px, 50, 0.3);
+  EXPECT_EQ(positions[0].seen.bottom_px, 250);
+  EXPECT_NEAR(positions[1].time - positions[0].time, 0.55, 0.1);
+  EXPECT_TRUE(stride_positions(std::span(figures).first(4), 10).empty());
+}
+
+}  // namespace
+}  // namespace walktrack
