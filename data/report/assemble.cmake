@@ -9,18 +9,43 @@ function(read_parts into)
   set(${into} "${text}" PARENT_SCOPE)
 endfunction()
 
+# How a Content-Security-Policy names a script that may run: 'sha256-' and base64 of its digest.
+function(script_source into script)
+  set(digits ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/)
+  string(SHA256 hex "${script}")
+  set(text "")
+  foreach(at RANGE 0 60 3)  # three hexadecimal digits are two of base64; 64 leave one over
+    string(SUBSTRING "${hex}0000" ${at} 3 three)
+    math(EXPR high "0x${three} >> 6")
+    math(EXPR low "0x${three} & 63")
+    string(SUBSTRING ${digits} ${high} 1 high)
+    string(SUBSTRING ${digits} ${low} 1 low)
+    string(APPEND text ${high}${low})
+  endforeach()
+  string(SUBSTRING "${hex}00" 63 3 three)
+  math(EXPR high "0x${three} >> 6")
+  string(SUBSTRING ${digits} ${high} 1 high)
+  set(${into} "'sha256-${text}${high}='" PARENT_SCOPE)
+endfunction()
+
+# Puts style and script into a page, whose policy lets that script run and no other.
+macro(fill_page page)
+  string(REPLACE "<!--STYLE-->\n" "${STYLE}" ${page} "${${page}}")
+  string(REPLACE "<!--SCRIPT-->\n" "${SCRIPT}" ${page} "${${page}}")
+  script_source(SOURCE "\n${SCRIPT}")
+  string(REPLACE "SCRIPT-SOURCE" "${SOURCE}" ${page} "${${page}}")
+endmacro()
+
 read_parts(STYLE libraries/uplot.min.css style.css)
 read_parts(SCRIPT libraries/uplot.min.js libraries/ogl.min.js data.js player.js space.js charts.js tables.js main.js)
 file(READ ${FOLDER}/page.html PAGE)
 file(READ ${FOLDER}/normal_gait.csv NORMAL_GAIT)
-string(REPLACE "<!--STYLE-->\n" "${STYLE}" PAGE "${PAGE}")
-string(REPLACE "<!--SCRIPT-->\n" "${SCRIPT}" PAGE "${PAGE}")
+fill_page(PAGE)
 
 read_parts(SCRIPT batch.js)
 read_parts(STYLE style.css)
 file(READ ${FOLDER}/batch.html BATCH)
-string(REPLACE "<!--STYLE-->\n" "${STYLE}" BATCH "${BATCH}")
-string(REPLACE "<!--SCRIPT-->\n" "${SCRIPT}" BATCH "${BATCH}")
+fill_page(BATCH)
 
 file(WRITE ${OUTPUT} "// Made from data/report by assemble.cmake.
 #include \"io/drawing/report_page.h\"
