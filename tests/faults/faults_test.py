@@ -8,7 +8,7 @@ import tomllib
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
-LEAST = 25  # caught; more with each run of the script
+LEAST = 38  # caught; more with each run of the script
 
 
 def main():
@@ -21,13 +21,16 @@ def main():
         if found != 1:
             wrong.append(f"{what}: {fault['file']} has its text {found} times, not once")
         by = rows.pop(what, "not run yet")
-        if by.startswith("NOT"):
+        if by.startswith("NOT") and "open" not in fault:
             wrong.append(f"{what}: no test catches it")
         caught += not by.startswith(("not run", "NOT"))
     if caught < LEAST:
         wrong.append(f"{caught} faults are known to be caught, at least {LEAST} are wanted")
     wrong += [f"{what}: is in caught.csv and not in faults.toml" for what in rows]
-    print("\n".join(wrong) or f"{len(faults)} faults, {caught} caught, {len(faults) - caught} not run yet")
+    for fault in faults:
+        if "open" in fault:
+            print(f"OPEN: {fault['what']}: {fault['open']}")
+    print("\n".join(wrong) or f"{len(faults)} faults, {caught} caught, {len(faults) - caught} open or not run yet")
     return 1 if wrong else 0
 
 
