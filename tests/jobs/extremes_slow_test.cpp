@@ -175,7 +175,7 @@ Verdict verdict_of(const Extreme& extreme, const fs::path& folder) {
     film(extreme, folder);
     const TrackOutcome outcome = track(extreme, folder);
     out.word = status_word(outcome.status);
-    out.why = outcome.failed_checks.empty() ? outcome.trouble : outcome.failed_checks.front().what;
+    out.why = outcome.failed_checks.empty() ? outcome.message : outcome.failed_checks.front().what;
     if (outcome.tracked == 0) return out;
   } catch (const InputError& error) {
     return {"refused", error.what()};
