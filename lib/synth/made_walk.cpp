@@ -23,9 +23,7 @@ constexpr double kStance = 0.62;       // share of the stride
 constexpr double kStrikeAhead = 0.52;  // of a step: ankle ahead of the pelvis when the heel strikes
 constexpr double kHeelBack = 0.23;     // of the foot's length behind the ankle (body/subject.cpp)
 constexpr double kClearance = 0.035;   // m, of the sole in mid-swing
-constexpr double kStraightest = 0.985;  // of the leg: knees never lock
-constexpr double kStepWidth = 0.09;     // m
-constexpr double kUsualStep = 0.7;      // m; movements of the pelvis scale with the step
+constexpr double kUsualStep = 0.7;     // m; movements of the pelvis scale with the step
 
 // The sole's pitch (degrees, heel up positive) over the stride from strike to strike.
 struct Key {
@@ -121,14 +119,14 @@ class Walker {
   // Foot of footprint `index` (even = left) on the ground, `stride` after its strike.
   Foot standing(int index, double stride) const {
     const BodyLengths& l = body_.lengths;
-    const double distance = step_ * (index + kStrikeAhead);
+    const double distance = step_ * (index + (index % 2 == 0 ? 0 : walk_.limp) + kStrikeAhead);
     const double pitch = sole_pitch_at(stride, step_), c = std::cos(pitch), s = std::sin(pitch);
     // Turning about the heel's or the ball's place on the ground.
     const double ahead = pitch < 0 ? heel_back_ * (c - 1) + l.ankle_height * s
                                    : l.ball_forward * (1 - c) + l.ankle_height * s;
     const double up = l.ankle_height * c + (pitch < 0 ? -heel_back_ : l.ball_forward) * s;
     const double heading = heading_at(distance), side = index % 2 == 0 ? 0.5 : -0.5;
-    const Vector2d flat = path_point(distance, side * kStepWidth);
+    const Vector2d flat = path_point(distance, side * walk_.step_width);
     const Vector2d ankle = flat + ahead * Vector2d(std::cos(heading), std::sin(heading));
     return {{ankle.x(), ankle.y(), up}, heading, pitch};
   }
@@ -139,9 +137,10 @@ class Walker {
   }
 
   Foot foot_at(Side side, double t) const {
-    const double lag = side == Side::kLeft ? 0 : 1, cycle = (t / step_time_ - lag) / 2;
+    const double lag = side == Side::kLeft ? 0 : 1 + walk_.limp;
+    const double cycle = (t / step_time_ - lag) / 2;
     const double whole = std::floor(cycle), stride = cycle - whole;
-    const int index = 2 * static_cast<int>(whole) + static_cast<int>(lag);
+    const int index = 2 * static_cast<int>(whole) + (side == Side::kLeft ? 0 : 1);
     if (stride <= kStance) return standing(index, stride);
     const double share = (stride - kStance) / (1 - kStance);
     const Foot from = standing(index, kStance), to = standing(index + 2, 0);
@@ -170,7 +169,7 @@ class Walker {
     pose.root = {ground.x(), ground.y(), height + bob};
     pose.heading = heading_at(distance) - rad_from_deg(5) * scale * stride_wave(0);
     pose.list = rad_from_deg(3.5) * scale * stride_wave(0.35);
-    pose.tilt = rad_from_deg(4);
+    pose.tilt = walk_.lean;
     return pose;
   }
 
@@ -220,16 +219,16 @@ class Walker {
     return longest;
   }
 
-  // The highest pelvis at which no leg is longer than kStraightest of itself, by bisection.
+  // The highest pelvis at which no leg is straighter than it may be, by bisection.
   void find_height() {
     const double leg = body_.lengths.thigh + body_.lengths.shank;
     double low = 0.6 * leg, high = 1.1 * leg;
-    if (longest_leg(low) > kStraightest * leg)
+    if (longest_leg(low) > walk_.straightest * leg)
       throw InputError(
           fmt::format("steps of {:.2f} m are too long for legs of {:.2f} m", step_, leg));
     for (int i = 0; i < 40; ++i) {
       const double middle = 0.5 * (low + high);
-      (longest_leg(middle) <= kStraightest * leg ? low : high) = middle;
+      (longest_leg(middle) <= walk_.straightest * leg ? low : high) = middle;
     }
     height_ = low;
   }

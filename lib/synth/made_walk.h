@@ -14,6 +14,7 @@
 
 #include "body/body.h"
 #include "body/motion.h"
+#include "core/conventions.h"
 
 namespace walktrack {
 
@@ -27,6 +28,11 @@ struct MadeWalk {
   double turn_rate = 0;               // of the path, rad/s, > 0 to the left
   double phase = 0;                   // share of the stride since a left foot strike, at time 0
   double arm_swing = 1;               // relative to the usual
+  // Of patients:
+  double limp = 0;           // a right foot lands that share of a step too far ahead and too late
+  double step_width = 0.09;  // m between the tracks of the ankles
+  double lean = rad_from_deg(4);  // of trunk and pelvis, > 0 forwards
+  double straightest = 0.985;     // of the leg, share of its length: knees never lock
 };
 
 // The joints of `body` (with arms if it has them). InputError if its legs cannot take such steps.

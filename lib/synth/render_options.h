@@ -13,6 +13,7 @@
 #include "body/motion.h"
 #include "core/conventions.h"
 #include "synth/sensor.h"
+#include "synth/shape.h"
 #include "synth/world.h"
 
 namespace walktrack {
@@ -40,6 +41,7 @@ struct FilmedWalker {
   std::optional<double> height;  // m; default: the one that thighs and shanks belong to
   double mass = 70;
   int clothes = 0;
+  Shape shape;
   bool arms = true;             // rendered if the motion has them
   Eigen::Vector2d shift{0, 0};  // after a turn about the world's z axis
   double turn = 0;

@@ -42,7 +42,7 @@ Actor make_actor(const FilmedWalker& walker, double start) {
   Motion motion = placed(walker, start);
   Body body = body_from_motion(motion, height_of(walker));
   if (!walker.arms) body = make_body(body.subject, {.head = true, .arms = false});
-  return {std::move(motion), std::move(body), clothes(walker.clothes)};
+  return {std::move(motion), shaped(std::move(body), walker.shape), clothes(walker.clothes)};
 }
 
 Motion at_times(const Actor& actor, std::span<const double> times) {

@@ -102,6 +102,19 @@ TEST(ForwardKinematics, SegmentLengthsNeverChange) {
   }
 }
 
+TEST(ForwardKinematics, HipsAndShouldersStandApartByTheirWidths) {
+  const Body body = make_body(Subject{}, {.head = true, .arms = true});
+  Pose pose;
+  pose.heading = 0.7;
+  pose.tilt = 0.2;
+  pose.list = 0.1;
+  const JointPositions joints = forward_kinematics(body, pose).joints;
+  const auto apart = [&](Joint a, Joint b) { return (joints[a] - joints[b]).norm(); };
+  EXPECT_NEAR(apart(Joint::kLeftHip, Joint::kRightHip), body.lengths.hip_width, 1e-12);
+  EXPECT_NEAR(apart(Joint::kLeftShoulder, Joint::kRightShoulder), body.lengths.shoulder_width,
+              1e-12);
+}
+
 TEST(ForwardKinematics, MirroredPosesGiveMirroredJoints) {
   const Body body = test_body();
   Rng rng(2, Purpose::kTest);

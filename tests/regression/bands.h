@@ -1,16 +1,20 @@
 // Bands: between which values each figure of each scene of the regression suite may lie, kept as
 // bands.csv in the repository and read in reviews.
 //
-// A band comes from seven seeds: its middle is their median, its half width the figure's floor (a
-// change that nobody cares about) plus two standard deviations of a seed. Now and then a seed
-// swaps the legs, so the deviation is taken from the inner five: their range over its
-// expectation for normal values. What is compared with a band is the median of three seeds: two
-// deviations of a seed are three of such a median. A band always holds that of its first three. It
-// reaches as far as the figure gets better: an improvement never fails.
+// A band comes from nine seeds: its middle is their median, its half width a share of that median
+// (a change that nobody cares about, never above a fifth) plus three standard deviations of a seed.
+// Now and then a seed swaps the legs, so the deviation is taken from the inner seven: their
+// range over its expectation for normal values. What is compared with a band is the median of three
+// seeds: three deviations of a seed are four and a half of such a median. A band always holds that
+// of its first three and ends where a figure cannot be. An error may shrink: an improvement of what
+// has a better side never fails. Coverage, widths and evidence have none, and are held from both.
+//
+// Each band knows the best median that its scene ever had: small steps for the worse add up there.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -22,14 +26,20 @@ namespace walktrack {
 using FigureValues = std::map<std::string, double>;  // by key; NaN = there is none
 using SuiteValues = std::map<std::string, std::vector<FigureValues>>;  // scene -> one a seed
 
-enum class Better { kLower, kHigher, kNearerZero };
+enum class Better { kLower, kHigher, kNearerZero, kNeither };
 
 struct WatchedFigure {
   std::string_view key;
   Better better;
-  double floor;      // in the figure's unit
-  double share = 0;  // and this share of the median
+  double share;  // of the median: a change that nobody cares about
+  double least = -std::numeric_limits<double>::infinity();  // that is possible
+  double most = std::numeric_limits<double>::infinity();
+  // A band ends there at the latest, times the median, however much seeds differ: nothing that has
+  // doubled is in it. Of what never is zero.
+  double most_growth = std::numeric_limits<double>::infinity();
 };
+inline constexpr double kNotDoubled = 1.9;
+inline constexpr double kLargestShare = 0.2;
 
 // What the suite looks at, of what `evaluate` says and run.json holds.
 std::span<const WatchedFigure> watched_figures();
@@ -37,16 +47,18 @@ std::span<const WatchedFigure> watched_figures();
 struct Band {
   std::string scene, key;
   double low, median, high;  // low and high may be infinite
+  double best;               // median that the scene ever had; kNeither: the present one
 };
 
-inline constexpr size_t kBandSeeds = 7;      // that a band is made from
+inline constexpr size_t kBandSeeds = 9;      // that a band is made from
 inline constexpr size_t kComparedSeeds = 3;  // the first of them, that are compared with it
 
-// Bands of all scenes and watched figures, in order of scenes, then of watched_figures(), from
-// kBandSeeds runs of each scene. A figure that any of them lacks has no band.
+// Bands of all scenes and watched figures, best as now, in order of scenes, then of
+// watched_figures(), from kBandSeeds runs of each scene. A figure that any of them lacks has no
+// band.
 std::vector<Band> bands_from(const SuiteValues& values);
 
-// scene,figure,low,median,high; an open end is an empty cell.
+// scene,figure,low,median,high,best; an open end is an empty cell.
 std::string bands_csv(const std::vector<Band>& bands);
 std::vector<Band> read_bands(const std::filesystem::path& path);
 
@@ -54,6 +66,20 @@ std::vector<Band> read_bands(const std::filesystem::path& path);
 // figure that has a band and no value.
 std::vector<std::string> out_of_bands(const std::vector<Band>& bands, const std::string& scene,
                                       const std::vector<FigureValues>& runs);
+
+// `now` with the best medians of `before` where those are better.
+std::vector<Band> with_best(std::vector<Band> now, const std::vector<Band>& before);
+
+// Why a figure is worse than it once was: worse.csv, scene,figure,why.
+struct Excuse {
+  std::string scene, key;
+};
+std::vector<Excuse> read_excuses(const std::filesystem::path& path);
+
+// A line for each band whose median is farther from its best, on the worse side, than the band
+// reaches, and that nobody has excused; and for each excuse that no band needs.
+std::vector<std::string> unexcused(const std::vector<Band>& bands,
+                                   const std::vector<Excuse>& excuses);
 
 // What a review has to see: the bands that are new, gone or changed as they are printed, and
 // whether the new median lies outside the old band.

@@ -54,15 +54,23 @@ void lose_the_second_half(SuiteResult& result) {
   for (size_t i = joints.size() / 2; i < joints.size(); ++i) joints[i] = unknown_joints();
 }
 
-void shrink_intervals(SuiteResult& result) {
+void scale_intervals(SuiteResult& result, double factor) {
   for (size_t i = 0; i < result.uncertainty.time.size(); ++i) {
     for (size_t j = 0; j < kJointCount; ++j) {
       Vector3d& low = result.uncertainty.p05[i].at[j];
       Vector3d& high = result.uncertainty.p95[i].at[j];
       const Vector3d middle = 0.5 * (low + high);
-      low = middle + 0.25 * (low - middle);
-      high = middle + 0.25 * (high - middle);
+      low = middle + factor * (low - middle);
+      high = middle + factor * (high - middle);
     }
+  }
+}
+
+// Thighs and shanks keep their lengths, hips and ankles their places: to first order.
+void straighten_knees(JointPositions& joints) {
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const Vector3d middle = 0.5 * (joints[hip(side)] + joints[ankle(side)]);
+    joints[knee(side)] += 0.3 * (middle - joints[knee(side)]);
   }
 }
 
@@ -87,7 +95,10 @@ TEST(PlantedFaults, InResultsTakeAFigureOutOfItsBand) {
          for (Vector3d& p : joints.at) p.z() -= 0.1;
        })},
       {"lost half-way", lose_the_second_half},
-      {"intervals a quarter as wide", shrink_intervals},
+      {"intervals half as wide", [](SuiteResult& result) { scale_intervals(result, 0.5); }},
+      {"intervals twice as wide", [](SuiteResult& result) { scale_intervals(result, 2); }},
+      {"evidence counts twice", [](SuiteResult& result) { result.log_evidence *= 2; }},
+      {"knees 10 degrees too straight", each_row(straighten_knees)},
       {"trembling by 2 cm", tremble},
   };
   for (const auto& [name, fault] : faults)

@@ -1,5 +1,7 @@
 // Measures the scenes of the regression suite anew, writes their bands and prints what changed as a
-// Markdown table: scripts/refresh_bands.sh. Arguments name the scenes to refresh; none: all.
+// Markdown table: scripts/refresh_bands.sh. Arguments name the scenes to refresh; none: all. After
+// --anew the scenes are other ones than they were, and what they had says nothing. Exit code 1: a
+// figure is worse than it once was, and worse.csv does not say why.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -26,21 +28,32 @@ std::vector<Band> replaced(const std::vector<Band>& bands, const std::string& sc
   return out;
 }
 
+std::vector<Band> read_present() {
+  return std::filesystem::exists(bands_file()) ? read_bands(bands_file()) : std::vector<Band>();
+}
+
 // Each scene is written when it is measured, so that nothing is lost if this is stopped.
-void refresh(const std::set<std::string>& wanted) {
+bool refresh(std::set<std::string> wanted) {
+  const bool anew = wanted.erase("--anew") > 0;
   const TemporaryFolder folder;
-  std::vector<Band> before;
-  if (std::filesystem::exists(bands_file())) before = read_bands(bands_file());
-  std::vector<Band> now = before;
+  const std::vector<Band> before = read_present();
   for (const SuiteScene& scene : suite_scenes()) {
     const std::string name(scene.name);
     if (!wanted.empty() && !wanted.contains(name)) continue;
-    fmt::print(stderr, "{}\n", name);
+    fmt::print(stderr, "{}{}\n", name, is_there(scene) ? "" : ": not here, left as it was");
+    if (!is_there(scene)) continue;
     const auto runs = values_of(suite_results(name, kBandSeeds, folder.path()));
-    now = replaced(now, name, bands_from({{name, runs}}));
-    write_file_atomically(bands_file(), bands_csv(now));
+    const std::vector<Band> found = bands_from({{name, runs}});
+    // What another process may have measured meanwhile stays.
+    const std::vector<Band> now = read_present();
+    write_file_atomically(bands_file(),
+                          bands_csv(replaced(now, name, anew ? found : with_best(found, before))));
   }
-  fmt::print("{}", bands_difference(before, read_bands(bands_file())));
+  const std::vector<Band> after = read_present();
+  fmt::print("{}", bands_difference(before, after));
+  const auto worse = unexcused(after, read_excuses(excuses_file()));
+  for (const std::string& line : worse) fmt::print(stderr, "{}\n", line);
+  return worse.empty();
 }
 
 }  // namespace
@@ -48,8 +61,7 @@ void refresh(const std::set<std::string>& wanted) {
 
 int main(int argc, char** argv) {
   try {
-    walktrack::refresh({argv + 1, argv + argc});
-    return 0;
+    return walktrack::refresh({argv + 1, argv + argc}) ? 0 : 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;

@@ -1,6 +1,9 @@
 #include "tests/regression/suite.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <variant>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,12 +25,36 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t kMaxRunJson = size_t{1} << 24;
 
 constexpr SuiteScene kScenes[] = {
-    {"three_cameras", true},  {"one_camera", true}, {"slow", false},      {"fast", false},
-    {"turn", false},          {"slope", false},     {"low_light", false}, {"blur", false},
-    {"field", false},         {"occluder", false},  {"seven_fps", true},  {"fps_120", false},
-    {"second_walker", false}, {"flow_only", true},  {"unaided", false},   {"slope_up", false},
+    {"three_cameras", true},
+    {"one_camera", true},
+    {"slow", false},
+    {"fast", false},
+    {"turn", false},
+    {"slope", false},
+    {"low_light", false},
+    {"blur", false},
+    {"field", false},
+    {"occluder", false},
+    {"seven_fps", true},
+    {"fps_120", false},
+    {"second_walker", false},
+    {"flow_only", true},
+    {"unaided", false},
+    {"slope_up", false},
     {"slope_down", false},
+    {"stout", false},
+    {"skirt", false},
+    {"child", true},
+    {"stooped", false},
+    {"long_legs", false},
+    {"clip_side_view", false, "sports2d_side/scene.yaml", "sports2d_side/footplants.csv"},
 };
+
+fs::path data_folder() { return fs::path(WALKTRACK_SOURCE_DIR) / "../shared/data"; }
+
+const SuiteScene& scene_named(std::string_view name) {
+  return *std::ranges::find(kScenes, name, &SuiteScene::name);
+}
 
 fs::path suite_folder() { return fs::path(WALKTRACK_SOURCE_DIR) / "tests/regression"; }
 
@@ -42,15 +69,32 @@ double median_evidence(const nlohmann::json& run) {
   return values.empty() ? kNone : quantile(std::move(values), 0.5);
 }
 
+// Of the flexion of a joint, over both legs.
+double rms_of_sides(const FigureValues& values, const std::string& joint) {
+  const auto of = [&](const char* side) {
+    const std::string angle = joint == "ankle" ? "_dorsiflexion" : "_flexion";
+    return values.at("angle_" + (side + joint) + angle + "_rms_deg");
+  };
+  return std::hypot(of("l"), of("r")) / std::sqrt(2.0);
+}
+
 }  // namespace
 
 std::span<const SuiteScene> suite_scenes() { return kScenes; }
 
 fs::path bands_file() { return suite_folder() / "bands.csv"; }
 
+fs::path excuses_file() { return suite_folder() / "worse.csv"; }
+
+bool is_there(const SuiteScene& scene) {
+  return scene.clip.empty() || fs::exists(data_folder() / scene.clip);
+}
+
 fs::path rendered_scene(std::string_view name, const fs::path& folder) {
+  if (const SuiteScene& known = scene_named(name); !known.clip.empty())
+    return (data_folder() / known.clip);
   const fs::path scene = folder / name;
-  if (fs::exists(scene / "scene.yaml")) return scene;
+  if (fs::exists(scene / "scene.yaml")) return scene / "scene.yaml";
   RenderJob job;
   RenderFile file = read_render_file(suite_file(name, ".yaml"));
   job.walker = std::move(file.subject);
@@ -58,13 +102,15 @@ fs::path rendered_scene(std::string_view name, const fs::path& folder) {
   job.gait = std::move(file.gait);
   job.output = scene;
   render_scene(job, {});
-  return scene;
+  return scene / "scene.yaml";
 }
 
 TrackJob suite_job(std::string_view name, const fs::path& scene, uint64_t seed,
                    const fs::path& output) {
   TrackJob job;
-  job.scene = read_scene(scene / "scene.yaml");
+  job.scene = read_scene(scene);
+  if (const SuiteScene& known = scene_named(name); !known.clip.empty())
+    job.scene.truth = (data_folder() / known.truth).string();
   apply_config_file(job.config, (suite_folder() / "track.yaml").string());
   const fs::path own = suite_file(name, ".track.yaml");
   if (fs::exists(own)) apply_config_file(job.config, own.string());
@@ -78,7 +124,7 @@ TrackJob suite_job(std::string_view name, const fs::path& scene, uint64_t seed,
 SuiteResult tracked(const TrackJob& job) {
   track_scene(job, {});
   const auto run = nlohmann::json::parse(read_text_file(job.output / "run.json", kMaxRunJson));
-  return {read_motion(job.scene.truth), read_motion(job.output / "joints.csv"),
+  return {read_truth(job.scene.truth, job.scene.frame_rate), read_motion(job.output / "joints.csv"),
           read_uncertainty(job.output / "uncertainty.csv"), median_evidence(run), run.at("digest")};
 }
 
@@ -87,6 +133,10 @@ FigureValues values_of(const SuiteResult& result) {
   for (const Figure& figure : figures(result.truth, result.estimate, result.uncertainty))
     out[figure.key] = figure.value;
   out["log_evidence"] = result.log_evidence;
+  if (!std::holds_alternative<Motion>(result.truth)) return out;
+  for (const char* joint : {"hip", "knee", "ankle"})
+    out[std::string(joint) + "_rms_deg"] = rms_of_sides(out, joint);
+  for (const char* key : {"speed_m_s", "step_length_m", "step_time_s"}) out.erase(key);
   return out;
 }
 

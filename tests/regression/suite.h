@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "body/motion.h"
+#include "jobs/evaluate/evaluate.h"
 #include "jobs/track/track.h"
 #include "metrics/coverage.h"
 #include "tests/regression/bands.h"
@@ -19,13 +20,19 @@ namespace walktrack {
 struct SuiteScene {
   std::string_view name;  // scenes/<name>.yaml, and <name>.track.yaml if it is tracked differently
   bool fast;              // in the subset that every test run does
+  // Of a real clip, below ../shared/data: its scene and what it is measured against, which may not
+  // be there.
+  std::string_view clip = {}, truth = {};
 };
+
+bool is_there(const SuiteScene& scene);
 
 std::span<const SuiteScene> suite_scenes();
 
 std::filesystem::path bands_file();
+std::filesystem::path excuses_file();  // worse.csv
 
-// Renders a scene below `folder` unless it is there; its scene folder.
+// The scene file of a clip; of a made scene, which is rendered below `folder` unless it is there.
 std::filesystem::path rendered_scene(std::string_view name, const std::filesystem::path& folder);
 
 // The job that tracks a rendered scene into `output` the suite's way.
@@ -34,7 +41,8 @@ TrackJob suite_job(std::string_view name, const std::filesystem::path& scene, ui
 
 // A result and what it is measured against.
 struct SuiteResult {
-  Motion truth, estimate;
+  Truth truth;
+  Motion estimate;
   JointUncertainty uncertainty;
   double log_evidence = 0;  // nats, median over tracked frames
   std::string digest;

@@ -105,6 +105,17 @@ class Report(unittest.TestCase):
         self.keys()
         self.small_and_on_paper("report", range(2, 9))
         self.check_quiet(out / "report.html")
+        self.only_its_own_script_runs(out / "report.html")
+
+    def only_its_own_script_runs(self, page):
+        """Were data to break out of their element all the same, the page's policy stops them."""
+        hostile = page.with_name("hostile.html")
+        planted = "<script>document.documentElement.dataset.planted = 'ran'</script><img src=x onerror=\"document.documentElement.dataset.planted = 'ran'\">"
+        place = '<script type="application/json" id="data">'
+        hostile.write_text(page.read_text().replace(place, planted + place, 1))
+        self.open(hostile)
+        self.assertIsNone(self.browser.value("document.documentElement.dataset.planted ?? null"))
+        self.browser.problems.clear()
 
     def video_and_figure(self):
         value = self.browser.value

@@ -112,5 +112,64 @@ TEST(MadeWalk, RefusesStepsThatLegsCannotTake) {
   EXPECT_THROW(made_walk(test_body(), walk), InputError);
 }
 
+// Landing places of the ankles along the way, in order: where the foot is flat.
+std::vector<double> landings(const Motion& motion) {
+  std::vector<double> out;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    double last = -1e9;
+    for (size_t i = 1; i < motion.joints.size(); ++i) {
+      const double x = motion.joints[i][ankle(side)].x();
+      if (std::abs(x - motion.joints[i - 1][ankle(side)].x()) > 1e-7 || x - last < 0.1) continue;
+      out.push_back(last = x);
+    }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+TEST(MadeWalk, ALimpMakesEveryOtherStepLonger) {
+  MadeWalk walk;
+  walk.speed = 0.8;
+  walk.step_length = 0.5;
+  walk.limp = 0.2;
+  const std::vector<double> places = landings(made_walk(test_body(), walk));
+  ASSERT_GE(places.size(), 4u);
+  for (size_t i = 2; i < places.size(); ++i) {
+    EXPECT_NEAR(places[i] - places[i - 2], 1.0, 1e-6);
+    const double step = places[i] - places[i - 1];
+    EXPECT_NEAR(std::abs(step - 0.5), 0.1, 1e-6);
+  }
+}
+
+TEST(MadeWalk, PatientsStandAsWideLeanAndCrouchAsIsSaid) {
+  const Body body = test_body();
+  MadeWalk usual, patient;
+  usual.speed = patient.speed = 0.7;
+  patient.step_width = 0.2;
+  patient.lean = 0.3;
+  patient.straightest = 0.93;
+  const auto straightest = [&](const Motion& motion) {
+    double most = 0;
+    for (const JointPositions& joints : motion.joints)
+      for (const Side side : {Side::kLeft, Side::kRight})
+        most = std::max(most, bone(joints, hip(side), ankle(side)));
+    return most / (body.lengths.thigh + body.lengths.shank);
+  };
+  const Motion of_usual = made_walk(body, usual), of_patient = made_walk(body, patient);
+  EXPECT_NEAR(straightest(of_usual), 0.985, 2e-3);
+  EXPECT_NEAR(straightest(of_patient), 0.93, 2e-3);
+  for (const JointPositions& joints : of_patient.joints) {
+    const Eigen::Vector3d spine = joints[Joint::kNeck] - joints[Joint::kPelvis];
+    EXPECT_NEAR(std::atan2(spine.x(), spine.z()), 0.3, 0.1);
+  }
+  const auto width = [](const Motion& motion) {
+    double most = 0;
+    for (const JointPositions& joints : motion.joints)
+      most = std::max(most, joints[Joint::kLeftAnkle].y() - joints[Joint::kRightAnkle].y());
+    return most;
+  };
+  EXPECT_NEAR(width(of_patient) - width(of_usual), 0.11, 0.02);
+}
+
 }  // namespace
 }  // namespace walktrack

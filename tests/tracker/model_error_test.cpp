@@ -94,5 +94,25 @@ TEST(AddModelError, WidensEverySpreadAndLeavesMeans) {
   EXPECT_GT(estimate.spread[1][1].sd, 3 * estimate.spread[1][0].sd);
 }
 
+// Where particles agree, the band is the model error's alone: 5th and 95th percentile of a normal
+// distribution (Abramowitz & Stegun 1964, table 26.5), the standard deviation beside them.
+TEST(AddModelError, BandsHoldNineTenthsOfANormalError) {
+  FrameEstimate estimate;
+  estimate.joint_count = kJointCountWithoutArms;
+  estimate.joints[Joint::kHead] = kHead;
+  for (const Joint ankle : {Joint::kLeftAnkle, Joint::kRightAnkle}) estimate.joints[ankle] = kFeet;
+  for (auto& joint : estimate.spread) joint.fill({1, 0, 1, 1});
+  estimate.angles.fill({0.2, 0, 0.2, 0.2});
+  add_model_error(std::vector<Camera>{camera_from({0, -7, 1})}, 1, estimate);
+  constexpr double kNormal95 = 1.6449;
+  for (const Spread& each :
+       {estimate.spread[size_t(Joint::kLeftAnkle)][2], estimate.spread[size_t(Joint::kHead)][0],
+        estimate.angles[kKneeAngleL]}) {
+    ASSERT_GT(each.sd, 0);
+    EXPECT_NEAR((each.p95 - each.mean) / each.sd, kNormal95, 1e-3);
+    EXPECT_NEAR((each.mean - each.p05) / each.sd, kNormal95, 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace walktrack

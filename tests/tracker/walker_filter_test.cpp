@@ -1,6 +1,8 @@
 #include "tracker/walker_filter.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -52,6 +54,24 @@ TEST_F(Advance, TellsOfThoseWhoFell) {
   const FrameRecord record = advance(context, {}, 0, 1, false, filter);
   EXPECT_TRUE(record.tracked);
   EXPECT_EQ(record.fallen, 3);
+}
+
+// Particles are moved on in groups; each has random numbers of its own all the same.
+TEST_F(Advance, ParticlesOfSeveralGroupsGoTheirOwnWays) {
+  constexpr size_t kParticles = 70;
+  std::vector<WalkerParticle> same = walkers(context.motion, 1.2, int(kParticles));
+  std::fill(same.begin() + 1, same.end(), same[0]);
+  FilterConfig plain;
+  plain.resample_below = 0;
+  plain.max_layers = 1;
+  plain.moves = 0;
+  WalkerFilter filter(plain, 1, 1);
+  filter.start(same);
+  advance(context, {}, 0, 1, false, filter);
+  std::set<double> hips;
+  for (const WalkerParticle& particle : filter.particles().states)
+    hips.insert(particle.walker.q[kStanceThigh]);
+  EXPECT_EQ(hips.size(), kParticles);
 }
 
 }  // namespace

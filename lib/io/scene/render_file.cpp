@@ -140,8 +140,21 @@ KeypointFaults read_keypoint_faults(const YamlValue& value) {
   return faults;
 }
 
+Shape read_shape(const YamlValue& value) {
+  value.only_keys({"girth", "head", "belly", "trousers", "skirt", "pack"});
+  Shape shape;
+  take(value, "girth", 0.5, 2, shape.girth);
+  take(value, "head", 0.5, 2, shape.head);
+  take(value, "belly", 0, 0.3, shape.belly);
+  take(value, "trousers", 0, 0.2, shape.trousers);
+  take(value, "skirt", 0, 1.5, shape.skirt);
+  take(value, "pack", 0, 0.5, shape.pack);
+  return shape;
+}
+
 // What subject and others share.
 void read_looks(const YamlValue& value, FilmedWalker& walker) {
+  if (value.has("shape")) walker.shape = read_shape(value.at("shape"));
   take(value, "height", 0.5, 2.5, walker.height);
   take(value, "mass", 5, 300, walker.mass);
   take(value, "clothes", 0, 1000, walker.clothes);
@@ -151,15 +164,27 @@ void read_looks(const YamlValue& value, FilmedWalker& walker) {
   if (value.has("shift")) walker.shift = Eigen::Vector2d(value.at("shift").numbers(2).data());
 }
 
-// Of a walk that is made for the walker.
-double walked_height(const FilmedWalker& walker) {
-  return walker.height.value_or(Subject{}.height);
+// Whose walk is made: of the walker's height, with lengths that the tracker is not told.
+Subject who_walks(const YamlValue& looks, const FilmedWalker& walker) {
+  Subject subject;
+  subject.height = walker.height.value_or(subject.height);
+  if (!looks.has("lengths")) return subject;
+  const YamlValue lengths = looks.at("lengths");
+  lengths.only_keys({"thigh", "shank", "hip_width", "trunk"});
+  const auto read = [&](const char* key, std::optional<double>& target) {
+    take(lengths, key, 0.05, 1, target);
+  };
+  read("thigh", subject.lengths.thigh);
+  read("shank", subject.lengths.shank);
+  read("hip_width", subject.lengths.hip_width);
+  read("trunk", subject.lengths.trunk);
+  return subject;
 }
 
 // A walk over the scene's duration and a little more, for shutters that open before a frame's time.
-Motion read_walk(const YamlValue& value, double height, double duration) {
-  value.only_keys(
-      {"speed", "step_length", "start", "heading_deg", "turn_deg_s", "phase", "arm_swing"});
+Motion read_walk(const YamlValue& value, const Subject& subject, double duration) {
+  value.only_keys({"speed", "step_length", "start", "heading_deg", "turn_deg_s", "phase",
+                   "arm_swing", "limp", "step_width", "lean_deg", "straightest"});
   MadeWalk walk;
   take(value, "speed", 0.2, 3, walk.speed);
   take(value, "step_length", 0.1, 2, walk.step_length);
@@ -168,10 +193,12 @@ Motion read_walk(const YamlValue& value, double height, double duration) {
   take_degrees(value, "turn_deg_s", 180, walk.turn_rate);
   take(value, "phase", 0, 1, walk.phase);
   take(value, "arm_swing", 0, 3, walk.arm_swing);
+  take(value, "limp", -0.5, 0.5, walk.limp);
+  take(value, "step_width", -0.1, 0.5, walk.step_width);
+  take_degrees(value, "lean_deg", 45, walk.lean);
+  take(value, "straightest", 0.8, 0.999, walk.straightest);
   walk.from = -kWalkMargin;
   walk.to = duration + kWalkMargin;
-  Subject subject;
-  subject.height = height;
   return made_walk(make_body(subject, {.head = true, .arms = true}), walk);
 }
 
@@ -195,13 +222,13 @@ GaitWalk read_gait(const YamlValue& value) {
 
 FilmedWalker read_other(const YamlValue& value, const fs::path& folder, double duration,
                         std::vector<fs::path>& motions) {
-  value.only_keys(
-      {"motion", "walk", "height", "mass", "clothes", "arms", "turn_deg", "delay", "shift"});
+  value.only_keys({"motion", "walk", "height", "mass", "clothes", "arms", "turn_deg", "delay",
+                   "shift", "shape", "lengths"});
   FilmedWalker walker;
   walker.clothes = 1;
   read_looks(value, walker);
   if (value.has("walk")) {
-    walker.motion = read_walk(value.at("walk"), walked_height(walker), duration);
+    walker.motion = read_walk(value.at("walk"), who_walks(value, walker), duration);
   } else {
     motions.push_back(resolved(folder, value.at("motion").text()));
     walker.motion = read_motion(motions.back());
@@ -231,14 +258,16 @@ RenderFile read_render_file(const fs::path& path) {
   take(file, "images", options.images);
   take_degrees(file, "slope_deg", 45, options.slope);
   take(file, "initial", options.state_initial);
+  Subject who;
   if (file.has("subject")) {
     file.at("subject").only_keys(
-        {"height", "mass", "clothes", "arms", "turn_deg", "delay", "shift"});
+        {"height", "mass", "clothes", "arms", "turn_deg", "delay", "shift", "shape", "lengths"});
     read_looks(file.at("subject"), out.subject);
+    who = who_walks(file.at("subject"), out.subject);
   }
   const double duration = options.duration.value_or(kDefaultWalkDuration);
   if (file.has("walk")) {
-    out.subject.motion = read_walk(file.at("walk"), walked_height(out.subject), duration);
+    out.subject.motion = read_walk(file.at("walk"), who, duration);
     options.duration = duration;
   }
   if (file.has("gait")) {
