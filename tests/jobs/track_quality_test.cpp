@@ -130,6 +130,17 @@ TEST_F(QualityOf, EvidenceForAFigureBesideThisOneFails) {
   EXPECT_FALSE(named(quality_of(standing(4, {}, beside)), "better_beside_percent").passed());
 }
 
+TEST(QualityOfKeypoints, AFigureBesideThePeopleDetectedFails) {
+  const QualityConfig limits;
+  EXPECT_FALSE(quality_of_keypoints({}, limits)) << "no keypoints";
+  EXPECT_FALSE(quality_of_keypoints({.frames = 4}, limits)) << "too few";
+  const auto wrong = quality_of_keypoints({.frames = 55, .matched = 22}, limits);
+  ASSERT_TRUE(wrong);
+  EXPECT_NEAR(wrong->value, 40, 1e-9);
+  EXPECT_FALSE(wrong->passed());
+  EXPECT_TRUE(quality_of_keypoints({.frames = 27, .matched = 21}, limits)->passed());
+}
+
 // Somebody who walks for four seconds, and `change`.
 template <typename Change>
 TrackedFrames walking(const std::filesystem::path& file, const TestWalk& walk,

@@ -29,15 +29,16 @@ struct QualityConfig {
   double least_steps = 1;           // foot changes seen; who makes none does not walk
   double overlap = 0.55;            // of figure and foreground, mean of the worst camera
   double better_beside = 0.005;     // of the evidence, mean over frames (tracker/figure_fit.h)
-  double legs_swapped = 0.5;        // mean probability
-  double leg_swaps = 10;            // a minute
-  double steps_off_way = 0.2;       // of the pelvis' way, by which the steps miss it
-  double longest_step = 1.2;        // leg lengths
-  double shortest_step = 0;         // m along the way; below 0 a foot ends behind the other
-  double fastest = 2.5;             // m/s over half a second
-  double foot_slide = 0.08;         // m, mean over stances, before feet are planted
-  double penetration = 0.1;         // m
-  double jitter = 500;              // m/s^3
+  double on_detected = 0.6;    // of the frames with keypoints: the figure is a person of theirs
+  double legs_swapped = 0.5;   // mean probability
+  double leg_swaps = 10;       // a minute
+  double steps_off_way = 0.2;  // of the pelvis' way, by which the steps miss it
+  double longest_step = 1.2;   // leg lengths
+  double shortest_step = 0;    // m along the way; below 0 a foot ends behind the other
+  double fastest = 2.5;        // m/s over half a second
+  double foot_slide = 0.08;    // m, mean over stances, before feet are planted
+  double penetration = 0.1;    // m
+  double jitter = 500;         // m/s^3
 };
 
 // Particles that follow the clock, so that frames keep to a time. What comes out then depends on

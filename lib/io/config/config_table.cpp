@@ -193,6 +193,9 @@ void add_track(ParameterTable& table) {
   g.number(
       "better_beside", &G::better_beside, 0, 1,
       "largest share of the evidence by which a figure beside the reported one is better, mean");
+  g.number(
+      "on_detected", &G::on_detected, 0, 1,
+      "smallest share of the frames with keypoints in which the figure is on a detected person");
   g.number("legs_swapped", &G::legs_swapped, 0, 1,
            "largest mean probability, estimated by the tracker, that left and right are swapped");
   g.number("leg_swaps", &G::leg_swaps, 0, 1e5,

@@ -72,21 +72,29 @@ std::vector<std::pair<std::string, std::vector<double>>> keypoint_residuals(
   return out;
 }
 
+KeypointUse total_use(std::span<const KeypointTerm::State> cameras) {
+  KeypointUse sum;
+  for (const KeypointTerm::State& camera : cameras) {
+    sum.frames += camera.use.frames;
+    sum.matched += camera.use.matched;
+    sum.legs_flipped += camera.use.legs_flipped;
+  }
+  return sum;
+}
+
 std::vector<std::pair<std::string, double>> keypoint_numbers(
     std::span<const KeypointTerm::State> cameras) {
-  double frames = 0, matched = 0, flipped = 0, scale = 0;
-  for (const KeypointTerm::State& camera : cameras) {
-    frames += double(camera.use.frames);
-    matched += double(camera.use.matched);
-    flipped += double(camera.use.legs_flipped);
+  const KeypointUse use = total_use(cameras);
+  if (use.frames == 0) return {};
+  double scale = 0;
+  for (const KeypointTerm::State& camera : cameras)
     for (const PointKind kind : {PointKind::kHip, PointKind::kKnee, PointKind::kAnkle})
       scale += camera.errors.scale[static_cast<size_t>(kind)] / 3 / double(cameras.size());
-  }
-  if (frames == 0) return {};
+  const auto frames = double(use.frames), matched = double(use.matched);
   std::vector<std::pair<std::string, double>> out{{"keypoint_frames", frames},
                                                   {"keypoint_used_share", matched / frames},
                                                   {"keypoint_scale", scale}};
-  if (matched > 0) out.emplace_back("keypoint_flip_share", flipped / matched);
+  if (matched > 0) out.emplace_back("keypoint_flip_share", double(use.legs_flipped) / matched);
   return out;
 }
 

@@ -27,6 +27,9 @@ double keypoint_residual(const KeypointEvidence& seen, const Camera& camera, int
 std::vector<std::pair<std::string, std::vector<double>>> keypoint_residuals(
     const TrackedFrames& frames, const Scene& scene, const Config& config);
 
+// All cameras together.
+KeypointUse total_use(std::span<const KeypointTerm::State> cameras);
+
 // For run.json: keypoint_frames (frames and cameras with people in them), keypoint_used_share (in
 // which one was the subject), keypoint_flip_share (of those, with the legs' names swapped),
 // keypoint_scale (what was learnt of a hip's, knee's or ankle's error: share of the person's

@@ -36,6 +36,12 @@ constexpr QualityWords kWords[] = {
      "turned by 15 or 30 degrees, than for the one that is reported; mean over the frames.",
      "The figure is likely to be beside the person: look at the overlay video, say where the walk "
      "begins (initial), or run walktrack check."},
+    {"on_detected_percent", "Figure on a person of the keypoints", "%", 0,
+     "Frames in which the figure lies on one of the people whose keypoints were detected, of all "
+     "tracked frames in which anybody was detected.",
+     "The figure is likely to be beside the person, or too near or too far: look at the crosses in "
+     "the overlay video, say where the walk begins (initial), or cut the video to the part where "
+     "the subject walks."},
     {"legs_exchanged_percent", "Left and right may be swapped, mean probability", "%", 0,
      "How probable it is, as the tracker estimates, that the left leg is taken for the right.",
      "The images hardly tell left from right here: a second camera from another side does. Until "

@@ -363,6 +363,9 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
       analysed_motion(frames, scene, job.config.values.tracker.model_error);
   Quality quality = quality_of(frames, moving, job.config.values.quality,
                                leg_length(body_lengths(scene.subject)));
+  if (const auto detected =
+          quality_of_keypoints(total_use(run.keypoints()), job.config.values.quality))
+    quality.push_back(*detected);
   quality.push_back(quality_measure("scale_sd_percent", 100 * analysed.figure_error.scale));
   outcome.status = judge(run, quality, video, interrupted, control, outcome.message);
   outcome.tracked = count(frames).tracked;

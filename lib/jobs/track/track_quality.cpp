@@ -114,6 +114,14 @@ Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
   return out;
 }
 
+std::optional<QualityMeasure> quality_of_keypoints(const KeypointUse& use,
+                                                   const QualityConfig& limits) {
+  constexpr int64_t kFewest = 5;
+  if (use.frames < kFewest) return std::nullopt;
+  return at_least("on_detected_percent", percent(double(use.matched), double(use.frames)),
+                  100 * limits.on_detected);
+}
+
 std::vector<double> mean_overlaps(const TrackedFrames& frames) {
   std::vector<double> sums;
   std::vector<int> counts;

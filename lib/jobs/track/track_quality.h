@@ -10,6 +10,7 @@
 #include "io/archive/run_record.h"
 #include "io/config/config.h"
 #include "jobs/track/track_results.h"
+#include "observation/keypoint_term.h"
 
 namespace walktrack {
 
@@ -29,6 +30,11 @@ Quality quality_of_motion(const Motion& motion, double rate, double leg);
 // planted ones tell little of a track that fails.
 Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
                    const QualityConfig& limits, double leg);
+
+// In how many of the frames with keypoints the figure is on one of the people detected; nullopt
+// with too few of them to say.
+std::optional<QualityMeasure> quality_of_keypoints(const KeypointUse& use,
+                                                   const QualityConfig& limits);
 
 // By camera, the mean over the frames that tell of how well the figure lies on the person
 // (FigureFit::overlap); NaN for a camera that tells nothing.
