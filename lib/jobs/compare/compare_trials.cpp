@@ -28,7 +28,7 @@ constexpr double kBandInSd = 3.29;
 constexpr size_t kContactParameters = 9, kAnglesWithRange = 3;
 
 Json read_json(const fs::path& file) {
-  const Json json = Json::parse(read_text_file(file, kMaxJsonBytes), nullptr, false);
+  Json json = Json::parse(read_text_file(file, kMaxJsonBytes), nullptr, false);
   if (json.is_discarded())
     throw InputError(describe({file.string(), 0, ""}, "no JSON", "what walktrack wrote"));
   return json;
