@@ -50,8 +50,7 @@ fill_page(BATCH)
 read_parts(SCRIPT libraries/uplot.min.js elements.js chart.js compare.js)
 read_parts(STYLE libraries/uplot.min.css style.css)
 file(READ ${FOLDER}/compare.html COMPARE)
-string(REPLACE "<!--STYLE-->\n" "${STYLE}" COMPARE "${COMPARE}")
-string(REPLACE "<!--SCRIPT-->\n" "${SCRIPT}" COMPARE "${COMPARE}")
+fill_page(COMPARE)
 
 file(WRITE ${OUTPUT} "// Made from data/report by assemble.cmake.
 #include \"io/drawing/report_page.h\"

@@ -60,7 +60,8 @@ std::string digest_of_script(const std::string& page) {
 }
 
 TEST(ReportTemplate, LetsItsOwnScriptRunAndNoOther) {
-  for (const std::string& text : {std::string(report_template()), std::string(batch_template())}) {
+  for (const std::string_view page : {report_template(), batch_template(), compare_template()}) {
+    const std::string text(page);
     EXPECT_EQ(text.find("<script>"), text.rfind("<script>"));
     EXPECT_THAT(text, HasSubstr("script-src 'sha256-" + digest_of_script(text) + "'"));
     EXPECT_THAT(text, Not(HasSubstr("script-src 'unsafe-inline'")));

@@ -37,7 +37,7 @@ struct Extreme {
   std::string cameras;           // in place of the usual ones
   std::vector<std::string> set;  // of the configuration
   bool must_be_tracked = false;  // where anything else would be a failure, too
-  std::string scene = "";        // lines at the end of scene.yaml
+  const char* open = nullptr;    // why its verdict is known to be false; then seen as skipped
 };
 
 constexpr const char* kSide =
@@ -117,6 +117,12 @@ std::vector<Extreme> extremes() {
        camera_at("side",
                  "azimuth_deg: -90, distance: 1.2, height: 0.4, focal_px: 240, size: [240, 180]"),
        few},
+      {.name = "giant_of_250_cm_before_one_camera",
+       .render = "subject: {height: 2.5, mass: 300}\n",
+       .cameras = camera_at(
+           "side", "azimuth_deg: -90, distance: 5, height: 1.2, focal_px: 240, size: [240, 180]"),
+       .set = few,
+       .open = "one camera does not tell left from right, and no quality check sees it"},
       {"giant_of_250_cm", "subject: {height: 2.5, mass: 300}\n",
        camera_at("side",
                  "azimuth_deg: -90, distance: 5, height: 1.2, focal_px: 240, size: [240, 180]") +
@@ -203,9 +209,14 @@ TEST_P(ExtremeNumbers, EndInAVerdictThatIsTrue) {
     EXPECT_FALSE(GetParam().must_be_tracked) << verdict.why;
     return;
   }
-  EXPECT_LT(verdict.joints, kJoints);
-  EXPECT_LT(verdict.swapped, kSwapped);
-  EXPECT_GT(verdict.filled, kLeastFilled);
+  const bool right =
+      verdict.joints < kJoints && verdict.swapped < kSwapped && verdict.filled > kLeastFilled;
+  if (!GetParam().open) {
+    EXPECT_TRUE(right);
+    return;
+  }
+  ASSERT_FALSE(right) << "no longer open: " << GetParam().open;
+  GTEST_SKIP() << "open: " << GetParam().open;
 }
 
 std::string name_of(const testing::TestParamInfo<Extreme>& extreme) { return extreme.param.name; }
