@@ -1,4 +1,4 @@
-#include "io/export/c3d_file.h"
+#include "io/c3d/c3d_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
-#include "io/export/c3d_file.h"
+#include "io/c3d/c3d_file.h"
+#include "io/c3d/c3d_read.h"
 #include "io/tables/motion_file.h"
 #include "io/tables/opensim.h"
+#include "io/tables/trc_read.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 

@@ -5,23 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "core/conventions.h"
+#include "tests/tracker/side_camera.h"
 
 namespace walktrack {
 namespace {
 
 constexpr double kDt = 1.0 / 30;
-
-// A camera 1 m high, 6 m from the origin, looking along +y.
-Camera side_camera() {
-  Camera camera;
-  camera.width_px = 640;
-  camera.height_px = 480;
-  camera.focal_px = {600, 600};
-  camera.centre_px = {319.5, 239.5};
-  camera.rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  camera.translation = -camera.rotation * Eigen::Vector3d(0, -6, 1);
-  return camera;
-}
 
 // A bell of score around where somebody is.
 double bell(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double height) {
@@ -40,7 +29,7 @@ struct Window {
 };
 
 Window window(const std::function<double(size_t, const Eigen::Vector2d&)>& score) {
-  const std::vector<Camera> cameras{side_camera()};
+  const std::vector<Camera> cameras{side_camera(1)};
   const auto places = standing_places(cameras, 1.75, {});
   const auto figures = [&](size_t f) {
     return find_figures([&](const Eigen::Vector2d& p) { return score(f, p); }, places, {}, 1);
@@ -53,7 +42,7 @@ Window window(const std::function<double(size_t, const Eigen::Vector2d&)>& score
 Eigen::Vector2d walker_at(size_t frame) { return {-0.8 + 1.3 * kDt * double(frame), 0.4}; }
 
 TEST(StandingPlaces, FiguresStandWhollyInTheImage) {
-  const std::vector<Camera> cameras{side_camera()};
+  const std::vector<Camera> cameras{side_camera(1)};
   const auto places = standing_places(cameras, 1.75, {});
   ASSERT_GT(places.size(), 100u);
   for (const Eigen::Vector2d& p : places) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/rng.h"
+#include "tests/tracker/side_camera.h"
 
 namespace walktrack {
 namespace {
@@ -11,18 +12,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kHeight = 1.7, kDt = 1.0 / 30;
-
-// At (0, -6, 1.3), looking along y.
-Camera side_camera() {
-  Camera camera;
-  camera.width_px = 640;
-  camera.height_px = 480;
-  camera.focal_px = {600, 600};
-  camera.centre_px = {319.5, 239.5};
-  camera.rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  camera.translation = -camera.rotation * Vector3d(0, -6, 1.3);
-  return camera;
-}
 
 // Left and right a little apart, as somebody who walks along x has them.
 KeypointEvidence::Person standing(const Camera& camera, const Vector2d& place, Rng& rng,
@@ -45,7 +34,7 @@ KeypointEvidence::Person standing(const Camera& camera, const Vector2d& place, R
 
 TEST(PlaceOf, IsWhereThePersonStands) {
   Rng rng(1, Purpose::kTest);
-  const Camera camera = side_camera();
+  const Camera camera = side_camera(1.3);
   for (const Vector2d& place : {Vector2d(0, 0), Vector2d(-1.5, 2), Vector2d(2, 4)}) {
     const auto found = place_of(standing(camera, place, rng, 0), camera, kHeight);
     ASSERT_TRUE(found);
@@ -56,7 +45,7 @@ TEST(PlaceOf, IsWhereThePersonStands) {
 // Somebody who stands on a roof has no place on the ground where their height is right.
 TEST(PlaceOf, IsNoWhereForAPersonOnARoof) {
   Rng rng(1, Purpose::kTest);
-  const Camera camera = side_camera();
+  const Camera camera = side_camera(1.3);
   KeypointEvidence::Person person = standing(camera, {0, 4}, rng, 0);
   for (auto& point : person) point.px.y() -= 90;
   EXPECT_FALSE(place_of(person, camera, kHeight));
@@ -64,7 +53,7 @@ TEST(PlaceOf, IsNoWhereForAPersonOnARoof) {
 
 TEST(PlaceOf, NeedsTheAnkles) {
   Rng rng(1, Purpose::kTest);
-  const Camera camera = side_camera();
+  const Camera camera = side_camera(1.3);
   KeypointEvidence::Person person = standing(camera, {0, 0}, rng, 0);
   person[11].precision = person[12].precision = 0;
   EXPECT_FALSE(place_of(person, camera, kHeight));
@@ -73,7 +62,7 @@ TEST(PlaceOf, NeedsTheAnkles) {
 // Two people, one walking and one standing, in random order, with noise and strays.
 TEST(KeypointLines, FollowEachPerson) {
   Rng rng(3, Purpose::kTest);
-  const Camera camera = side_camera();
+  const Camera camera = side_camera(1.3);
   const Vector2d start(-1.2, 0.5), velocity(1.25, 0.1), other(1, 3.5);
   std::vector<KeypointEvidence> frames(36);
   for (size_t i = 0; i < frames.size(); ++i) {
@@ -96,7 +85,7 @@ TEST(KeypointLines, FollowEachPerson) {
 
 TEST(KeypointLines, AreNoneOfAMoment) {
   Rng rng(3, Purpose::kTest);
-  const Camera camera = side_camera();
+  const Camera camera = side_camera(1.3);
   KeypointEvidence frame;
   frame.people = {standing(camera, {0, 0}, rng, 0)};
   const std::vector<const KeypointEvidence*> window(3, &frame);

@@ -10,6 +10,8 @@
 
 #include "core/errors.h"
 #include "io/archive/files.h"
+#include "io/c3d/c3d_read.h"
+#include "io/tables/trc_read.h"
 
 namespace walktrack {
 

@@ -14,26 +14,11 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <Eigen/Core>
 
 #include "body/motion.h"
+#include "io/tables/marker_table.h"
 
 namespace walktrack {
-
-// Points over time as the file has them, in metres; NaN where a point was not seen.
-struct MarkerTable {
-  std::string file;  // what messages call it
-  std::vector<std::string> names;
-  std::vector<double> time;                          // s, increasing
-  std::vector<std::vector<Eigen::Vector3d>> points;  // [row][name]
-};
-
-MarkerTable markers_from_trc(std::string_view text, const std::string& file);
-MarkerTable markers_from_c3d(std::string_view bytes, const std::string& file);
 
 // z up, in metres. InputError naming what is missing where there are not two hips, knees and
 // ankles.

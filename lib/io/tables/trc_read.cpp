@@ -1,5 +1,5 @@
-// A TRC file: two lines of names and values, the points' names over three columns each, their axes,
-// then a row a frame; tabs between cells. Empty cells and "nan" are unknown.
+#include "io/tables/trc_read.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +8,6 @@
 
 #include "core/errors.h"
 #include "io/archive/files.h"
-#include "io/tables/marker_file.h"
 
 namespace walktrack {
 

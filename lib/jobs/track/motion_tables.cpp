@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "io/export/c3d_file.h"
+#include "io/c3d/c3d_file.h"
 #include "io/tables/gait_file.h"
 #include "io/tables/kinetics_file.h"
 #include "io/tables/opensim.h"

@@ -1,4 +1,5 @@
-// The points of a C3D file (C3D User Guide, c3d.org): little-endian, numbers or floats.
+#include "io/c3d/c3d_read.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,8 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.h"
-#include "io/export/c3d_parameters.h"
-#include "io/tables/marker_file.h"
+#include "io/c3d/c3d_parameters.h"
 
 namespace walktrack {
 

@@ -1,4 +1,4 @@
-#include "io/export/c3d_file.h"
+#include "io/c3d/c3d_file.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include "body/joint_angles.h"
 #include "core/conventions.h"
 #include "core/version.h"
-#include "io/export/c3d_parameters.h"
+#include "io/c3d/c3d_parameters.h"
 #include "io/tables/motion_file.h"
 
 namespace walktrack {

@@ -1,4 +1,4 @@
-#include "io/export/c3d_parameters.h"
+#include "io/c3d/c3d_parameters.h"
 
 #include <algorithm>
 #include <bit>

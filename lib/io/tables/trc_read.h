@@ -1,0 +1,16 @@
+// A TRC file (Motion Analysis; OpenSim): two lines of names and values, the points' names over
+// three columns each, their axes, then a row a frame; tabs between cells. Empty cells and "nan" are
+// unknown.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "io/tables/marker_table.h"
+
+namespace walktrack {
+
+// InputError with place, found and allowed; `file` is what messages call it.
+MarkerTable markers_from_trc(std::string_view text, const std::string& file);
+
+}  // namespace walktrack
