@@ -3,9 +3,9 @@
 processors. Fails when it finds anything. A file that was clean is looked at again only when it, a
 header that it includes, its command line, the checks or clang-tidy have changed.
 
-Nearly all time goes into the headers of others, so sources with the same command line are looked at
-some at a time, as one. Where such a group shows anything, be it names that clash, each of its files
-is looked at alone, and only that counts.
+Nearly all time goes into the headers of others, so sources that are compiled as one (a unity build) are
+looked at as one. Where such a group shows anything each of its files is looked at alone, and only
+that counts.
 
 usage: check_tidy.py [--names] [BUILD_FOLDER]
   BUILD_FOLDER  build/ci unless told, configured with Ninja and built
@@ -27,7 +27,6 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # The command lines are those of g++: its warnings are its own business.
 OPTIONS = ["--quiet", "--extra-arg=-w", f"--config-file={ROOT}/.clang-tidy"]
 GROUP_OPTION = "--header-filter=(lib|apps)/.*\\.(h|cpp)$"
-GROUP_SIZE = 10
 WITHOUT_NAMES = ["--checks=-readability-identifier-naming"]
 
 
@@ -72,37 +71,14 @@ def key_of(entry, headers, common):
     return digest.hexdigest()
 
 
-def names_of(path):
-    """What a source defines in its first column, more or less."""
-    definition = r"^(?!namespace|using namespace)[\w:<][^;={}()]*?\b(\w+)(?=\(| = |\{| \{|;)"
-    further = r"^(?:inline )?constexpr [^;(]*;"  # more constants of the same line
-    text = path.read_text()
-    constants = {name for line in re.findall(further, text, re.M)
-                 for name in re.findall(r"\b(k\w+)(?= = |\{)", line)}
-    return constants | set(re.findall(definition, text, re.M))
+def sources_of(path):
+    """The sources that a unity file includes; a file that is none is its own."""
+    found = re.findall(r'^#include "([^"]+)"', path.read_text(), re.M) if "Unity" in path.parts else []
+    return [pathlib.Path(source) for source in found] or [path]
 
 
-def grouped(due):
-    """(stamp, entry) in groups that compile as one source: one command line, no name twice."""
-    groups = []  # (command line, names, members)
-    for stamp, entry in due.items():
-        path = pathlib.Path(entry["file"])
-        line, names = entry["command"].split(" -o ")[0], names_of(path)
-        alone = "foreach_target" in path.read_text()  # includes itself several times
-        for common, taken, members in groups:
-            if not alone and common == line and len(members) < GROUP_SIZE and not taken & names:
-                members.append((stamp, entry))
-                taken |= names
-                break
-        else:
-            groups.append((None if alone else line, names, [(stamp, entry)]))
-    return sorted((members for _, _, members in groups), key=len, reverse=True)
-
-
-def group_entry(number, members, stamps):
-    path, (_, first) = stamps / f"group_{number}.cpp", members[0]
-    path.write_text("".join(f'#include "{entry["file"]}"\n' for _, entry in members))
-    return {**first, "file": str(path), "command": first["command"].replace(first["file"], str(path))}
+def alone(entry, source):
+    return {**entry, "file": str(source), "command": entry["command"].replace(entry["file"], str(source))}
 
 
 def run_tidy(entry, stamps, options):
@@ -111,20 +87,20 @@ def run_tidy(entry, stamps, options):
     return done.returncode, done.stdout
 
 
-def look_at(group, members, stamps, options):
-    """The findings, and whether the group was looked at one by one."""
-    if group and run_tidy(group, stamps, [*options, GROUP_OPTION])[0] == 0:
-        for stamp, _ in members:
-            stamp.touch()
+def look_at(stamp, entry, sources, stamps, options):
+    """The findings, and whether the sources were looked at one by one."""
+    several = len(sources) > 1
+    if several and run_tidy(entry, stamps, [*options, GROUP_OPTION])[0] == 0:
+        stamp.touch()
         return [], False
     found = []
-    for stamp, entry in members:
-        code, text = run_tidy(entry, stamps, options)
-        if code == 0:
-            stamp.touch()
-        else:
-            found.append(text or f"{entry['file']}: clang-tidy ended with {code}")
-    return found, group is not None
+    for source in sources:
+        code, text = run_tidy(alone(entry, source), stamps, options)
+        if code != 0:
+            found.append(text or f"{source}: clang-tidy ended with {code}")
+    if not found:
+        stamp.touch()
+    return found, several
 
 
 def main():
@@ -136,33 +112,33 @@ def main():
     stamps.mkdir(exist_ok=True)
     common = output_of("clang-tidy", "--version") + (ROOT / ".clang-tidy").read_text() + str(options)
     headers = headers_of_objects(build)
-    due = {}
+    due = []  # (stamp, entry, sources)
     commands = json.loads((build / "compile_commands.json").read_text())
-    entries = [without_precompiled(entry) for entry in commands]
-    for entry in entries:
+    for entry in map(without_precompiled, commands):
         path = pathlib.Path(entry["file"])
-        if not any(path.is_relative_to(ROOT / folder) for folder in ("lib", "apps")):
+        sources = sources_of(path)
+        if not any(source.is_relative_to(ROOT / folder) for source in sources for folder in ("lib", "apps")):
             continue
         if object_of(entry) not in headers:
             sys.exit(f"{path} is not built")
         stamp = stamps / key_of(entry, headers, common)
         if not stamp.exists():
-            due[stamp] = entry
-    groups = [(group_entry(number, members, stamps) if len(members) > 1 else None, members)
-              for number, members in enumerate(grouped(due))]
-    entries += [group for group, _ in groups if group]
-    (stamps / "compile_commands.json").write_text(json.dumps(entries))
+            due.append((stamp, entry, sources))
+    due.sort(key=lambda group: -len(group[2]))
+    known = [entry for _, entry, _ in due]
+    known += [alone(entry, source) for _, entry, sources in due for source in sources if len(sources) > 1]
+    (stamps / "compile_commands.json").write_text(json.dumps(known))
     found, split, begin = 0, 0, time.monotonic()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        looks = [pool.submit(look_at, *group, stamps, options) for group in groups]
+        looks = [pool.submit(look_at, *group, stamps, options) for group in due]
         for look in concurrent.futures.as_completed(looks):
-            texts, alone = look.result()
+            texts, one_by_one = look.result()
             found += len(texts)
-            split += alone
+            split += one_by_one
             for text in texts:
                 print(text, flush=True)
     processor = resource.getrusage(resource.RUSAGE_CHILDREN)
-    print(f"clang-tidy: {len(due)} files in {len(groups)} groups ({split} of them file by file) "
+    print(f"clang-tidy: {sum(len(sources) for _, _, sources in due)} files in {len(due)} groups ({split} of them file by file) "
           f"in {time.monotonic() - begin:.0f} s, "
           f"{processor.ru_utime + processor.ru_stime:.0f} s of processor time, "
           f"{found} with findings")

@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "body/kinematics.h"
+
 namespace walktrack {
 
 namespace {
@@ -33,12 +35,6 @@ Vector3d zxy_angles(const Matrix3d& rotation) {
 
 Matrix3d about(const Vector3d& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-}
-
-// As in body/pose.h.
-Matrix3d world_from_pelvis(const Pose& pose) {
-  return about(Vector3d::UnitZ(), pose.heading) * about(Vector3d::UnitX(), pose.list) *
-         about(Vector3d::UnitY(), pose.tilt);
 }
 
 Matrix3d world_from_trunk(const Pose& pose) {

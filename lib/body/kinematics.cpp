@@ -43,8 +43,6 @@ Matrix3d rotation_z(double a) {
 // clang-format on
 
 // The sign of y on that side of the body.
-double outward(Side side) { return side == Side::kLeft ? 1.0 : -1.0; }
-
 size_t index(Side side) { return static_cast<size_t>(side); }
 
 Matrix3d pelvis_from_thigh(const LegPose& leg, Side side) {

@@ -26,6 +26,9 @@ enum class Side { kLeft = 0, kRight = 1 };
 
 inline constexpr Side other(Side side) { return side == Side::kLeft ? Side::kRight : Side::kLeft; }
 
+// Which way is outwards for a side: +1 is left.
+inline constexpr double outward(Side side) { return side == Side::kLeft ? 1.0 : -1.0; }
+
 struct LegPose {
   double hip_flexion = 0, hip_abduction = 0, hip_rotation = 0;
   double knee_flexion = 0;

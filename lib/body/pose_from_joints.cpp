@@ -17,8 +17,6 @@ using Eigen::Vector3d;
 constexpr double kFootWeight = 0.3;     // equals a knee flexed by 17 degrees
 constexpr double kShortestBone = 1e-6;  // m; below it a direction means nothing
 
-double outward(Side side) { return side == Side::kLeft ? 1.0 : -1.0; }
-
 // Signed angle from a to b seen along the unit vector `axis`.
 double angle_about(const Vector3d& axis, const Vector3d& a, const Vector3d& b) {
   return std::atan2(axis.dot(a.cross(b)), a.dot(b) - axis.dot(a) * axis.dot(b));

@@ -18,12 +18,17 @@
 // than SI are in the name: _deg, _mm, _px, _ms.
 #pragma once
 
+#include <limits>
 #include <numbers>
 
 namespace walktrack {
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kStandardGravity = 9.80665;  // m/s^2
+inline constexpr double kMetresPerMillimetre = 1e-3;
+
+// A number that is not known: an empty cell of a table, a joint that nobody saw.
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 inline constexpr double deg_from_rad(double angle) { return angle * (180.0 / kPi); }
 inline constexpr double rad_from_deg(double angle_deg) { return angle_deg * (kPi / 180.0); }

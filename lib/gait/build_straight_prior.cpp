@@ -11,8 +11,8 @@ namespace walktrack {
 namespace {
 
 // Kuo (2002), level, toe-off and hip spring (configs/models/kuo_level_spring.yaml).
-constexpr GaitTarget kSeedTarget{0.420876, 0.420876 * 1.5744242, 0};
-StraightGaitVector seed_gait() {
+constexpr GaitTarget kStraightSeedTarget{0.420876, 0.420876 * 1.5744242, 0};
+StraightGaitVector straight_seed_gait() {
   StraightGaitVector gait;
   gait << 0.1, 0.1, 0.335708232, 0.512001304, 0.393117244;
   return gait;
@@ -27,9 +27,9 @@ class StraightBuilder {
 
   StraightPrior build(const std::function<bool(size_t)>& progress) {
     // The two families are furthest apart on a slope, so that the first node lies there.
-    const Index first{nearest_index(prior_.speeds, kSeedTarget.speed),
+    const Index first{nearest_index(prior_.speeds, kStraightSeedTarget.speed),
                       nearest_index(prior_.ratios, 1), prior_.slopes.size() / 2};
-    solve(first, seed_gait(), kSeedTarget);
+    solve(first, straight_seed_gait(), kStraightSeedTarget);
     for (size_t i = 0; i < queue_.size(); ++i) {
       const Index n = queue_[i];
       if (progress && !progress(i + 1)) break;

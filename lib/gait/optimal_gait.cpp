@@ -11,7 +11,7 @@ namespace walktrack {
 namespace {
 
 constexpr int kFree = kGaitSize - kResidualSize;
-constexpr double kDifference = 1e-5;
+constexpr double kControlDifference = 1e-5;
 constexpr double kOnCycle = 1e-7;  // residual at which the objective is evaluated
 constexpr int kMaxChordSteps = 12;
 
@@ -27,10 +27,10 @@ std::optional<SectionMatrix> cheap_step_matrix(const KneedModel& model, const Ga
   SectionMatrix matrix;
   for (int i = 0; i < kSectionSize; ++i) {
     GaitVector shifted = gait;
-    shifted[kControlSize + i] += kDifference;
+    shifted[kControlSize + i] += kControlDifference;
     const auto other = step_of(model, shifted, kCoarseStep);
     if (!other) return std::nullopt;
-    matrix.col(i) = (other->end - step.end) / kDifference;
+    matrix.col(i) = (other->end - step.end) / kControlDifference;
   }
   return matrix;
 }

@@ -10,10 +10,10 @@
 namespace walktrack {
 namespace {
 
-constexpr double kLongestStep = 8;     // 2.5 s for an adult
-constexpr double kSubStep = 0.005;     // 1.5 ms for an adult: cycles are exact to 1e-9
-constexpr double kMeasureStep = 0.02;  // 6 ms: ground forces change over some 100 ms
-constexpr double kDifference = 1e-5;   // the map's error of 1e-12 then costs 1e-7
+constexpr double kLongestStraightStep = 8;    // 2.5 s for an adult
+constexpr double kSubStep = 0.005;            // 1.5 ms for an adult: cycles are exact to 1e-9
+constexpr double kForceInterval = 0.02;       // 6 ms: ground forces change over some 100 ms
+constexpr double kStraightDifference = 1e-5;  // the map's error of 1e-12 then costs 1e-7
 
 // (section, advance, period) after a step of each gait.
 template <size_t kCount>
@@ -25,7 +25,7 @@ std::optional<std::array<StraightGaitVector, kCount>> ends_of(
   std::array<double, kCount> durations;
   std::array<StraightAdvance, kCount> runs;
   noise.fill(Vector2::Zero());
-  durations.fill(kLongestStep);
+  durations.fill(kLongestStraightStep);
   for (size_t i = 0; i < kCount; ++i) {
     controls[i] = straight_controls_from(gaits[i]);
     states[i] = straight_state_from(gaits[i].template tail<kStraightSectionSize>());
@@ -76,11 +76,11 @@ std::optional<StraightStep> straight_step(const StraightModel& model,
   StraightStep step;
   step.least_normal = model.mass;  // times g = 1
   const double begin = model.radius * state.q[0];
-  while (step.period < kLongestStep) {
+  while (step.period < kLongestStraightStep) {
     const Vector2 qdd = straight_accelerations(model, controls.stiffness, calm, state);
     step.least_normal = std::min(step.least_normal, straight_contact_force(model, state, qdd).y());
     const StraightAdvance run =
-        straight_advance(model, controls, calm, state, kMeasureStep, kSubStep);
+        straight_advance(model, controls, calm, state, kForceInterval, kSubStep);
     step.period += run.elapsed;
     if (run.event == KneedEvent::kNone) continue;
     if (run.event != KneedEvent::kTransfer) return std::nullopt;
@@ -105,7 +105,7 @@ std::optional<StraightJacobian> cycle_jacobian(const StraightModel& model,
   std::array<StraightGaitVector, 2 * kStraightGaitSize> gaits;
   for (size_t i = 0; i < kStraightGaitSize; ++i) {
     const StraightGaitVector shift =
-        kDifference * StraightGaitVector::Unit(static_cast<Eigen::Index>(i));
+        kStraightDifference * StraightGaitVector::Unit(static_cast<Eigen::Index>(i));
     gaits[2 * i] = gait + shift;
     gaits[2 * i + 1] = gait - shift;
   }
@@ -114,7 +114,7 @@ std::optional<StraightJacobian> cycle_jacobian(const StraightModel& model,
   StraightJacobian jacobian;
   for (size_t i = 0; i < kStraightGaitSize; ++i)
     jacobian.col(static_cast<Eigen::Index>(i)) =
-        ((*ends)[2 * i] - (*ends)[2 * i + 1]) / (2 * kDifference);
+        ((*ends)[2 * i] - (*ends)[2 * i + 1]) / (2 * kStraightDifference);
   jacobian.block<kStraightSectionSize, kStraightSectionSize>(0, kStraightControlSize) -=
       StraightStepMatrix::Identity();
   return jacobian;

@@ -11,7 +11,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-Index row_of(size_t part) { return 6 * static_cast<Index>(part); }
+Index spatial_row(size_t part) { return 6 * static_cast<Index>(part); }
 
 Matrix3d world_inertia(const ArticulatedPart& part, const PartMotion& motion) {
   return motion.rotation * part.mass.inertia * motion.rotation.transpose();
@@ -32,11 +32,11 @@ VectorXd applied_forces(const ArticulatedBody& body, const std::vector<PartMotio
 TmtSystem assemble_from(const ArticulatedBody& body, const std::vector<PartMotion>& motions,
                         const BodyLoad& load) {
   const auto& parts = body.parts();
-  const Index rows = row_of(parts.size());
+  const Index rows = spatial_row(parts.size());
   MatrixXd mass = MatrixXd::Zero(rows, rows), T(rows, body.velocities());
   VectorXd convective(rows), force(rows);
   for (size_t i = 0; i < parts.size(); ++i) {
-    const Index r = row_of(i);
+    const Index r = spatial_row(i);
     const Matrix3d inertia = world_inertia(parts[i], motions[i]);
     mass.block<3, 3>(r, r) = parts[i].mass.mass * Matrix3d::Identity();
     mass.block<3, 3>(r + 3, r + 3) = inertia;

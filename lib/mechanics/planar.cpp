@@ -9,7 +9,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-Index row_of(size_t part) { return 3 * static_cast<Index>(part); }
+Index planar_row(size_t part) { return 3 * static_cast<Index>(part); }
 
 }  // namespace
 
@@ -67,28 +67,28 @@ Vector2d convective(const PlanarPoint& point, const VectorXd& q, const VectorXd&
 }
 
 MatrixXd part_jacobian(const std::vector<PlanarPart>& parts, const VectorXd& q) {
-  MatrixXd T = MatrixXd::Zero(row_of(parts.size()), q.size());
+  MatrixXd T = MatrixXd::Zero(planar_row(parts.size()), q.size());
   for (size_t i = 0; i < parts.size(); ++i) {
-    T.middleRows<2>(row_of(i)) = jacobian(parts[i].com, q);
-    if (parts[i].angle >= 0) T(row_of(i) + 2, parts[i].angle) = 1;
+    T.middleRows<2>(planar_row(i)) = jacobian(parts[i].com, q);
+    if (parts[i].angle >= 0) T(planar_row(i) + 2, parts[i].angle) = 1;
   }
   return T;
 }
 
 VectorXd part_masses(const std::vector<PlanarPart>& parts) {
-  VectorXd masses(row_of(parts.size()));
+  VectorXd masses(planar_row(parts.size()));
   for (size_t i = 0; i < parts.size(); ++i) {
-    masses.segment<3>(row_of(i)) << parts[i].mass, parts[i].mass, parts[i].inertia;
+    masses.segment<3>(planar_row(i)) << parts[i].mass, parts[i].mass, parts[i].inertia;
   }
   return masses;
 }
 
 TmtSystem assemble(const std::vector<PlanarPart>& parts, const Vector2d& gravity, const VectorXd& q,
                    const VectorXd& qd) {
-  VectorXd rates = VectorXd::Zero(row_of(parts.size())), weight = rates;
+  VectorXd rates = VectorXd::Zero(planar_row(parts.size())), weight = rates;
   for (size_t i = 0; i < parts.size(); ++i) {
-    rates.segment<2>(row_of(i)) = convective(parts[i].com, q, qd);
-    weight.segment<2>(row_of(i)) = parts[i].mass * gravity;
+    rates.segment<2>(planar_row(i)) = convective(parts[i].com, q, qd);
+    weight.segment<2>(planar_row(i)) = parts[i].mass * gravity;
   }
   return assemble_tmt(part_masses(parts).asDiagonal(), part_jacobian(parts, q), rates, weight);
 }

@@ -10,14 +10,14 @@ namespace {
 constexpr int kMargin = 48;
 // Of the smoothing, px: less than a limb's width, enough for a motion that is a pixel off to be
 // pulled the right way.
-constexpr double kSmoothing = 0.8;
+constexpr double kGreySmoothing = 0.8;
 constexpr float kNoise = 4;    // of a difference without texture, grey levels
 constexpr float kErrorPx = 1;  // of a pose's motion that is still right
 
 cv::Mat smoothed(const cv::Mat& grey) {
   cv::Mat out;
   grey.convertTo(out, CV_32F);
-  cv::GaussianBlur(out, out, {0, 0}, kSmoothing);
+  cv::GaussianBlur(out, out, {0, 0}, kGreySmoothing);
   return out;
 }
 

@@ -14,9 +14,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kSubRays = 3;          // a side: nine rays for a pixel on an edge
-constexpr double kShadowGap = 1e-4;  // m; a surface does not shade itself by rounding
-constexpr double kRimPx = 2;         // lens distortion and rounding move a silhouette less
+constexpr int kSubRays = 3;   // a side: nine rays for a pixel on an edge
+constexpr double kRimPx = 2;  // lens distortion and rounding move a silhouette less
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Pixels [x0, x1) x [y0, y1).

@@ -10,8 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kShadowGap = 1e-4;  // m; a surface does not shade itself by rounding
-
 std::optional<double> entry(const Thing& thing, const Ray& ray, double farthest) {
   return std::visit([&](const auto& solid) { return entry_distance(solid, ray, farthest); },
                     thing.solid);

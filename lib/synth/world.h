@@ -23,6 +23,8 @@ struct Light {
   bool shadows = true;
 };
 
+inline constexpr double kShadowGap = 1e-4;  // m; a surface does not shade itself by rounding
+
 Eigen::Vector3d towards_sun(const Light& light);
 
 // Something that stands in the scene.

@@ -11,7 +11,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-enum GuardId { kSwingFoot, kPassing, kNormalForce, kHip, kStanceFoot, kFirstLimit };
+enum LinkageGuard { kSwingFoot, kPassing, kNormalForce, kHip, kStanceFoot, kFirstLimit };
 
 // A limit touches when its gap is within rounding of an event's location. It rests when its rate is
 // what a plastic impulse leaves of it, or the tiny rebound after it: one of 1e-6 rad/s lasts

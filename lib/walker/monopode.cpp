@@ -9,10 +9,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-enum GuardId { kApexGuard, kLanding, kFall, kFirstFoot };
+enum MonopodeGuard { kApexGuard, kLanding, kFall, kFirstFoot };
 
 // A mass this low over the ground, in leg lengths, no longer stands on springs but lies.
-constexpr double kFallenShare = 0.3;
+constexpr double kFallenMonopodeShare = 0.3;
 
 size_t feet(const WalkerState& state) { return state.contacts.size() - 1; }
 
@@ -43,7 +43,8 @@ VectorXd Monopode::acceleration(const WalkerState& state) const {
 
 std::vector<Guard> Monopode::guards(const WalkerState& state) const {
   const MonopodeParameters& p = parameters_;
-  std::vector<Guard> guards{{kFall, state.q.y() - kFallenShare * p.leg_length, state.qd.y()}};
+  std::vector<Guard> guards{
+      {kFall, state.q.y() - kFallenMonopodeShare * p.leg_length, state.qd.y()}};
   const size_t section_feet = p.walks ? 1 : 0;
   if (state.active == 0 && feet(state) == section_feet) {
     guards.push_back({kApexGuard, state.qd.y(), acceleration(state).y()});
@@ -153,7 +154,7 @@ WalkerState Monopode::section_state(const VectorXd& q, const VectorXd& qd) const
   if (parameters_.walks) state.contacts.push_back(0.0);
   state.phase = static_cast<int>(feet(state));
   state.active = 1;
-  if (q.y() < kFallenShare * parameters_.leg_length) state.health = Health::kFallen;
+  if (q.y() < kFallenMonopodeShare * parameters_.leg_length) state.health = Health::kFallen;
   return state;
 }
 

@@ -11,7 +11,7 @@ using Eigen::VectorXd;
 
 // A guard this near to zero counts as touching: after an event was located, others of the same
 // instant are within rounding of it.
-constexpr double kTouching = 1e-11;
+constexpr double kOnGuard = 1e-11;
 // Pieces in which a step is searched for the crossing of a guard that starts at zero, rises and
 // falls again.
 constexpr int kScanPieces = 16;
@@ -94,7 +94,7 @@ class Crossing {
     return (low + high) / 2;
   }
 
-  // For a guard that starts within kTouching of zero and ends below: the last piece of the step in
+  // For a guard that starts within kOnGuard of zero and ends below: the last piece of the step in
   // which it falls through zero; of a rebound shorter than a piece, its end. One that does not even
   // rise out of rounding fires where it is surely below, so that time goes on.
   double locate_after_rise(double h) const {
@@ -106,7 +106,7 @@ class Crossing {
     for (double t = h / kScanPieces / 2; t > shortest; t /= 2) {
       if (value(t) > 0) return locate(t, 2 * t);
     }
-    return locate(0, h, -kTouching / 2);  // still touching: it may fire again
+    return locate(0, h, -kOnGuard / 2);  // still touching: it may fire again
   }
 
  private:
@@ -119,7 +119,7 @@ class Crossing {
 // The time in [0, h] at which `before` fires, if it does; `after` is the guard at h.
 std::optional<double> firing_time(const Crossing& crossing, const Guard& before, const Guard& after,
                                   double h) {
-  if (before.value > kTouching) {
+  if (before.value > kOnGuard) {
     if (after.value <= 0) return crossing.locate(0, h);
     const bool dips = before.rate && after.rate && *before.rate < 0 && *after.rate > 0;
     if (!dips) return std::nullopt;
@@ -127,11 +127,11 @@ std::optional<double> firing_time(const Crossing& crossing, const Guard& before,
     if (crossing.value(lowest) > 0) return std::nullopt;
     return crossing.locate(0, lowest);
   }
-  if (before.value < -kTouching || !before.rate) {
+  if (before.value < -kOnGuard || !before.rate) {
     return std::nullopt;  // below from the start: not armed
   }
   if (*before.rate < 0) return 0.0;
-  if (after.value < -kTouching) return crossing.locate_after_rise(h);
+  if (after.value < -kOnGuard) return crossing.locate_after_rise(h);
   return std::nullopt;
 }
 

@@ -12,7 +12,7 @@ namespace walktrack {
 namespace {
 
 // A foot leads by more than what an event's location leaves uncertain, rad: see LinkageWalker.
-constexpr double kAhead = 1e-9;
+constexpr double kAheadAngle = 1e-9;
 
 struct StraightInput {
   const StraightModel& model;
@@ -174,7 +174,7 @@ std::array<bool, kMaxLanes> StraightStepper::locate(const StraightLanes& lanes, 
   step_lanes_to(in.model, lanes, trials[0], at);
   std::array<bool, kMaxLanes> strikes{};
   for (size_t lane = 0; lane < lanes.count; ++lane) {
-    strikes[lane] = at.q[0][lane] - at.q[1][lane] > kAhead;
+    strikes[lane] = at.q[0][lane] - at.q[1][lane] > kAheadAngle;
     if (strikes[lane]) h[lane] = trials[0][lane];
   }
   return strikes;

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/data_folders.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -22,8 +23,6 @@ constexpr const char* kWalk =
     "walk: {speed: 1.2, start: [-0.2, 0]}\n"
     "cameras: [{name: side, azimuth_deg: -90, distance: 4, size: [64, 48]}]\n";
 
-// Short and small as it is, what is tracked passes all quality checks.
-constexpr const char* kAnyQuality = WALKTRACK_SOURCE_DIR "/tests/any_quality.yaml";
 constexpr const char* kFast = WALKTRACK_SOURCE_DIR "/configs/fast.yaml";
 
 class Changes : public testing::Test {

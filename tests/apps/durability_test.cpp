@@ -14,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/data_folders.h"
 #include "tests/run_program.h"
 #include "tests/sanitized.h"
 
@@ -22,7 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kAnyQuality = WALKTRACK_SOURCE_DIR "/tests/any_quality.yaml";
 using Clock = std::chrono::steady_clock;
 using testing::HasSubstr;
 

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/data_folders.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -36,8 +37,7 @@ class HostilePaths : public testing::Test {
   }
   ProgramResult batch(const std::string& in, const std::string& out) const {
     return run_walktrack({"batch", in, "-o", out, "--threads", "1", "--set", "filter.particles=5",
-                          "--set", "start.particles=5", "-c",
-                          WALKTRACK_SOURCE_DIR "/tests/any_quality.yaml"});
+                          "--set", "start.particles=5", "-c", kAnyQuality});
   }
   // Every file below the folder, the output folder left out, with what it holds.
   std::map<std::string, std::string> outside() const {

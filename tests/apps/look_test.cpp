@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/data_folders.h"
 #include "tests/io/sample_files.h"
 #include "tests/run_program.h"
 
@@ -17,8 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
-
-const std::string kDemo = WALKTRACK_SOURCE_DIR "/data/demo/";
 
 // The numbers of a matrix in an OpenCV file.
 std::vector<double> numbers_of(const std::string& text, const std::string& key) {
@@ -42,15 +41,15 @@ class Look : public testing::Test {
   Look() {
     for (const char* name : {"side", "front"}) set_camera(name, camera(name));
   }
-  static std::string camera(const std::string& name) { return read_file(kDemo + name + ".yaml"); }
+  static std::string camera(const std::string& name) { return read_file(kDemo / (name + ".yaml")); }
   void set_camera(const std::string& name, const std::string& text) const {
     folder_.write("in/" + name + ".yaml", text);
   }
   void set_scene(const std::string& front, const std::string& more) const {
     std::string text = "subject: {height: 1.75, mass: 70}\nlast_frame: 40\n" + more + "cameras:\n";
     for (const std::string name : {"side", "front"}) {
-      text.append("  - {name: ").append(name).append(", video: ").append(kDemo).append(name);
-      text.append(".mp4, background: ").append(kDemo).append(name);
+      text.append("  - {name: ").append(name).append(", video: ").append((kDemo / name).string());
+      text.append(".mp4, background: ").append((kDemo / name).string());
       text.append("_background.mp4, calibration: ").append(name).append(".yaml");
       text.append(name == "front" ? front : "").append("}\n");
     }

@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/data_folders.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 using testing::AnyOf;
 using testing::HasSubstr;
 
-constexpr const char* kWalk =
+constexpr const char* kWalkAndFilm =
     "frame_rate: 10\nduration: 0.3\ninitial: true\nbackground_frames: 2\n"
     "walk: {speed: 1.2, start: [-0.2, 0]}\n"
     "cameras: [{name: side, azimuth_deg: -90, distance: 4, size: [64, 48]}]\n";
@@ -35,14 +36,14 @@ class OwnFiles : public testing::Test {
     if (made.exit_code != 0) throw std::runtime_error(made.err);
   }
   Words render(const std::string& output) const {
-    return {"render", "--options", folder_.write("walk.yaml", kWalk), "-o", output};
+    return {"render", "--options", folder_.write("walk.yaml", kWalkAndFilm), "-o", output};
   }
   Words track(const std::string& scene, const std::string& output) const {
     return {"track",     scene,
             "--threads", "1",
             "--set",     "filter.particles=5",
             "--set",     "start.particles=5",
-            "-c",        WALKTRACK_SOURCE_DIR "/tests/any_quality.yaml",
+            "-c",        kAnyQuality,
             "-o",        output};
   }
   // The walk as somebody else has made it: without our marker.
@@ -128,12 +129,12 @@ TEST_F(OwnFiles, RenderReplacesOnlyItsOwnScenes) {
 
 // The options may lie in the folder, as those of the demo do; a camera's name leads nowhere else.
 TEST_F(OwnFiles, RenderTakesOptionsFromItsFolder) {
-  const std::string options = folder_.write("scene/options.yaml", kWalk);
+  const std::string options = folder_.write("scene/options.yaml", kWalkAndFilm);
   Words words{"render", "--options", options, "-o", folder_ / "scene"};
   EXPECT_EQ(run_walktrack(words).exit_code, 0);
   words.emplace_back("-y");
   EXPECT_EQ(run_walktrack(words).exit_code, 0);
-  EXPECT_EQ(read_file(options), kWalk);
+  EXPECT_EQ(read_file(options), kWalkAndFilm);
   folder_.write("scene/options.yaml", "cameras: [{name: ../side}]\n");
   EXPECT_EQ(run_walktrack(words).exit_code, 3);
   folder_.write("scene/options.yaml", "walk: {speed: 1}\ncameras: [{name: scene}]\n");

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/data_folders.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -21,8 +22,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-
-const std::string kDemo = WALKTRACK_SOURCE_DIR "/data/demo/";
 
 std::vector<json> lines_of(const std::string& text) {
   std::vector<json> out;
@@ -110,7 +109,7 @@ TEST(ProgressOption, IsRefusedWhereItMakesNoSense) {
 TEST(TrackCommand, EndsWithWhatAPersonAndAProgramWantToKnow) {
   const TemporaryFolder folder;
   const ProgramResult result = run_walktrack(
-      {"track", kDemo + "scene.yaml", "-o", folder / "out", "--no-overlay", "--json-line", "--set",
+      {"track", kDemo / "scene.yaml", "-o", folder / "out", "--no-overlay", "--json-line", "--set",
        "filter.particles=100", "--set", "quality.least_steps=90", "--set", "start.particles=200"});
   ASSERT_EQ(result.exit_code, 4) << result.err;
   EXPECT_THAT(result.err, AllOf(HasSubstr("\n  steps        "), HasSubstr("\n  speed        1."),

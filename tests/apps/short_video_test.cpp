@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/data_folders.h"
 #include "tests/io/sample_files.h"
 #include "tests/run_program.h"
 
@@ -16,8 +17,6 @@ namespace walktrack {
 namespace {
 
 using testing::HasSubstr;
-
-const std::string kDemo = WALKTRACK_SOURCE_DIR "/data/demo/";
 
 class ShortVideo : public testing::Test {
  protected:
@@ -31,7 +30,7 @@ class ShortVideo : public testing::Test {
         "frame_rate: 30\nsubject: {height: 1.75}\nlast_frame: " + std::to_string(frames - 1) +
         "\ncameras:\n";
     for (const std::string name : {"side", "front"}) {
-      const std::string place = kDemo + name;
+      const std::string place = (kDemo / name).string();
       text.append("  - {name: ").append(name).append(", video: ").append(place).append(video);
       text.append(".mp4, background: ").append(place).append("_background.mp4, calibration: ");
       text.append(place).append(".yaml}\n");
@@ -108,14 +107,14 @@ TEST_F(ShortVideo, OfAnEmptyRoomSaysThatNobodyStandsOut) {
 }
 
 TEST_F(ShortVideo, OfSomebodyFarAwaySaysHowSmall) {
-  const ProgramResult result = track(filmed(kDemo + "truth.csv", 22));
+  const ProgramResult result = track(filmed(kDemo / "truth.csv", 22));
   EXPECT_EQ(result.exit_code, 4) << result.err;
   EXPECT_THAT(result.err, testing::ContainsRegex("2[4-9] px high, and 24 px are the least"));
 }
 
 // Somebody who stands still in the middle of a step.
 TEST_F(ShortVideo, OfSomebodyWhoStandsIsNoWalk) {
-  std::istringstream truth(read_file(kDemo + "truth.csv"));
+  std::istringstream truth(read_file(kDemo / "truth.csv"));
   std::string header, row;
   while (std::getline(truth, header) && header.starts_with("#")) {
   }

@@ -6,6 +6,7 @@
 
 #include "core/conventions.h"
 #include "core/rng.h"
+#include "tests/body/draw.h"
 
 namespace walktrack {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 using Eigen::Vector3d;
 
 Body test_body() { return make_body(Subject{}, {.head = true, .arms = true}); }
-
-double draw(Rng& rng, double limit) { return limit * (2 * rng.uniform() - 1); }
 
 Pose random_pose(Rng& rng) {
   Pose pose;

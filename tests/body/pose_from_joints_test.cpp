@@ -8,13 +8,12 @@
 #include "body/motion.h"
 #include "core/conventions.h"
 #include "core/rng.h"
+#include "tests/body/draw.h"
 
 namespace walktrack {
 namespace {
 
-double draw(Rng& rng, double limit) { return limit * (2 * rng.uniform() - 1); }
-
-Pose random_pose(Rng& rng) {
+Pose bent_pose(Rng& rng) {
   Pose pose;
   for (double& x : pose.root) x = draw(rng, 3);
   pose.heading = draw(rng, kPi);
@@ -31,7 +30,7 @@ TEST(PoseFromJoints, InvertsForwardKinematics) {
   const Body body = make_body(Subject{}, {.head = true, .arms = true});
   Rng rng(11, Purpose::kTest);
   for (int i = 0; i < 500; ++i) {
-    const Pose pose = random_pose(rng);
+    const Pose pose = bent_pose(rng);
     const auto found = pose_from_joints(forward_kinematics(body, pose).joints, body.lengths);
     ASSERT_TRUE(found.has_value());
     // 1e-9 rad: rounding of an arcsine near a quarter turn loses half the digits of 1e-16.

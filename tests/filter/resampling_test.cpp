@@ -12,7 +12,7 @@
 namespace walktrack {
 namespace {
 
-constexpr double kDead = -std::numeric_limits<double>::infinity();
+constexpr double kNoWeight = -std::numeric_limits<double>::infinity();
 
 std::vector<uint32_t> resampled(const std::vector<double>& log_weights, double u, size_t n) {
   std::vector<uint32_t> parents(n, 99);
@@ -22,7 +22,7 @@ std::vector<uint32_t> resampled(const std::vector<double>& log_weights, double u
 
 TEST(SystematicResample, Table) {
   EXPECT_EQ(resampled({0, 0, 0}, 0.5, 3), (std::vector<uint32_t>{0, 1, 2}));
-  EXPECT_EQ(resampled({kDead, 0, kDead}, 0.999, 4), (std::vector<uint32_t>{1, 1, 1, 1}));
+  EXPECT_EQ(resampled({kNoWeight, 0, kNoWeight}, 0.999, 4), (std::vector<uint32_t>{1, 1, 1, 1}));
   EXPECT_EQ(resampled({5}, 0.1, 2), (std::vector<uint32_t>{0, 0}));
   EXPECT_EQ(resampled({0, std::log(3.0)}, 0.5, 4), (std::vector<uint32_t>{0, 1, 1, 1}));
   EXPECT_EQ(resampled({0, 1e6}, 0.5, 2), (std::vector<uint32_t>{1, 1}));
@@ -30,7 +30,7 @@ TEST(SystematicResample, Table) {
 
 TEST(SystematicResample, AllDeadLeavesTheParentsAlone) {
   std::vector<uint32_t> parents{7, 8};
-  EXPECT_FALSE(systematic_resample(std::vector<double>{kDead, kDead}, 0.5, parents));
+  EXPECT_FALSE(systematic_resample(std::vector<double>{kNoWeight, kNoWeight}, 0.5, parents));
   EXPECT_EQ(parents, (std::vector<uint32_t>{7, 8}));
 }
 

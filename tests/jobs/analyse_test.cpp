@@ -15,15 +15,13 @@
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
 #include "io/tables/csv.h"
+#include "tests/data_folders.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kDemo = fs::path(WALKTRACK_SOURCE_DIR) / "data/demo";
-const fs::path kData = fs::path(WALKTRACK_SOURCE_DIR) / "../shared/data";
 
 class Analyse : public testing::Test {
  protected:
@@ -140,8 +138,8 @@ TEST_F(Analyse, AnglesGoAsOpenSimsInverseKinematicsDo) {
   const std::map<std::string, double> spread_deg{
       {"hip_flexion", 4}, {"knee_angle", 4}, {"ankle_angle", 5}};
   for (const std::string trial : {"opencapS4_walking1", "opencapS4_walkingTS1"}) {
-    const fs::path mocap = kData / "mocap" / (trial + ".csv"),
-                   ik = kData / "grf" / (trial + "_ik.mot");
+    const fs::path mocap = kSharedData / "mocap" / (trial + ".csv"),
+                   ik = kSharedData / "grf" / (trial + "_ik.mot");
     if (!fs::exists(mocap) || !fs::exists(ik)) GTEST_SKIP() << ik << " is absent";
     AnalyseJob each = job(mocap);
     each.overwrite = true;
@@ -166,8 +164,8 @@ TEST_F(Analyse, AnglesGoAsOpenSimsInverseKinematicsDo) {
 // begins off the plates, so that some of its course is missing there.
 TEST_F(Analyse, GroundReactionsAreNamedAsTheForcePlatesAre) {
   for (const std::string trial : {"opencapS4_walking1", "opencapS4_walkingTS1"}) {
-    const fs::path mocap = kData / "mocap" / (trial + ".csv"),
-                   plates = kData / "grf" / (trial + ".mot");
+    const fs::path mocap = kSharedData / "mocap" / (trial + ".csv"),
+                   plates = kSharedData / "grf" / (trial + ".mot");
     if (!fs::exists(mocap) || !fs::exists(plates)) GTEST_SKIP() << plates << " is absent";
     AnalyseJob each = job(mocap);
     each.overwrite = true;

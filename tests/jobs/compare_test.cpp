@@ -14,6 +14,7 @@
 #include "io/tables/motion_file.h"
 #include "jobs/compare/compare_figures.h"
 #include "jobs/evaluate/analyse.h"
+#include "tests/data_folders.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 
@@ -23,8 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using Json = nlohmann::json;
-
-const fs::path kDemo = fs::path(WALKTRACK_SOURCE_DIR) / "data/demo";
 
 class Compare : public testing::Test {
  protected:

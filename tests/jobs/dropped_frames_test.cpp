@@ -10,6 +10,7 @@
 #include "io/video/video.h"
 #include "jobs/track/track.h"
 #include "metrics/joint_error.h"
+#include "tests/data_folders.h"
 #include "tests/io/sample_video.h"
 #include "tests/run_program.h"
 
@@ -18,8 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kDemo = fs::path(WALKTRACK_SOURCE_DIR) / "data/demo";
-constexpr int kFrames = 75;
+constexpr int kDemoFrames = 75;
 
 class DroppedFrames : public testing::Test {
  protected:
@@ -29,7 +29,7 @@ class DroppedFrames : public testing::Test {
     std::vector<cv::Mat> frames;
     std::vector<double> durations;
     cv::Mat frame;
-    for (int i = 0; i < kFrames && source.read(frame); ++i) {
+    for (int i = 0; i < kDemoFrames && source.read(frame); ++i) {
       if (i >= first && i < first + count) {
         durations.back() += 1;
         continue;

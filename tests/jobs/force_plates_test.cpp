@@ -12,13 +12,12 @@
 #include "core/conventions.h"
 #include "io/tables/motion_file.h"
 #include "jobs/track/motion_tables.h"
+#include "tests/data_folders.h"
 
 namespace walktrack {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kData = fs::path(WALKTRACK_SOURCE_DIR) / "../shared/data";
 
 // Vertical force of the right and the left foot; plates are named by foot in these files.
 struct PlateRow {
@@ -46,8 +45,8 @@ class ForcePlates : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     const std::string name = GetParam();
-    const fs::path mocap = kData / "mocap" / (name + ".csv"),
-                   plates = kData / "grf" / (name + ".mot");
+    const fs::path mocap = kSharedData / "mocap" / (name + ".csv"),
+                   plates = kSharedData / "grf" / (name + ".mot");
     if (!fs::exists(mocap) || !fs::exists(plates))
       GTEST_SKIP() << "no force-plate trials: " << plates << " is absent";
     motion_ = read_motion(mocap);

@@ -10,6 +10,7 @@
 #include "io/calibration/calibration.h"
 #include "jobs/init/seen_walker.h"
 #include "observation/pose_net/pose_net.h"
+#include "tests/data_folders.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 
@@ -18,9 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-const fs::path kDemo = fs::path(WALKTRACK_SOURCE_DIR) / "data/demo";
-const fs::path kData = fs::path(WALKTRACK_SOURCE_DIR) / "../shared/data";
 
 class Init : public testing::Test {
  protected:
@@ -78,7 +76,7 @@ TEST_F(Init, KnowsHeightAndDistanceWhereLensAndTiltAreStated) {
 // Two walks of one person by an independent renderer; kSeenShare was fitted on them and others.
 TEST_F(Init, ScaleOfIndependentRendersIsRight) {
   for (const char* name : {"cmu_02_01", "cmu_02_02"}) {
-    const fs::path folder = kData / "rendered" / name;
+    const fs::path folder = kSharedData / "rendered" / name;
     if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
     const InitOutcome found =
         init_scene(job(folder / "cam0.mp4", 1.71, folder / "cam0_background.mp4"), {});
@@ -93,7 +91,7 @@ TEST_F(Init, ScaleOfIndependentRendersIsRight) {
 // the camera's height is 3.5 % off, for a walk straight across does not tell 1 degree of tilt and
 // roll, which move it by 3 to 6 %.
 TEST_F(Init, OfTheRealSideViewIsTheGivenCalibration) {
-  const fs::path folder = kData / "sports2d_side";
+  const fs::path folder = kSharedData / "sports2d_side";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
   if (!has_pose_net()) GTEST_SKIP() << "without the pose network";
   const InitOutcome found = init_scene(job(folder / "video.mp4", 1.65), {});

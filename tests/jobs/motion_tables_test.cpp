@@ -9,6 +9,7 @@
 #include "io/archive/files.h"
 #include "io/tables/csv.h"
 #include "io/tables/motion_file.h"
+#include "tests/data_folders.h"
 #include "tests/io/c3d_reader.h"
 #include "tests/io/opensim_reader.h"
 #include "tests/run_program.h"
@@ -17,8 +18,6 @@ namespace walktrack {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kDemo = fs::path(WALKTRACK_SOURCE_DIR) / "data/demo";
 
 TEST(FootContacts, AStanceCutByTheEndLastsAsLongAsDoubleSupportElsewhere) {
   Gait gait;

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "io/video/video.h"
+#include "tests/data_folders.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -13,7 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kDemo = fs::path(WALKTRACK_SOURCE_DIR) / "data/demo";
 constexpr double kRate = 30;
 
 FrameRecord standing_at(const Eigen::Vector2d& place) {

@@ -22,11 +22,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRate = 30;
+constexpr double kFrameRate = 30;
 
 Motion true_walk() {
   MadeWalk walk;
-  walk.rate = kRate;
+  walk.rate = kFrameRate;
   walk.to = 5;
   return made_walk(make_body(Subject{}, {.head = true, .arms = false}), walk);
 }

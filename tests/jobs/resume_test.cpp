@@ -20,9 +20,9 @@ namespace walktrack {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
-constexpr int kFrames = 24;
+constexpr int kVideoFrames = 24;
 
 struct Killed {};  // what a test throws to leave a job in the middle, with nothing tidied up
 
@@ -34,7 +34,7 @@ class Resume : public testing::Test {
     job.scene.cameras.resize(cameras_);
     // Told where to start: six frames later it is tracked.
     job.scene.initial = InitialState{0, {-2.5, 0}, 0, 1.25, {}};
-    job.scene.last_frame = kFrames - 1;
+    job.scene.last_frame = kVideoFrames - 1;
     job.scene.height_given = size_known_;
     Config& config = job.config.values;
     config.tracker.filter.particles = 40;
@@ -98,14 +98,14 @@ TEST_F(Resume, AfterAKillItEndsWithTheSameBytes) {
   EXPECT_FALSE(whole.contains("frames.bin"));
   // Before there is a checkpoint, in the middle twice, after the last frame.
   kill(job("killed"), 5);
-  for (const size_t frames : {size_t{9}, size_t{16}, size_t{kFrames}}) {
+  for (const size_t frames : {size_t{9}, size_t{16}, size_t{kVideoFrames}}) {
     TrackJob again = job("killed");
     again.resume = true;
     kill(again, frames);
     EXPECT_FALSE(fs::exists(folder_ / "killed/run.json"));
   }
   resume(job("killed"));
-  EXPECT_EQ(resumed_at("killed"), kFrames);
+  EXPECT_EQ(resumed_at("killed"), kVideoFrames);
   EXPECT_EQ(result("killed"), whole);
 }
 

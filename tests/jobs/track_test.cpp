@@ -17,6 +17,7 @@
 #include "io/video/video.h"
 #include "jobs/track/track_setup.h"
 #include "metrics/joint_error.h"
+#include "tests/data_folders.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 
@@ -24,8 +25,6 @@ namespace walktrack {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kDemo = fs::path(WALKTRACK_SOURCE_DIR) / "data/demo";
 
 class Track : public testing::Test {
  protected:

@@ -14,6 +14,7 @@
 #include "jobs/render/render.h"
 #include "jobs/track/track.h"
 #include "metrics/joint_error.h"
+#include "tests/data_folders.h"
 #include "tests/io/sample_files.h"
 
 namespace walktrack {
@@ -67,7 +68,7 @@ class UnevenCameras : public testing::Test {
     write_file_atomically(folder_ / "scene/named.yaml", scene + more);
     TrackJob job;
     job.scene = read_scene(folder_ / "scene/named.yaml");
-    apply_config_file(job.config, WALKTRACK_SOURCE_DIR "/tests/any_quality.yaml");
+    apply_config_file(job.config, kAnyQuality);
     job.config.values.tracker.filter.particles = 100;
     job.output = folder_ / "tracked";
     job.overlay = false;

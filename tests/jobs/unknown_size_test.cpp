@@ -15,6 +15,7 @@
 #include "jobs/render/render.h"
 #include "jobs/track/track.h"
 #include "metrics/joint_error.h"
+#include "tests/data_folders.h"
 #include "tests/io/sample_files.h"
 
 namespace walktrack {
@@ -22,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kOptions = R"(
+constexpr const char* kRenderOptions = R"(
 seed: 20
 frame_rate: 30
 duration: 1.6
@@ -40,7 +41,7 @@ class UnknownSize : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
-    write_file_atomically(folder() / "options.yaml", kOptions);
+    write_file_atomically(folder() / "options.yaml", kRenderOptions);
     const RenderFile file = read_render_file(folder() / "options.yaml");
     RenderJob job;
     job.options = file.options;
@@ -57,7 +58,7 @@ class UnknownSize : public testing::Test {
     write_file_atomically(folder() / "scene/other.yaml", replaced(scene, kSubject, subject));
     TrackJob job;
     job.scene = read_scene(folder() / "scene/other.yaml");
-    apply_config_file(job.config, WALKTRACK_SOURCE_DIR "/tests/any_quality.yaml");
+    apply_config_file(job.config, kAnyQuality);
     job.config.values.tracker.filter.particles = 60;
     job.config.values.tracker.start.particles = 40;
     job.output = folder() / "tracked";

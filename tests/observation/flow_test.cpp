@@ -37,7 +37,7 @@ cv::Mat pattern(const Vector2d& shift, int width = kSize, int height = kSize) {
   return image;
 }
 
-constexpr PixelRect kAll{0, 0, kSize, kSize};
+constexpr PixelRect kWholePicture{0, 0, kSize, kSize};
 
 constexpr double kMetresPerPx = 0.015;
 
@@ -45,7 +45,7 @@ GreyImage grey(const cv::Mat& image) {
   return {image.cols, image.rows, {image.data, image.data + image.total()}};
 }
 
-FlowField paired(const cv::Mat& before, const cv::Mat& now, const PixelRect& area = kAll,
+FlowField paired(const cv::Mat& before, const cv::Mat& now, const PixelRect& area = kWholePicture,
                  double metres_per_px = kMetresPerPx) {
   FlowField field;
   make_flow_field({}, grey(before), grey(now), {}, area, metres_per_px, field);
@@ -64,8 +64,8 @@ FlowField blank() {
 TEST(FlowField, LatticeIsAsFineAsTheBodyNeeds) {
   const cv::Mat image = pattern({0, 0});
   EXPECT_EQ(paired(image, image, {0, 0, 120, 120}, 0.045).step, 1);
-  EXPECT_EQ(paired(image, image, kAll, 0.015).step, 3);
-  const FlowField coarse = paired(image, image, kAll, 0.009);
+  EXPECT_EQ(paired(image, image, kWholePicture, 0.015).step, 3);
+  const FlowField coarse = paired(image, image, kWholePicture, 0.009);
   EXPECT_EQ(coarse.step, 5);
   EXPECT_EQ(coarse.columns, kSize / 5);
   EXPECT_EQ(coarse.cells.size(), static_cast<size_t>(coarse.columns * coarse.rows));
@@ -255,8 +255,8 @@ TEST(FlowLogRatio, WhatWasHiddenMayLookLikeAnything) {
 // A walker seen through a strongly bending lens: the picture moves as a material point does,
 // computed here from 3-D; the predicted motion must agree with it to a small part of a pixel.
 TEST(FlowLogRatio, PredictsMotionThroughTheLens) {
-  constexpr int kWidth = 320, kHeight = 240;
-  Camera camera = camera_at({0, -6, 1.5}, {0, 0, 0.9}, 336, kWidth, kHeight);
+  constexpr int kPictureWidth = 320, kPictureHeight = 240;
+  Camera camera = camera_at({0, -6, 1.5}, {0, 0, 0.9}, 336, kPictureWidth, kPictureHeight);
   const double distortion[] = {-0.25, 0.08, 0.002, -0.001};
   set_distortion(camera, distortion);
   const Eigen::Vector3d velocity(0.06, 0.01, 0.01);  // m a frame
@@ -269,8 +269,9 @@ TEST(FlowLogRatio, PredictsMotionThroughTheLens) {
   const CapsuleList now = project_parts(camera, std::vector{later});
   const Eigen::Vector3d middle = 0.5 * (part.lower + part.upper);
   const Vector2d truth = *project(camera, middle + velocity) - *project(camera, middle);
-  const FlowField field = paired(pattern({0, 0}, kWidth, kHeight), pattern(truth, kWidth, kHeight),
-                                 {0, 0, kWidth, kHeight}, 0.018);
+  const FlowField field = paired(pattern({0, 0}, kPictureWidth, kPictureHeight),
+                                 pattern(truth, kPictureWidth, kPictureHeight),
+                                 {0, 0, kPictureWidth, kPictureHeight}, 0.018);
   const auto score = [&](const Vector2d& off) {
     return flow_log_ratio({}, field, now, moved(before, off));
   };

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t kMaxRunJson = size_t{1} << 24;
 
 constexpr SuiteScene kScenes[] = {
@@ -66,7 +66,7 @@ double median_evidence(const nlohmann::json& run) {
   std::vector<double> values;
   for (const nlohmann::json& value : run.at("by_frame").at("log_evidence"))
     if (value.is_number()) values.push_back(value);
-  return values.empty() ? kNone : quantile(std::move(values), 0.5);
+  return values.empty() ? kNoValue : quantile(std::move(values), 0.5);
 }
 
 // Of the flexion of a joint, over both legs.

@@ -148,13 +148,13 @@ double true_score() {
   return pairs().score([](PosePair&) {});
 }
 
-struct Freedom {
+struct Move {
   std::string name;
   std::function<void(Pose&, double by)> move;
 };
 
-const std::vector<Freedom>& freedoms() {
-  static const std::vector<Freedom> all{
+const std::vector<Move>& moves() {
+  static const std::vector<Move> all{
       {"along", [](Pose& p, double by) { p.root.x() += 0.06 * by; }},
       {"aside", [](Pose& p, double by) { p.root.y() += 0.06 * by; }},
       {"up", [](Pose& p, double by) { p.root.z() += 0.06 * by; }},
@@ -171,7 +171,7 @@ const std::vector<Freedom>& freedoms() {
 TEST(FlowMaximum, LiesWhereTheBodyIs) {
   const double truth = true_score();
   EXPECT_GT(truth, 0);
-  for (const Freedom& freedom : freedoms()) {
+  for (const Move& freedom : moves()) {
     for (const double by : {-2.0, -1.0, -0.5, 0.5, 1.0, 2.0}) {
       const double beside = pairs().score([&](PosePair& pair) {
         freedom.move(pair.now, by);
@@ -185,7 +185,7 @@ TEST(FlowMaximum, LiesWhereTheBodyIs) {
 // A sixth of these changes, in the last frame alone.
 TEST(FlowMaximum, LiesAtTheTrueMotion) {
   const double truth = true_score();
-  for (const Freedom& freedom : freedoms())
+  for (const Move& freedom : moves())
     for (const double by : {-1.0 / 6, 1.0 / 6})
       EXPECT_LT(pairs().score([&](PosePair& pair) { freedom.move(pair.now, by); }), truth)
           << freedom.name << " " << by;

@@ -8,13 +8,12 @@
 
 #include "core/conventions.h"
 #include "core/rng.h"
+#include "tests/observation/scenes.h"
 
 namespace walktrack {
 namespace {
 
 using Eigen::Vector3d;
-
-double draw(Rng& rng, double low, double high) { return low + (high - low) * rng.uniform(); }
 
 Vector3d random_direction(Rng& rng) {
   return Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized();

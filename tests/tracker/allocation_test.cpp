@@ -8,6 +8,7 @@
 #include "made_evidence.h"
 #include "tests/observation/scenes.h"
 #include "tests/sanitized.h"
+#include "tests/tracker/frame_time.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
@@ -16,14 +17,13 @@ namespace {
 // Of the frames after the first few, the one that allocates most.
 long most_allocations(int particles) {
   const Walking walking{};
-  constexpr double kFrame = 1.0 / 30;
-  TrackerScene scene = unseen(walking.model, kFrame);
+  TrackerScene scene = unseen(walking.model, kDt);
   SceneEvidence evidence;
   for (const double x : {0.0, 1.0}) {
     scene.cameras.push_back(camera_at({x, -4, 1}, {x, 0, 1}, 300, kEvidenceWidth, kEvidenceHeight));
     evidence.push_back(made_evidence(0.2, false));
   }
-  const WalkerFilterContext context{scene, walking.context(kFrame), 20, 1};
+  const WalkerFilterContext context{scene, walking.context(kDt), 20, 1};
   WalkerFilter filter({}, 1, 1);
   filter.start(walkers_on_their_way(context.motion, particles));
   long most = 0;

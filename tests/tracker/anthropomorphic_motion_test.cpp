@@ -6,15 +6,14 @@
 
 #include "body/kinematics.h"
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 #include "tracker/motion/markov_motion.h"
 
 namespace walktrack {
 namespace {
 
-constexpr double kDt = 1.0 / 30;
-
 // The walk of the prior, nothing else: knees straighten, the trunk rights itself.
-MotionConfig quiet() {
+MotionConfig quiet_anthropomorphic() {
   MotionConfig config;
   config.model = MotionKind::kAnthropomorphic;
   config.torque_noise_scale = config.phase_noise = config.ball_drift = config.ball_slip =
@@ -30,7 +29,7 @@ void silence(const MotionContext& context, WalkerParticle& particle) {
 
 TEST(AnthropomorphicMotion, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
   const Walking walking(MotionKind::kAnthropomorphic);
-  const MotionContext context = walking.context(kDt, quiet());
+  const MotionContext context = walking.context(kDt, quiet_anthropomorphic());
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   const double speed = p.aim.speed;
   const Eigen::Vector3d start = p.pose.root;
@@ -49,7 +48,7 @@ TEST(AnthropomorphicMotion, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
 // Between two transfers the foot's place is the same; the hip goes on as smoothly as the walker's.
 TEST(AnthropomorphicMotion, TheStandingFootStands) {
   const Walking walking(MotionKind::kAnthropomorphic);
-  const MotionContext context = walking.context(kDt, quiet());
+  const MotionContext context = walking.context(kDt, quiet_anthropomorphic());
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   for (uint32_t frame = 0; frame < 90; ++frame) {
     const WalkerParticle before = p;
@@ -65,7 +64,7 @@ TEST(AnthropomorphicMotion, TheStandingFootStands) {
 
 TEST(AnthropomorphicMotion, WhoFallsCatchesTheStep) {
   const Walking walking(MotionKind::kAnthropomorphic);
-  const MotionContext context = walking.context(kDt, quiet());
+  const MotionContext context = walking.context(kDt, quiet_anthropomorphic());
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   for (const int k : {kStanceThigh, kStanceShank}) p.walker.q[k] = -1.3;
   Rng rng(1, Purpose::kTest);
@@ -81,7 +80,7 @@ TEST(AnthropomorphicMotion, WhoFallsCatchesTheStep) {
 // Knees bend about the lines of the legs: however bent, thigh and shank lean evenly to both sides.
 TEST(AnthropomorphicMotion, KneesBendAboutTheLinesOfTheLegs) {
   const Walking walking(MotionKind::kAnthropomorphic);
-  const MotionContext context = walking.context(kDt, quiet());
+  const MotionContext context = walking.context(kDt, quiet_anthropomorphic());
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   p.noise.fill(0);
   for (const double flexion : {0.0, 0.4, 1.1}) {

@@ -10,22 +10,22 @@ namespace walktrack {
 
 namespace {
 
-std::atomic<long> count{0};
+std::atomic<long> allocation_count{0};
 
 }  // namespace
 
-long allocations() { return count; }
+long allocations() { return allocation_count; }
 
 }  // namespace walktrack
 
 #if !WALKTRACK_SANITIZED
 void* operator new(size_t size) {
-  ++walktrack::count;
+  ++walktrack::allocation_count;
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
 void* operator new(size_t size, std::align_val_t alignment) {
-  ++walktrack::count;
+  ++walktrack::allocation_count;
   const auto unit = static_cast<size_t>(alignment);
   if (void* memory = std::aligned_alloc(unit, (size + unit - 1) / unit * unit)) return memory;
   throw std::bad_alloc();

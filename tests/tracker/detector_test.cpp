@@ -5,26 +5,25 @@
 #include <gtest/gtest.h>
 
 #include "core/conventions.h"
+#include "tests/tracker/frame_time.h"
 #include "tests/tracker/side_camera.h"
 
 namespace walktrack {
 namespace {
-
-constexpr double kDt = 1.0 / 30;
 
 // A bell of score around where somebody is.
 double bell(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double height) {
   return height * std::exp(-(place - truth).squaredNorm() / (2 * 0.3 * 0.3));
 }
 
-constexpr size_t kFrames = 24;
+constexpr size_t kWindowFrames = 24;
 
 struct Window {
   std::vector<Place> early, late;
   WindowScore score;
 
   std::optional<DetectedWalk> walk(int threads = 1) const {
-    return detect_walk({kFrames, early, late}, score, kDt, {0, -6}, {}, threads);
+    return detect_walk({kWindowFrames, early, late}, score, kDt, {0, -6}, {}, threads);
   }
 };
 
@@ -34,7 +33,7 @@ Window window(const std::function<double(size_t, const Eigen::Vector2d&)>& score
   const auto figures = [&](size_t f) {
     return find_figures([&](const Eigen::Vector2d& p) { return score(f, p); }, places, {}, 1);
   };
-  const WindowEnds ends = window_ends(kFrames);
+  const WindowEnds ends = window_ends(kWindowFrames);
   return {figures(ends.early), figures(ends.late),
           [=](size_t f, const Eigen::Vector2d& p, const Eigen::Vector2d&) { return score(f, p); }};
 }
@@ -72,7 +71,7 @@ TEST(FindWalk, SparesItselfTheFineStepsWhereNobodyIsSeenForAMoment) {
       return frame < hidden_until ? -5 : bell(p, walker_at(frame), 100);
     });
     // The early candidates of somebody who is seen throughout: both propose the same lines.
-    f.early = {{walker_at(window_ends(kFrames).early), 100}};
+    f.early = {{walker_at(window_ends(kWindowFrames).early), 100}};
     f.score = [&asked, score = f.score](size_t frame, const Eigen::Vector2d& p,
                                         const Eigen::Vector2d& velocity) {
       ++asked;
@@ -102,7 +101,7 @@ TEST(FindWalk, ClimbsAlongTheRayOfEitherEnd) {
   Window f =
       window([&](size_t frame, const Eigen::Vector2d& p) { return ridge(p, truth(frame), 100); });
   // The only candidate of the late frame stands on its ray, but half as far again away.
-  const size_t late = window_ends(kFrames).late;
+  const size_t late = window_ends(kWindowFrames).late;
   const Eigen::Vector2d camera_position(0, -6),
       far = camera_position + 1.5 * (truth(late) - camera_position);
   f.late = {{far, f.score(late, far, {})}};

@@ -2,23 +2,22 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 #include "tracker/tracker.h"
 
 namespace walktrack {
 namespace {
 
-constexpr double kFrame = 1.0 / 30;
-
 // Standard deviation of the pelvis over the ground in the first frame when nothing is seen, m.
 double first_spread(double given, double arrival) {
-  TrackerScene scene = unseen(test_model(), kFrame);
+  TrackerScene scene = unseen(test_model(), kDt);
   scene.initial = DetectedWalk{.position = {1, 2}, .velocity = {0, 1.2}, .given = true};
   TrackerConfig config;
   config.motion.given_position_sd = given;
   config.motion.start_position_sd = arrival;
   const GaitPrior prior = load_gait_prior();
   Tracker tracker(scene, prior, config, 1, 1);
-  for (int frame = 0; frame < frames_in(config.start.seconds, kFrame); ++frame) {
+  for (int frame = 0; frame < frames_in(config.start.seconds, kDt); ++frame) {
     const std::vector<FrameRecord> records = tracker.push({});
     if (records.empty()) continue;
     const FrameEstimate& first = records.front().estimate;

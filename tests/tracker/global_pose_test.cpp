@@ -7,11 +7,10 @@
 #include "body/kinematics.h"
 #include "core/conventions.h"
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
-
-constexpr double kDt = 1.0 / 30;
 
 std::vector<double> equal_weights(size_t count) { return std::vector<double>(count, 0.0); }
 

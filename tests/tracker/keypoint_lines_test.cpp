@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/rng.h"
+#include "tests/tracker/frame_time.h"
 #include "tests/tracker/side_camera.h"
 
 namespace walktrack {

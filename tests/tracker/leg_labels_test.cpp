@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
-
-constexpr double kDt = 1.0 / 30;
 
 std::vector<NamedFrame> track(size_t frames, double odds) {
   return std::vector<NamedFrame>(frames, NamedFrame{true, odds, 0.1});

@@ -7,14 +7,13 @@
 #include "body/kinematics.h"
 #include "core/conventions.h"
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
 
-constexpr double kDt = 1.0 / 30;
-
 // A walk without noise.
-MotionConfig quiet() {
+MotionConfig quiet_markov() {
   MotionConfig config;
   config.model = MotionKind::kMarkov;
   config.markov_noise_scale = config.yaw_rate_sd = config.start_position_sd = 0;
@@ -90,7 +89,7 @@ TEST(MarkovMotion, AnglesSwing) {
 
 TEST(MarkovMotion, WithoutNoiseTheRootGoesStraightOnAtItsSpeed) {
   const Walking walking(MotionKind::kMarkov);
-  const MotionContext context = walking.context(kDt, quiet());
+  const MotionContext context = walking.context(kDt, quiet_markov());
   WalkerParticle p = first_seen(context, 1.2);
   const Eigen::Vector3d start = p.pose.root;
   constexpr int kFrames = 60;
@@ -106,7 +105,7 @@ TEST(MarkovMotion, WithoutNoiseTheRootGoesStraightOnAtItsSpeed) {
 // Whoever is first seen in a gait goes on in it, though nothing but habit carries them.
 TEST(MarkovMotion, EntersAGaitOnTheWay) {
   const Walking walking(MotionKind::kMarkov);
-  const MotionContext context = walking.context(kDt, quiet());
+  const MotionContext context = walking.context(kDt, quiet_markov());
   const BodyModel& model = walking.model;
   for (const double phase : {0.01, 0.3, 0.6, 0.99}) {
     WalkerParticle p;
@@ -128,7 +127,7 @@ TEST(MarkovMotion, EntersAGaitOnTheWay) {
 // Feet that go back under the root stand: in the walker's own gait that is the stance foot.
 TEST(MarkovMotion, TheStandingFootIsTheOneThatGoesBack) {
   const Walking walking(MotionKind::kMarkov);
-  const MotionContext context = walking.context(kDt, quiet());
+  const MotionContext context = walking.context(kDt, quiet_markov());
   const PriorGait gait = gait_at(walking.prior, walking.model.walker.parameters, 1.25, 0.7);
   int right = 0, moments = 0;
   for (double phase = 0.1; phase < 0.9; phase += 0.1, ++moments) {

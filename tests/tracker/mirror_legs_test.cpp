@@ -4,17 +4,16 @@
 
 #include "body/kinematics.h"
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 #include "tracker/modes.h"
 
 namespace walktrack {
 namespace {
 
-constexpr double kFrame = 1.0 / 30;
-
 class MirroredLegs : public testing::TestWithParam<MotionKind> {
  protected:
   Walking walking{GetParam()};
-  MotionContext context = walking.context(kFrame);
+  MotionContext context = walking.context(kDt);
   const Body& body = walking.model.body;
   std::vector<WalkerParticle> set = walkers_on_their_way(context, 30);
 
@@ -94,7 +93,7 @@ TEST_P(MirroredLegs, WalkOn) {
       outcome = propagate(context, particle, rng);
     if (outcome != Outcome::kAlive) continue;
     ++alive;
-    EXPECT_NEAR((particle.pose.root - start.root).head<2>().norm(), 1.3 * 10 * kFrame, 0.35);
+    EXPECT_NEAR((particle.pose.root - start.root).head<2>().norm(), 1.3 * 10 * kDt, 0.35);
   }
   EXPECT_GT(alive, 20);
 }
@@ -102,11 +101,11 @@ TEST_P(MirroredLegs, WalkOn) {
 TEST_P(MirroredLegs, OfARecordAreThoseOfItsParticles) {
   const std::vector<double> weights(set.size(), 1.0 / double(set.size()));
   FrameRecord record;
-  record.estimate = estimate_frame(walking.model, set, weights, kFrame, 1);
+  record.estimate = estimate_frame(walking.model, set, weights, kDt, 1);
   record.modes = stride_modes(set, weights);
   mirror_legs(body, record);
   for (WalkerParticle& particle : set) mirror_legs(context, particle);
-  const FrameEstimate after = estimate_frame(walking.model, set, weights, kFrame, 1);
+  const FrameEstimate after = estimate_frame(walking.model, set, weights, kDt, 1);
   for (int i = 0; i < kJointAngleCount; ++i) {
     const Spread &is = record.estimate.angles[size_t(i)], &wanted = after.angles[size_t(i)];
     EXPECT_NEAR(is.mean, wanted.mean, 0.02) << i;

@@ -6,12 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 #include "tracker/moves/global_pose.h"
 
 namespace walktrack {
 namespace {
-
-constexpr double kDt = 1.0 / 30;
 
 class EveryMotionModel : public testing::TestWithParam<MotionKind> {
  protected:

@@ -6,12 +6,13 @@
 
 #include "body/kinematics.h"
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
 
 // All noise off: the walk of the prior, nothing else.
-MotionConfig quiet() {
+MotionConfig quiet_kneed() {
   MotionConfig config;
   config.phase_jump_rate = 0;
   config.torque_noise_scale = config.phase_noise = config.ball_drift = config.ball_slip =
@@ -29,7 +30,7 @@ void silence(WalkerParticle& particle, const MotionContext& context) {
 TEST(Propagate, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
   const Walking walking;
   const double dt = 1.0 / 30;
-  const MotionContext context = walking.context(dt, quiet());
+  const MotionContext context = walking.context(dt, quiet_kneed());
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   p.aim = {1.2, 0.68};
   constexpr int kFrames = 150;
@@ -51,9 +52,8 @@ TEST(Propagate, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
 // Law of similarity: with lengths k and times root k, somebody k times as tall walks the same way,
 // noise and all but that of the angles.
 TEST(ToScale, TheSmallAndTheLargeWalkAlike) {
-  constexpr double kFrame = 1.0 / 30;
   const auto where = [&](double height) -> Eigen::Vector2d {
-    const double length = height / kAdultHeight, dt = kFrame * std::sqrt(length);
+    const double length = height / kAdultHeight, dt = kDt * std::sqrt(length);
     Walking walking;
     const Subject subject{.height = height, .mass = 70 * std::pow(length, 3), .lengths = {}};
     walking.model.body = make_body(subject, {.head = true, .arms = false});
@@ -80,7 +80,7 @@ TEST(ToScale, TheSmallAndTheLargeWalkAlike) {
 double heading_after(double facing, double aside, double seconds) {
   const Walking walking;
   constexpr double dt = 1.0 / 30;
-  MotionConfig config = quiet();
+  MotionConfig config = quiet_kneed();
   config.heading_time_constant = facing;
   const MotionContext context = walking.context(dt, config);
   WalkerParticle p = walkers(context, 1.2, 1)[0];
@@ -112,7 +112,7 @@ TEST(Propagate, TheHeadingComesBackToTheWay) {
 TEST(Propagate, ATurnGoesOn) {
   const Walking walking;
   constexpr double dt = 1.0 / 30, rate = 0.5;
-  const MotionContext context = walking.context(dt, quiet());
+  const MotionContext context = walking.context(dt, quiet_kneed());
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   Rng rng(1, Purpose::kTest);
   draw_first_noise(context, p, rng);
@@ -130,7 +130,7 @@ TEST(Propagate, ATurnGoesOn) {
 TEST(Propagate, ThePelvisNeverJumps) {
   const Walking walking;
   constexpr double dt = 1.0 / 60;
-  const MotionContext context = walking.context(dt, quiet());
+  const MotionContext context = walking.context(dt, quiet_kneed());
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   for (int frame = 0; frame < 300; ++frame) {
     Rng rng(1, Purpose::kTest, static_cast<uint32_t>(frame));
@@ -145,7 +145,7 @@ TEST(Propagate, ThePelvisNeverJumps) {
 // A walker bent down to where no step can save it goes on upright, as the gait that it aims at.
 TEST(Propagate, WhoFallsCatchesTheStep) {
   const Walking walking;
-  const MotionContext context = walking.context(1.0 / 30, quiet());
+  const MotionContext context = walking.context(1.0 / 30, quiet_kneed());
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   const double upright = p.pose.root.z();
   p.walker.q[kStanceThigh] -= 0.9;

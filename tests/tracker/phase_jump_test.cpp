@@ -5,11 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
-
-constexpr double kDt = 1.0 / 30;
 
 Rng stream(uint32_t i) { return {5, Purpose::kTorque, 1, i}; }
 

@@ -9,6 +9,7 @@
 
 #include "body/kinematics.h"
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFrame = 1.0 / 30;
 constexpr FlatFoot kStretch{Side::kLeft, 20, 32};
 
 Vector2d foot_of(const Motion& motion, size_t row, Side side = Side::kLeft) {
@@ -28,7 +28,7 @@ Vector2d foot_of(const Motion& motion, size_t row, Side side = Side::kLeft) {
 Motion creeping(size_t rows = 60) {
   Motion motion;
   for (size_t i = 0; i < rows; ++i) {
-    const double t = static_cast<double>(i) * kFrame;
+    const double t = static_cast<double>(i) * kDt;
     motion.time.push_back(t);
     JointPositions& joints = motion.joints.emplace_back();
     joints.at.fill(Vector3d::Zero());
@@ -76,7 +76,7 @@ TEST(PlantingShifts, AreTheLeastSquaresOfTheHeader) {
   Eigen::Index row = 0;
   for (Eigen::Index i = 0; i < kRows; ++i) a(row++, i) = 1;
   for (Eigen::Index i = 1; i + 1 < kRows; ++i)
-    a.row(row++).segment<3>(i - 1) = std::pow(kTau / kFrame, 2) * Eigen::RowVector3d(1, -2, 1);
+    a.row(row++).segment<3>(i - 1) = std::pow(kTau / kDt, 2) * Eigen::RowVector3d(1, -2, 1);
   for (Eigen::Index k = 0; k < 2; ++k) {
     for (size_t i = flats[size_t(k)].first; i <= flats[size_t(k)].last; ++i) {
       a(row, Eigen::Index(i)) = std::sqrt(kWeight);

@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 #include "tracker/moves/global_pose.h"
 #include "tracker/moves/mirror_legs.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
 namespace {
-
-constexpr double kFrame = 1.0 / 30;
 
 class SagittalPath : public testing::TestWithParam<MotionKind> {
  protected:
@@ -27,7 +26,7 @@ class SagittalPath : public testing::TestWithParam<MotionKind> {
   }
 
   Walking walking{GetParam(), Path::kSagittal};
-  MotionContext context = walking.context(kFrame);
+  MotionContext context = walking.context(kDt);
 };
 
 constexpr std::array kSideways{kHeading,        kList,     kAbduction,
@@ -81,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Models, SagittalPath,
 // Without noise the feet come down left and right of one line.
 TEST(SagittalWalk, GoesAlongALine) {
   const Walking walking(MotionKind::kKneed, Path::kSagittal);
-  const MotionContext context = walking.context(kFrame);
+  const MotionContext context = walking.context(kDt);
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   const double line = p.pose.root.y();
   const double x = p.pose.root.x();
@@ -98,7 +97,7 @@ TEST(SagittalWalk, GoesAlongALine) {
 // A course may still be proposed as a whole: with the line go the place and the heading.
 TEST(SagittalWalk, ASetCanTakeAnotherCourse) {
   const Walking walking(MotionKind::kKneed, Path::kSagittal);
-  const MotionContext context = walking.context(kFrame);
+  const MotionContext context = walking.context(kDt);
   WalkerParticle p = walkers_on_their_way(context, 1)[0];
   CourseSpread spread;
   spread.mean << p.pose.root.head<2>(), 0.1, p.residual[kCrouch], p.residual[kTilt];

@@ -9,13 +9,12 @@
 
 #include "core/conventions.h"
 #include "core/rng.h"
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
 
-constexpr double kFrame = 1.0 / 30;
-
-using Path = double (*)(double t);
+using Curve = double (*)(double t);
 
 // A figure all of whose numbers follow one path.
 FrameRecord record_at(double x, double sd = 0.02) {
@@ -35,7 +34,7 @@ FrameRecord record_at(double x, double sd = 0.02) {
 }
 
 std::vector<FrameRecord> smooth(const std::vector<FrameRecord>& records, double lag = 0.2,
-                                double dt = kFrame) {
+                                double dt = kDt) {
   Smoother smoother({.lag = lag}, dt);
   std::vector<FrameRecord> out;
   for (const FrameRecord& record : records)
@@ -51,7 +50,7 @@ double x_of(const FrameRecord& record) { return record.estimate.joints[Joint::kL
 TEST(Smoother, LeavesParabolasAlone) {
   std::vector<FrameRecord> records;
   for (int i = 0; i < 40; ++i) {
-    const double t = i * kFrame;
+    const double t = i * kDt;
     records.push_back(record_at(0.3 - 1.2 * t + 2 * t * t, 0.01 + 0.01 * (i % 3)));
   }
   const auto smoothed = smooth(records);
@@ -83,7 +82,7 @@ TEST(Smoother, TakesNoiseAway) {
     EXPECT_EQ(spread.sd, 0.02);
   }
   std::vector<double> times;
-  for (int d = -6; d <= 6; ++d) times.push_back(d * kFrame);
+  for (int d = -6; d <= 6; ++d) times.push_back(d * kDt);
   const auto w = smoothing_weights(times, std::vector<double>(times.size(), 1), 0.2);
   const double kept = std::inner_product(w.begin(), w.end(), w.begin(), 0.0);
   EXPECT_LT(kept, 0.4);
@@ -95,31 +94,33 @@ TEST(Smoother, TakesNoiseAway) {
 // Rauch-Tung-Striebel smoother computes), solved as one system over all frames. The parabolas know
 // neither jerk nor noise, and come close wherever the lag suits their ratio.
 TEST(Smoother, IsHardlyWorseThanTheExactSmootherOfAKnownModel) {
-  constexpr int kFrames = 150;
+  constexpr int kSampleCount = 150;
   constexpr double kNoise = 0.01, kJerk = 15;  // m, m/s^3 per root Hz: joints of a walker
   // x = A u, u ~ N(0, I): position under integrated unit impulses of jerk, free beginnings.
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(kFrames, kFrames + 3);
-  for (int i = 0; i < kFrames; ++i) {
-    for (int k = 0; k < 3; ++k) a(i, k) = std::pow(i * kFrame, k);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(kSampleCount, kSampleCount + 3);
+  for (int i = 0; i < kSampleCount; ++i) {
+    for (int k = 0; k < 3; ++k) a(i, k) = std::pow(i * kDt, k);
     for (int k = 0; k < i; ++k)
-      a(i, 3 + k) = kJerk * std::sqrt(kFrame) * std::pow((i - k) * kFrame, 2) / 2;
+      a(i, 3 + k) = kJerk * std::sqrt(kDt) * std::pow((i - k) * kDt, 2) / 2;
   }
   const Eigen::MatrixXd prior = a * a.transpose();
   const Eigen::MatrixXd noisy =
-      prior + kNoise * kNoise * Eigen::MatrixXd::Identity(kFrames, kFrames);
+      prior + kNoise * kNoise * Eigen::MatrixXd::Identity(kSampleCount, kSampleCount);
   const Eigen::MatrixXd exact = noisy.ldlt().solve(prior).transpose();
   double filtered = 0, by_parabolas = 0, by_exact = 0;
   for (uint32_t run = 0; run < 40; ++run) {
     Rng rng(2, Purpose::kTest, run);
     const Eigen::VectorXd truth =
-        a * Eigen::VectorXd::NullaryExpr(kFrames + 3, [&](Eigen::Index) { return rng.normal(); });
+        a *
+        Eigen::VectorXd::NullaryExpr(kSampleCount + 3, [&](Eigen::Index) { return rng.normal(); });
     const Eigen::VectorXd seen =
-        truth + kNoise * Eigen::VectorXd::NullaryExpr(kFrames, [&](auto) { return rng.normal(); });
+        truth +
+        kNoise * Eigen::VectorXd::NullaryExpr(kSampleCount, [&](auto) { return rng.normal(); });
     std::vector<FrameRecord> records;
     for (const double x : seen) records.push_back(record_at(x));
     const auto smoothed = smooth(records);
-    Eigen::VectorXd found(kFrames);
-    for (int i = 0; i < kFrames; ++i) found[i] = x_of(smoothed[static_cast<size_t>(i)]);
+    Eigen::VectorXd found(kSampleCount);
+    for (int i = 0; i < kSampleCount; ++i) found[i] = x_of(smoothed[static_cast<size_t>(i)]);
     filtered += (seen - truth).squaredNorm();
     by_parabolas += (found - truth).squaredNorm();
     by_exact += (exact * seen - truth).squaredNorm();
@@ -159,7 +160,7 @@ TEST(Smoother, TurnsByTheShorterWay) {
 }
 
 TEST(Smoother, HandsOutEveryFrameOnceAndNoLaterThanTheLag) {
-  Smoother smoother({.lag = 0.1}, kFrame);
+  Smoother smoother({.lag = 0.1}, kDt);
   size_t out = 0;
   for (size_t i = 0; i < 10; ++i) {
     const auto records = smoother.push(record_at(static_cast<double>(i)));

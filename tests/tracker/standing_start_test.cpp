@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kDt = 1.0 / 30;
 const DetectedWalk kWalk{.position = {2, 1}, .velocity = {1.2, 0}};
 
 // Somebody stood at a place until the frame before the walk, and was seen for so many frames but

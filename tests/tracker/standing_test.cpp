@@ -6,11 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
-
-constexpr double kDt = 1.0 / 30;
 
 struct Crowd {
   explicit Crowd(int count, const MotionConfig& config = {})

@@ -5,17 +5,16 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
 
-constexpr double kFrame = 1.0 / 30;
-
 // Nothing is seen, so nothing tells the hypotheses apart.
 struct Blind {
   Walking walking;
-  TrackerScene scene = unseen(walking.model, kFrame);
-  WalkerFilterContext context{scene, walking.context(kFrame), 0, 1};
+  TrackerScene scene = unseen(walking.model, kDt);
+  WalkerFilterContext context{scene, walking.context(kDt), 0, 1};
   StartConfig start;
   FilterConfig filter;
   DetectedWalk detected;

@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "tests/tracker/fixture.h"
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
 
-constexpr double kDt = 1.0 / 30;
 constexpr size_t kFrames = 36;
 const Eigen::Vector2d kEye(0, -6), kBegin(-0.8, 0.4), kVelocity(1.3, 0);
 

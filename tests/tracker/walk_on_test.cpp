@@ -5,22 +5,22 @@
 #include <gtest/gtest.h>
 
 #include "tests/tracker/fixture.h"
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
 
-constexpr double kDt = 1.0 / 30;
 constexpr int kWalkers = 200;
 
-struct Crowd {
+struct Walkers {
   std::vector<WalkerParticle> particles;
   std::vector<Rng> rngs;
   std::vector<Outcome> outcomes;
 };
 
 // Walkers at all moments of their steps; every tenth bends down too far to walk on.
-Crowd crowd(const MotionContext& context) {
-  Crowd out{walkers_on_their_way(context, kWalkers), {}, {}};
+Walkers walkers(const MotionContext& context) {
+  Walkers out{walkers_on_their_way(context, kWalkers), {}, {}};
   for (uint32_t i = 0; i < kWalkers; ++i) {
     out.rngs.emplace_back(2, Purpose::kTest, 0, i);
     if (i % 10 != 0) continue;
@@ -31,7 +31,7 @@ Crowd crowd(const MotionContext& context) {
   return out;
 }
 
-void expect_same(const Crowd& a, const Crowd& b, double tolerance) {
+void expect_same(const Walkers& a, const Walkers& b, double tolerance) {
   for (size_t i = 0; i < kWalkers; ++i) {
     const KneedState &x = a.particles[i].walker, &y = b.particles[i].walker;
     EXPECT_EQ(a.outcomes[i], b.outcomes[i]) << i;
@@ -43,7 +43,7 @@ void expect_same(const Crowd& a, const Crowd& b, double tolerance) {
 TEST(WalkOn, DependsOnNobodyElse) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
-  Crowd together = crowd(context), alone = together;
+  Walkers together = walkers(context), alone = together;
   walk_on(context, together.particles, together.rngs, together.outcomes);
   for (size_t i = 0; i < kWalkers; ++i)
     walk_on(context, {&alone.particles[i], 1}, {&alone.rngs[i], 1}, {&alone.outcomes[i], 1});
@@ -53,8 +53,8 @@ TEST(WalkOn, DependsOnNobodyElse) {
 TEST(WalkOn, SomeChangeFeetAndWhoFallsIsCaught) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
-  const Crowd before = crowd(context);
-  Crowd after = before;
+  const Walkers before = walkers(context);
+  Walkers after = before;
   walk_on(context, after.particles, after.rngs, after.outcomes);
   int changed = 0;
   for (size_t i = 0; i < kWalkers; ++i) {
@@ -71,7 +71,7 @@ TEST(WalkOn, SomeChangeFeetAndWhoFallsIsCaught) {
 TEST(WalkOn, ASlopeOfNothingIsLevel) {
   Walking walking;
   const MotionContext level = walking.context(kDt);
-  Crowd batch = crowd(level), single = batch;
+  Walkers batch = walkers(level), single = batch;
   walk_on(level, batch.particles, batch.rngs, batch.outcomes);
   walking.model.downhill = {1e-12, 0};
   const MotionContext sloped = walking.context(kDt);
@@ -109,7 +109,7 @@ TEST(WalkOn, EverybodyFeelsTheSlopeOfTheirOwnHeading) {
   Walking walking;
   walking.model.downhill = {0.5, 0};
   const MotionContext sloped = walking.context(kDt);
-  Crowd down = crowd(sloped), up = down;
+  Walkers down = walkers(sloped), up = down;
   for (WalkerParticle& p : up.particles) p.residual[kHeading] += kPi;
   walk_on(sloped, down.particles, down.rngs, down.outcomes);
   walk_on(sloped, up.particles, up.rngs, up.outcomes);
@@ -167,7 +167,7 @@ TEST(WalkOn, OnASlopeHardlyAnybodyStumbles) {
     start.particles = kWalkers;
     start.speed = start.step_length = 0.05;
     const DetectedWalk detected{.position = {0, 0}, .velocity = {1.25 * std::cos(heading), 0}};
-    Crowd all{spawn(context, start, detected, {Side::kLeft, 0, 1}, 7), {}, {}};
+    Walkers all{spawn(context, start, detected, {Side::kLeft, 0, 1}, 7), {}, {}};
     all.outcomes.resize(kWalkers);
     for (uint32_t i = 0; i < kWalkers; ++i) all.rngs.emplace_back(2, Purpose::kTest, 0, i);
     int stumbled = 0;

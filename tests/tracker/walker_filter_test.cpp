@@ -8,16 +8,15 @@
 
 #include "core/log_weights.h"
 #include "fixture.h"
+#include "tests/tracker/frame_time.h"
 
 namespace walktrack {
 namespace {
 
-constexpr double kFrame = 1.0 / 30;
-
 struct Advance : testing::Test {
   const Walking walking{};
-  const TrackerScene scene = unseen(walking.model, kFrame);
-  const WalkerFilterContext context{scene, walking.context(kFrame), 1, 1};
+  const TrackerScene scene = unseen(walking.model, kDt);
+  const WalkerFilterContext context{scene, walking.context(kDt), 1, 1};
 };
 
 // Nothing is seen, yet of two walkers the one whose hips have sunk below what walking allows loses

@@ -12,7 +12,6 @@ namespace {
 
 constexpr int8_t kCharacters = -1, kWholes = 2, kReals = 4;
 constexpr size_t kMostBlocks = 255;
-constexpr char kIntel = 84;  // 83 + 1: little-endian, IEEE floats
 
 uint8_t byte_of(size_t count) {
   if (count > kC3dMostInList)
@@ -148,7 +147,7 @@ std::string c3d_parameter_section(std::span<const C3dGroup> groups) {
   append_byte(bytes, 1);
   append_byte(bytes, 0x50);
   append_byte(bytes, static_cast<int>(blocks));
-  append_byte(bytes, kIntel);
+  append_byte(bytes, kIntelProcessor);
   bytes += entries;
   bytes.resize(blocks * kC3dBlock, '\0');
   return bytes;

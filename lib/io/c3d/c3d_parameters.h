@@ -10,6 +10,8 @@
 
 namespace walktrack {
 
+inline constexpr int kIntelProcessor = 84;  // 83 + 1: little-endian, IEEE floats
+
 inline constexpr size_t kC3dBlock = 512;  // bytes: all sections are whole blocks
 inline constexpr size_t kC3dMostInList = 255;
 

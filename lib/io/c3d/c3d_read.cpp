@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/conventions.h"
 #include "core/errors.h"
 #include "io/c3d/c3d_parameters.h"
 
@@ -16,8 +17,6 @@ namespace walktrack {
 
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr int kIntel = 84;
 constexpr int kAnyParameters = 0x50;
 
 class Bytes {
@@ -66,7 +65,7 @@ std::string upper(std::string_view text) {
 Parameters parameters_of(const Bytes& bytes) {
   size_t at = kC3dBlock * static_cast<size_t>(std::max(1, bytes.byte(0)) - 1);
   if (bytes.byte(1) != kAnyParameters) bytes.fail("another kind of file", "a C3D file");
-  if (bytes.byte(at + 3) != kIntel)
+  if (bytes.byte(at + 3) != kIntelProcessor)
     bytes.fail("numbers of another processor (DEC or MIPS)",
                "a little-endian C3D file; most programs that save C3D can write one");
   std::map<int, std::string> groups;
@@ -99,7 +98,7 @@ Parameters parameters_of(const Bytes& bytes) {
   return out;
 }
 
-std::string trimmed(std::string_view text) {
+std::string without_padding(std::string_view text) {
   const size_t last = text.find_last_not_of(std::string_view(" \0", 2));
   return std::string(text.substr(0, last == std::string_view::npos ? 0 : last + 1));
 }
@@ -115,7 +114,7 @@ std::vector<std::string> texts(const Bytes& bytes, const Parameters& all, const 
   for (size_t i = 1; i < parameter.dimensions.size(); ++i) count *= parameter.dimensions[i];
   std::vector<std::string> out;
   for (size_t i = 0; i < count; ++i)
-    out.push_back(trimmed(bytes.text(parameter.data + i * length, length)));
+    out.push_back(without_padding(bytes.text(parameter.data + i * length, length)));
   return out;
 }
 

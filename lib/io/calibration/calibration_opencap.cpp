@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/conventions.h"
 #include "core/errors.h"
 #include "io/calibration/calibration.h"
 #include "io/calibration/calibration_checks.h"
@@ -15,8 +16,6 @@
 namespace walktrack {
 
 namespace {
-
-constexpr double kMetresPerMillimetre = 1e-3;
 
 class Session {
  public:

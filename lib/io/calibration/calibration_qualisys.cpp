@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "core/conventions.h"
 #include "core/errors.h"
 #include "io/calibration/calibration.h"
 #include "io/calibration/calibration_checks.h"
@@ -18,7 +19,7 @@ namespace walktrack {
 namespace {
 
 constexpr const char* kQualisys = "a Qualisys calibration with cameras";
-constexpr double kPerPixel = 64, kMetresPerMillimetre = 1e-3;
+constexpr double kPerPixel = 64;
 constexpr size_t kMostCameras = 256;
 
 struct Entry {

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 
+#include "core/conventions.h"
 #include "io/calibration/calibration.h"
 #include "io/calibration/xml_element.h"
 
@@ -45,8 +46,6 @@ Eigen::Matrix3d tsai_rotation(const XmlElement& extrinsic) {
           AngleAxisd(extrinsic.number("rx"), Vector3d::UnitX()))
       .toRotationMatrix();
 }
-
-constexpr double kMetresPerMillimetre = 1e-3;
 
 }  // namespace
 

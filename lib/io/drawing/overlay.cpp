@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "body/motion.h"
+#include "io/drawing/sub_pixel.h"
 
 namespace walktrack {
 
@@ -16,19 +17,12 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-const cv::Scalar kLeft(178, 114, 0), kRight(0, 94, 213), kTrunk(255, 255, 255),
-    kGrid(150, 150, 150);
+const cv::Scalar kLeftBgr(178, 114, 0), kRightBgr(0, 94, 213), kTrunkBgr(255, 255, 255),
+    kGridBgr(150, 150, 150);
 
 constexpr int kMostPieces = 12;         // that a bent line is drawn in
 constexpr double kPiece = 32;           // px; no lens bends so little by as much as a pixel
-constexpr int kFractionBits = 4;        // of OpenCV's sub-pixel coordinates
 constexpr double kFarOutside = 10'000;  // px; beyond it OpenCV's coordinates overflow
-
-cv::Point fixed_point(const Vector2d& pixel) {
-  constexpr double kScale = 1 << kFractionBits;
-  return {static_cast<int>(std::lround(kScale * pixel.x())),
-          static_cast<int>(std::lround(kScale * pixel.y()))};
-}
 
 bool far_outside(const Vector2d& px) { return px.cwiseAbs().maxCoeff() > kFarOutside; }
 
@@ -53,23 +47,23 @@ struct Bone {
 };
 
 const std::array<Bone, 9> kBones{{
-    {Joint::kPelvis, Joint::kNeck, kTrunk},
-    {Joint::kNeck, Joint::kHead, kTrunk},
-    {Joint::kLeftHip, Joint::kRightHip, kTrunk},
-    {Joint::kLeftHip, Joint::kLeftKnee, kLeft},
-    {Joint::kLeftKnee, Joint::kLeftAnkle, kLeft},
-    {Joint::kLeftAnkle, Joint::kLeftToe, kLeft},
-    {Joint::kRightHip, Joint::kRightKnee, kRight},
-    {Joint::kRightKnee, Joint::kRightAnkle, kRight},
-    {Joint::kRightAnkle, Joint::kRightToe, kRight},
+    {Joint::kPelvis, Joint::kNeck, kTrunkBgr},
+    {Joint::kNeck, Joint::kHead, kTrunkBgr},
+    {Joint::kLeftHip, Joint::kRightHip, kTrunkBgr},
+    {Joint::kLeftHip, Joint::kLeftKnee, kLeftBgr},
+    {Joint::kLeftKnee, Joint::kLeftAnkle, kLeftBgr},
+    {Joint::kLeftAnkle, Joint::kLeftToe, kLeftBgr},
+    {Joint::kRightHip, Joint::kRightKnee, kRightBgr},
+    {Joint::kRightKnee, Joint::kRightAnkle, kRightBgr},
+    {Joint::kRightAnkle, Joint::kRightToe, kRightBgr},
 }};
 
 const std::array<Bone, 5> kArmBones{{
-    {Joint::kLeftShoulder, Joint::kRightShoulder, kTrunk},
-    {Joint::kLeftShoulder, Joint::kLeftElbow, kLeft},
-    {Joint::kLeftElbow, Joint::kLeftWrist, kLeft},
-    {Joint::kRightShoulder, Joint::kRightElbow, kRight},
-    {Joint::kRightElbow, Joint::kRightWrist, kRight},
+    {Joint::kLeftShoulder, Joint::kRightShoulder, kTrunkBgr},
+    {Joint::kLeftShoulder, Joint::kLeftElbow, kLeftBgr},
+    {Joint::kLeftElbow, Joint::kLeftWrist, kLeftBgr},
+    {Joint::kRightShoulder, Joint::kRightElbow, kRightBgr},
+    {Joint::kRightElbow, Joint::kRightWrist, kRightBgr},
 }};
 
 void draw_bones(cv::Mat& image, const Camera& camera, const JointPositions& joints,
@@ -131,8 +125,8 @@ void draw_ground_grid(cv::Mat& image, const Camera& camera, const Vector2d& cent
                       double half_side) {
   const double x0 = std::floor(centre.x() - half_side), x1 = std::ceil(centre.x() + half_side);
   const double y0 = std::floor(centre.y() - half_side), y1 = std::ceil(centre.y() + half_side);
-  for (double x = x0; x <= x1; ++x) draw_line(image, camera, {x, y0, 0}, {x, y1, 0}, kGrid);
-  for (double y = y0; y <= y1; ++y) draw_line(image, camera, {x0, y, 0}, {x1, y, 0}, kGrid);
+  for (double x = x0; x <= x1; ++x) draw_line(image, camera, {x, y0, 0}, {x, y1, 0}, kGridBgr);
+  for (double y = y0; y <= y1; ++y) draw_line(image, camera, {x0, y, 0}, {x1, y, 0}, kGridBgr);
 }
 
 void draw_axes(cv::Mat& image, const Camera& camera, const Vector3d& origin, double length) {
@@ -171,9 +165,9 @@ void draw_cross(cv::Mat& image, const Vector2d& px, const cv::Scalar& bgr, doubl
     draw_piece(image, px - arm, px + arm, bgr, 1);
 }
 
-cv::Scalar left_colour() { return kLeft; }
-cv::Scalar right_colour() { return kRight; }
-cv::Scalar trunk_colour() { return kTrunk; }
+cv::Scalar left_colour() { return kLeftBgr; }
+cv::Scalar right_colour() { return kRightBgr; }
+cv::Scalar trunk_colour() { return kTrunkBgr; }
 
 void draw_caption(cv::Mat& image, const std::string& text) {
   const int margin = static_cast<int>(std::lround(16 * text_scale(image)));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "io/drawing/sub_pixel.h"
 #include "io/video/video_writer.h"
 
 namespace walktrack {
@@ -101,15 +102,6 @@ Strip laid_out(const std::vector<StickFigure>& figures, double slope) {
 cv::Scalar bgr(const LineColour& colour) {
   return {static_cast<double>(colour.blue), static_cast<double>(colour.green),
           static_cast<double>(colour.red)};
-}
-
-// OpenCV's sub-pixel drawing: 4 fractional bits. Coordinates far outside are cut to stay in range.
-constexpr int kFractionBits = 4;
-cv::Point fixed_point(const Vector2d& p) {
-  const auto fixed = [](double v) {
-    return static_cast<int>(std::lround(std::clamp(v, -1e4, 1e5) * (1 << kFractionBits)));
-  };
-  return {fixed(p.x()), fixed(p.y())};
 }
 
 void draw(const std::vector<Drawn>& lines, cv::Mat& image) {

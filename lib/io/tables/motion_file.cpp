@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/conventions.h"
 #include "core/errors.h"
 #include "io/tables/csv.h"
 #include "io/tables/marker_file.h"
@@ -19,7 +20,6 @@ using Eigen::Vector3d;
 
 constexpr std::array<std::string_view, 3> kAxes{"_x", "_y", "_z"};
 constexpr std::array<std::string_view, 3> kStatistics{"_sd", "_p05", "_p95"};
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string column_name(size_t joint, size_t axis, std::string_view statistic = "") {
   return fmt::format("{}{}{}", kJointNames[joint], kAxes[axis], statistic);

@@ -6,14 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "core/conventions.h"
 #include "core/errors.h"
 #include "io/archive/files.h"
 
 namespace walktrack {
 
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 struct Line {
   int number;

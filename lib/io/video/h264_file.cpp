@@ -18,22 +18,6 @@ namespace {
 
 constexpr int kMostTicks = 1'000'000;  // of a second; rates are rounded to fractions of such
 
-struct FreeCodec {
-  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
-};
-struct FreeFile {
-  void operator()(AVFormatContext* file) const {
-    avio_closep(&file->pb);
-    avformat_free_context(file);
-  }
-};
-struct FreeFrame {
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-};
-struct FreePacket {
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
-
 std::string name_of(EncoderPreset preset) {
   for (const auto& [name, each] : encoder_presets())
     if (each == preset) return name;
@@ -50,6 +34,22 @@ void require(int result) {
 }  // namespace
 
 struct H264File::State {
+  struct FreeCodec {
+    void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+  };
+  struct FreeFile {
+    void operator()(AVFormatContext* file) const {
+      avio_closep(&file->pb);
+      avformat_free_context(file);
+    }
+  };
+  struct FreeFrame {
+    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  };
+  struct FreePacket {
+    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  };
+
   std::unique_ptr<AVFormatContext, FreeFile> file;
   std::unique_ptr<AVCodecContext, FreeCodec> codec;
   std::unique_ptr<AVFrame, FreeFrame> frame{av_frame_alloc()};

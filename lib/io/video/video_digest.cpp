@@ -21,14 +21,14 @@ namespace {
 constexpr uint64_t kBlock = uint64_t{1} << 16;  // bytes
 constexpr uint64_t kBlocks = 64;
 
-struct Part {
+struct FilePart {
   fs::path file;
   uint64_t begin, size;  // in the video, bytes
 };
 
-std::vector<Part> parts_of(const fs::path& video) {
+std::vector<FilePart> parts_of(const fs::path& video) {
   const bool many = is_frame_pattern(video) || fs::is_directory(video);
-  std::vector<Part> parts;
+  std::vector<FilePart> parts;
   uint64_t begin = 0;
   for (const fs::path& file : many ? image_files(video) : std::vector{video}) {
     std::error_code error;
@@ -40,7 +40,7 @@ std::vector<Part> parts_of(const fs::path& video) {
   return parts;
 }
 
-std::string bytes_at(const Part& part, uint64_t from, uint64_t count) {
+std::string bytes_at(const FilePart& part, uint64_t from, uint64_t count) {
   std::ifstream stream(part.file, std::ios::binary);
   stream.seekg(static_cast<std::streamoff>(from));
   std::string bytes(static_cast<size_t>(count), '\0');
@@ -50,10 +50,10 @@ std::string bytes_at(const Part& part, uint64_t from, uint64_t count) {
 }
 
 // `count` bytes of the video from `from` on, whichever files they are in.
-std::string video_bytes(const std::vector<Part>& parts, uint64_t from, uint64_t count) {
+std::string video_bytes(const std::vector<FilePart>& parts, uint64_t from, uint64_t count) {
   std::string bytes;
   auto part = std::upper_bound(parts.begin(), parts.end(), from,
-                               [](uint64_t at, const Part& each) { return at < each.begin; });
+                               [](uint64_t at, const FilePart& each) { return at < each.begin; });
   for (--part; part != parts.end() && count > 0; ++part) {
     const uint64_t skipped = from - part->begin, here = std::min(count, part->size - skipped);
     bytes += bytes_at(*part, skipped, here);
@@ -66,9 +66,9 @@ std::string video_bytes(const std::vector<Part>& parts, uint64_t from, uint64_t 
 }  // namespace
 
 std::string video_digest(const fs::path& video) {
-  const std::vector<Part> parts = parts_of(video);
+  const std::vector<FilePart> parts = parts_of(video);
   std::string text;
-  for (const Part& part : parts)
+  for (const FilePart& part : parts)
     text +=
         fmt::format("{} {}\n", parts.size() > 1 ? part.file.filename().string() : "", part.size);
   const uint64_t size = parts.back().begin + parts.back().size;

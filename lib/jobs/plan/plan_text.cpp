@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMiB = 1024 * 1024, kMsPerSecond = 1000, kPercent = 100;
+constexpr double kMiB = 1024 * 1024, kMsPerSecond = 1000, kInPercent = 100;
 
 // Time by what it goes into, all cameras together, in the order of the work.
 Costs stages(const FrameCost& cost) {
@@ -35,7 +35,7 @@ std::string items_text(const Plan& plan) {
     out += fmt::format(
         "  {:<3} {:<12} {} ({}){}\n", item.on ? "on" : "off", item.name, item.what, item.why,
         item.ms > 0
-            ? fmt::format("; without it {:.0f} % less time", kPercent * item.ms / plan.cost.sum())
+            ? fmt::format("; without it {:.0f} % less time", kInPercent * item.ms / plan.cost.sum())
             : "");
   return out;
 }
@@ -67,7 +67,7 @@ std::string cost_text(const Plan& plan) {
       plan.work.particles, all, kMsPerSecond / all);
   for (const auto& [stage, ms] : stages(plan.cost))
     if (ms > 0)
-      out += fmt::format("  {:<12} {:6.2f} ms {:5.1f} %\n", stage, ms, kPercent * ms / all);
+      out += fmt::format("  {:<12} {:6.2f} ms {:5.1f} %\n", stage, ms, kInPercent * ms / all);
   return out;
 }
 
@@ -82,7 +82,7 @@ std::string plan_text(const Plan& plan) {
         "  {}: {}x{} px, worked on at 1/{} of it, where a person is {:.0f} px high; "
         "{:.0f} % of the time\n",
         camera.name, camera.width_px, camera.height_px, camera.shrink, camera.person_px,
-        kPercent * camera.ms / plan.cost.sum());
+        kInPercent * camera.ms / plan.cost.sum());
   out += '\n';
   out += items_text(plan);
   const PlanState& s = plan.state;

@@ -88,7 +88,7 @@ void write_frames(const Frames& frames, const fs::path& folder) {
 }
 
 // Where the walk begins, from its first half second.
-std::string initial_line(const Motion& truth) {
+std::string start_of_walk(const Motion& truth) {
   size_t last = 0;
   while (last + 1 < truth.time.size() && truth.time[last] < 0.5) ++last;
   const Eigen::Vector3d from = truth.joints.front()[Joint::kPelvis];
@@ -108,7 +108,7 @@ fs::path write_scene(const TestVideo& video, const Shot& shot, const fs::path& f
   text += fmt::format("frame_rate: {}\n", video.options.frame_rate);
   text += fmt::format("subject: {{height: {}, mass: {}}}\n", height_of(video.walker),
                       video.walker.mass);
-  if (video.state_initial) text += initial_line(shot.truth);
+  if (video.state_initial) text += start_of_walk(shot.truth);
   write_file_atomically(folder / "scene.yaml", text + video.scene_lines);
   return folder / "scene.yaml";
 }

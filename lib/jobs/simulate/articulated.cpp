@@ -26,7 +26,7 @@ enum PartIndex { kTrunk, kLeftThigh, kRightThigh, kLeftShank, kRightShank };
 // Shares of height (core/anthropometry.h); the shank reaches to the sole.
 constexpr double kTrunkLength = anthropometry::kTrunk, kThighLength = anthropometry::kThigh;
 constexpr double kShankLength = .285;
-constexpr double kHeadTop = .47;  // above the hips
+constexpr double kHeadAboveHips = .47;  // above the hips
 constexpr double kTrunkMass = anthropometry::kHeadArmsTrunk.mass;
 constexpr double kThighMass = anthropometry::kThighShares.mass;
 constexpr double kShankMass = anthropometry::kShankAndFoot.mass;
@@ -85,7 +85,7 @@ std::vector<PartMotion> motions_of(const ArticulatedBody& body, const Articulate
 
 std::vector<Attachment> holds(const ArticulatedBody& body, const ArticulatedSpec& spec) {
   const auto motions = motions_of(body, start_of(body, spec));
-  const Vector3d foot(0, 0, -kShankLength * spec.height), head(0, 0, kHeadTop * spec.height);
+  const Vector3d foot(0, 0, -kShankLength * spec.height), head(0, 0, kHeadAboveHips * spec.height);
   std::vector<Attachment> held;
   const auto hold = [&](bool wanted, size_t part, const Vector3d& point) {
     if (wanted) held.push_back({part, point, point_position(motions[part], point)});
@@ -113,7 +113,7 @@ StickFigure figure_of(const ArticulatedBody& body, const ArticulatedSpec& spec,
     figure.lines.push_back({{from.x(), from.z()}, {to.x(), to.z()}, group});
   };
   const double H = spec.height;
-  line(kTrunk, {0, 0, kHeadTop * H}, 0);
+  line(kTrunk, {0, 0, kHeadAboveHips * H}, 0);
   line(kLeftThigh, {0, 0, -kThighLength * H}, 1);
   line(kLeftShank, {0, 0, -kShankLength * H}, 1);
   line(kRightThigh, {0, 0, -kThighLength * H}, 2);

@@ -31,14 +31,14 @@ QualityMeasure at_least(std::string_view name, double value, double limit) {
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
 
 // What is counted over the frames of a track.
-struct Counts {
+struct QualityCounts {
   int tracked = 0, lost = 0, moving = 0;  // frames; lost: after the first tracked one
   double p_legs_swapped = 0;              // sum of probabilities
   double better_beside = 0;               // sum of shares
 };
 
-Counts count(const TrackedFrames& frames) {
-  Counts out;
+QualityCounts quality_counts(const TrackedFrames& frames) {
+  QualityCounts out;
   for (const FrameRecord& record : frames.records) {
     if (record.tracked) {
       ++out.tracked;
@@ -88,7 +88,7 @@ Quality quality_of_motion(const Motion& motion, double rate, double leg) {
 
 Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
                    const QualityConfig& limits, double leg) {
-  const Counts counts = count(frames);
+  const QualityCounts counts = quality_counts(frames);
   Quality out{
       at_most("lost_percent", percent(counts.lost, counts.tracked + counts.lost),
               100 * limits.lost_share),

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 // Heights of joints that stay where they are in walking, shares of the body's (Drillis & Contini
 // 1966; the ankles' mean over a stride).
-constexpr double kShoulder = 0.80, kHip = 0.52, kAnkle = 0.06;
+constexpr double kShoulderHeight = 0.80, kHipHeight = 0.52, kAnkleHeight = 0.06;
 constexpr double kFits =
     0.1;  // of the height in the image: a worse fit is no person standing there
 constexpr int kSteps = 8;
@@ -42,8 +42,8 @@ struct Level {
 std::vector<Level> levels_of(const KeypointEvidence::Person& person, double height) {
   std::vector<Level> out;
   for (const auto& [kind, share] :
-       {std::pair{PointKind::kShoulder, kShoulder}, std::pair{PointKind::kHip, kHip},
-        std::pair{PointKind::kAnkle, kAnkle}})
+       {std::pair{PointKind::kShoulder, kShoulderHeight}, std::pair{PointKind::kHip, kHipHeight},
+        std::pair{PointKind::kAnkle, kAnkleHeight}})
     if (const auto px = middle(person, kind)) out.push_back({share * height, *px});
   return out;
 }

@@ -18,9 +18,9 @@ namespace {
 constexpr int kHipTorque = 1, kGroundTorque = 4;
 constexpr std::array<int, 3> kTorques{kTorqueNoise + kHipTorque, kTorqueNoise + kGroundTorque,
                                       noise_of(kPace)};
-constexpr std::array<NoiseGroup, 6> kGroups{kTrunkNoise, kLeftLegNoise, kRightLegNoise,
-                                            kTorques,    kLeftArmNoise, kRightArmNoise};
-constexpr std::array<NoiseGroup, 6> kGroupsInPlane{
+constexpr std::array<NoiseGroup, 6> kLinkageGroups{kTrunkNoise, kLeftLegNoise, kRightLegNoise,
+                                                   kTorques,    kLeftArmNoise, kRightArmNoise};
+constexpr std::array<NoiseGroup, 6> kLinkageGroupsInPlane{
     kTrunkInPlane, kLeftLegInPlane, kRightLegInPlane, kTorques, kLeftArmInPlane, kRightArmInPlane};
 
 StraightState straight(const KneedState& walker) {
@@ -219,7 +219,7 @@ void AnthropomorphicMotion::apply_noise(const MotionContext& context,
 }
 
 std::span<const NoiseGroup> AnthropomorphicMotion::noise_groups(Path path) const {
-  return path == Path::kSpatial ? kGroups : kGroupsInPlane;
+  return path == Path::kSpatial ? kLinkageGroups : kLinkageGroupsInPlane;
 }
 
 }  // namespace walktrack

@@ -60,11 +60,11 @@ void walk_to(const KneedModel& model, std::span<const double> times,
   }
 }
 
-constexpr std::array<NoiseGroup, 6> kGroups{kTrunkNoise,  kLeftLegNoise, kRightLegNoise,
-                                            kWalkerNoise, kLeftArmNoise, kRightArmNoise};
-constexpr std::array<NoiseGroup, 6> kGroupsInPlane{kTrunkInPlane,    kLeftLegInPlane,
-                                                   kRightLegInPlane, kWalkerNoise,
-                                                   kLeftArmInPlane,  kRightArmInPlane};
+constexpr std::array<NoiseGroup, 6> kKneedGroups{kTrunkNoise,  kLeftLegNoise, kRightLegNoise,
+                                                 kWalkerNoise, kLeftArmNoise, kRightArmNoise};
+constexpr std::array<NoiseGroup, 6> kKneedGroupsInPlane{kTrunkInPlane,    kLeftLegInPlane,
+                                                        kRightLegInPlane, kWalkerNoise,
+                                                        kLeftArmInPlane,  kRightArmInPlane};
 
 }  // namespace
 
@@ -176,7 +176,7 @@ void KneedMotion::apply_noise(const MotionContext& context, WalkerParticle& part
 }
 
 std::span<const NoiseGroup> KneedMotion::noise_groups(Path path) const {
-  return path == Path::kSpatial ? kGroups : kGroupsInPlane;
+  return path == Path::kSpatial ? kKneedGroups : kKneedGroupsInPlane;
 }
 
 }  // namespace walktrack

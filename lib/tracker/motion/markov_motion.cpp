@@ -17,10 +17,10 @@ namespace {
 // of its changes from frame to frame.
 constexpr double kAlong = 0.5, kAcross = 0.3;
 
-constexpr std::array<NoiseGroup, 5> kGroups{kTrunkNoise, kLeftLegNoise, kRightLegNoise,
-                                            kLeftArmNoise, kRightArmNoise};
-constexpr std::array<NoiseGroup, 5> kGroupsInPlane{kTrunkInPlane, kLeftLegInPlane, kRightLegInPlane,
-                                                   kLeftArmInPlane, kRightArmInPlane};
+constexpr std::array<NoiseGroup, 5> kMarkovGroups{kTrunkNoise, kLeftLegNoise, kRightLegNoise,
+                                                  kLeftArmNoise, kRightArmNoise};
+constexpr std::array<NoiseGroup, 5> kMarkovGroupsInPlane{
+    kTrunkInPlane, kLeftLegInPlane, kRightLegInPlane, kLeftArmInPlane, kRightArmInPlane};
 
 Pose pose_at(const Body& body, const ResidualAngles& residual, const Eigen::Vector2d& root) {
   Pose pose;
@@ -163,7 +163,7 @@ void MarkovMotion::apply_noise(const MotionContext& context, WalkerParticle& par
 }
 
 std::span<const NoiseGroup> MarkovMotion::noise_groups(Path path) const {
-  return path == Path::kSpatial ? kGroups : kGroupsInPlane;
+  return path == Path::kSpatial ? kMarkovGroups : kMarkovGroupsInPlane;
 }
 
 }  // namespace walktrack
