@@ -28,8 +28,13 @@ function(script_source into script)
   set(${into} "'sha256-${text}${high}='" PARENT_SCOPE)
 endfunction()
 
-# Puts style and script into a page, whose policy lets that script run and no other.
-macro(fill_page page)
+# Puts head, style and script into a page, whose policy lets that script run and no other. `sources`:
+# what else it may load.
+file(READ ${FOLDER}/head.html HEAD)
+macro(fill_page page title sources)
+  string(REPLACE "<!--HEAD-->\n" "${HEAD}" ${page} "${${page}}")
+  string(REPLACE "PAGE-TITLE" "${title}" ${page} "${${page}}")
+  string(REPLACE "MORE-SOURCES" "${sources}" ${page} "${${page}}")
   string(REPLACE "<!--STYLE-->\n" "${STYLE}" ${page} "${${page}}")
   string(REPLACE "<!--SCRIPT-->\n" "${SCRIPT}" ${page} "${${page}}")
   script_source(SOURCE "\n${SCRIPT}")
@@ -40,17 +45,17 @@ read_parts(STYLE libraries/uplot.min.css style.css)
 read_parts(SCRIPT libraries/uplot.min.js libraries/ogl.min.js elements.js data.js player.js space.js chart.js charts.js tables.js main.js)
 file(READ ${FOLDER}/page.html PAGE)
 file(READ ${FOLDER}/normal_gait.csv NORMAL_GAIT)
-fill_page(PAGE)
+fill_page(PAGE "<!--TITLE-->" "; img-src data: blob:; media-src blob: file: 'self'")
 
 read_parts(SCRIPT batch.js)
 read_parts(STYLE style.css)
 file(READ ${FOLDER}/batch.html BATCH)
-fill_page(BATCH)
+fill_page(BATCH "walktrack batch" "")
 
 read_parts(SCRIPT libraries/uplot.min.js elements.js chart.js compare.js)
 read_parts(STYLE libraries/uplot.min.css style.css)
 file(READ ${FOLDER}/compare.html COMPARE)
-fill_page(COMPARE)
+fill_page(COMPARE "<!--TITLE-->" "")
 
 file(WRITE ${OUTPUT} "// Made from data/report by assemble.cmake.
 #include \"io/drawing/report_page.h\"
