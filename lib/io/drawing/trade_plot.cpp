@@ -120,7 +120,7 @@ std::string trade_plot_svg(const std::string& title, const std::string& error_is
   for (const TradePoint& p : known) out += mark(p, axes);
   out += front(known, axes);
   out += svg_text(kLeft, kLegendTop - 4, "start",
-                  "filled: nothing is both faster and better; cross: lost the walker");
+                  "filled: nothing is both faster and better; cross: lost the subject");
   const auto named =
       std::count_if(known.begin(), known.end(), [](const TradePoint& p) { return p.on_front; });
   const double height = kLegendTop + static_cast<double>(named + 1) * kLegendLine;

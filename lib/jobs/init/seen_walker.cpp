@@ -313,7 +313,7 @@ SeenWalk seen_walk(const InitJob& job, const JobControl& control) {
   std::vector<Track> tracks;
   size_t looked = 0;
   for (int n = 0; looked < kMostLooks && !control.stopping() && source.read(frame); ++n) {
-    control.progress("looking for the walker", static_cast<size_t>(n),
+    control.progress("looking for the subject", static_cast<size_t>(n),
                      static_cast<size_t>(facts.frame_count));
     if (n % every != 0) continue;
     std::vector<SeenFigure> figures = finder.in(frame, foreground.of(frame), n / every);

@@ -130,7 +130,7 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
   Items items(scene, config);
   add_walker(values, items);
   items.fact("legs, trunk", true, "tilt, hips, knees and ankles in the walk's upright planes",
-             "always: the walker's body");
+             "always: the subject's body");
   items.fact("sideways", values.tracker.motion.path == Path::kSpatial,
              "turning, pelvic obliquity, hips sideways, 6 angles more",
              items.origin("motion.path"));
@@ -151,7 +151,7 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
   items.fact("search", !scene.initial, "finding the walk in a window of frames, until it is found",
              scene.initial ? "the scene says where the walk begins" : "the scene has no `initial`");
   items.fact("size", !scene.height_given,
-             "how tall the walker is, from the first window in which they are found",
+             "the subject's height, from the first window in which they are found",
              scene.height_given ? "the scene gives subject.height"
                                 : "the scene does not give subject.height");
   const bool paced = values.budget.frame_ms > 0;
@@ -180,7 +180,7 @@ std::vector<std::pair<std::string, double>> memory_of(const Scene& scene, const 
       {"particles", plan.work.particles * plan.state.bytes_per_particle},
       {"start hypotheses of the first half second", hypotheses * plan.state.bytes_per_particle},
       {"frames as filmed", 2 * 3 * filmed},
-      {"log-ratios around the walker", sizeof(int32_t) * region * std::max(1, plan.work.classes)}};
+      {"log-ratios around the subject", sizeof(int32_t) * region * std::max(1, plan.work.classes)}};
   if (images.background.enabled) {
     out.emplace_back("background", 5 * sizeof(float) * shrunk);
     out.emplace_back("learning the background, before the first frame",
@@ -236,7 +236,7 @@ std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& c
   const ObservationConfig& images = values.observation;
   if (is_on(images.flow) && (images.background.enabled || images.foreground.enabled))
     out.push_back(
-        fmt::format("Flow: silhouettes hold the track of a walker who stands out from the "
+        fmt::format("Flow: silhouettes hold the track of a subject who stands out from the "
                     "scene; observation.flow.enabled=off {}.",
                     without("observation.flow.enabled=off")));
   if (is_on(images.keypoints) && scene.cameras.size() > kCamerasInDoubt)

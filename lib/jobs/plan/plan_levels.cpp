@@ -38,7 +38,7 @@ std::string not_from_the_side(const Scene& scene) {
   if (off < kSideOn)
     return fmt::format("the walk goes {:.0f} degrees off the camera's line of sight", off);
   if (std::abs(below) > kLevel)
-    return fmt::format("the camera sees the walker from {:.0f} degrees above the horizon", below);
+    return fmt::format("the camera sees the subject from {:.0f} degrees above the horizon", below);
   return "";
 }
 

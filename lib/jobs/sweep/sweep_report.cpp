@@ -195,7 +195,7 @@ std::string sweep_markdown(const SweepReport& report, const std::vector<std::str
                                      : "lost");
   text +=
       "\n`front`: nothing is both faster and more accurate. `lost`: a seed did not find the "
-      "walker, or lost them for more than the quality check allows.\n\n";
+      "subject, or lost them for more than the quality check allows.\n\n";
   for (const std::string& sentence : advice) text += fmt::format("- {}\n", sentence);
   return text;
 }
