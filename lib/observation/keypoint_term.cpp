@@ -167,6 +167,15 @@ double KeypointTerm::log_likelihood(const ObservationConfig& config, const Camer
   return people_score(config.keypoints, seen.people, point_pixels(camera, now, seen.offsets));
 }
 
+std::optional<bool> KeypointTerm::on_somebody(const ObservationConfig& config,
+                                              const CameraEvidence& evidence, const Camera& camera,
+                                              const PosedBody& now) {
+  if (!says(evidence)) return std::nullopt;
+  const KeypointEvidence& seen = evidence.keypoints;
+  return subject_of(config.keypoints, seen.people, point_pixels(camera, now, seen.offsets)) !=
+         nullptr;
+}
+
 TermCosts KeypointTerm::cost(const ObservationConfig& config, const TermWork& work) {
   if (!is_on(config.keypoints)) return {};
   return {{"keypoints", kPointsCompared * work.poses}};

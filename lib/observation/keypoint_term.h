@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -94,6 +95,11 @@ struct KeypointTerm {
   static double log_likelihood(const ObservationConfig& config, const CameraEvidence& evidence,
                                const Camera& camera, const PosedBody& now, const PosedBody* before);
   static TermCosts cost(const ObservationConfig& config, const TermWork& work);
+
+  // Whether a pose lies on one of the people whose points were seen; nullopt where nobody's were.
+  static std::optional<bool> on_somebody(const ObservationConfig& config,
+                                         const CameraEvidence& evidence, const Camera& camera,
+                                         const PosedBody& now);
 
   // How much more this frame's points speak for the legs' names than for the same pose with left
   // and right swapped, nats.

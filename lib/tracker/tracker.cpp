@@ -78,8 +78,9 @@ std::vector<FrameRecord> Tracker::finish() {
 }
 
 TrackerState Tracker::state() const {
-  return {frame_,        starts_,           filter_.state(), last_seen_,      log_likelihoods_,
-          frames_below_, frames_outscored_, losses_,         p_legs_swapped_, stature_};
+  return {frame_,           starts_,         filter_.state(),   last_seen_,
+          log_likelihoods_, frames_below_,   frames_outscored_, frames_off_,
+          losses_,          p_legs_swapped_, stature_};
 }
 
 void Tracker::resume(TrackerState state) {
@@ -92,6 +93,7 @@ void Tracker::resume(TrackerState state) {
   log_likelihoods_ = std::move(state.log_likelihoods);
   frames_below_ = state.frames_below;
   frames_outscored_ = state.frames_outscored;
+  frames_off_ = state.frames_off;
   losses_ = state.losses;
   p_legs_swapped_ = state.p_legs_swapped;
   stature_ = state.stature;
@@ -178,7 +180,7 @@ void Tracker::settle(std::vector<FrameRecord>& out) {
   mean_pose_ = hypotheses_->records().back().estimate.pose;
   hypotheses_.reset();
   mode_ = Mode::kTracking;
-  frames_below_ = frames_outscored_ = 0;
+  frames_below_ = frames_outscored_ = frames_off_ = 0;
 }
 
 // Whether a set that takes one leg for the other goes unnoticed: several cameras see it, and only
@@ -220,7 +222,8 @@ void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out
   // A hypothesis that lost the start is not followed any more, so its evidence is unknown now.
   record.modes.p_legs_swapped += p_legs_swapped_ * (1 - 2 * record.modes.p_legs_swapped);
   if (record.filter.all_dead ||
-      fading(record.mean_log_likelihood, figure_score(evidence, record.estimate))) {
+      fading(record.mean_log_likelihood, figure_score(evidence, record.estimate)) ||
+      off_detected(evidence, record.estimate)) {
     record.tracked = false;
     ++losses_;
     log_likelihoods_.clear();
@@ -274,6 +277,19 @@ bool Tracker::fading(double log_likelihood, double figure) {
     log_likelihoods_.pop_front();
   return frames_below_ >= frames_in(config_.lost_after, scene_.dt) ||
          frames_outscored_ >= frames_in(config_.outscored_after, scene_.dt);
+}
+
+// Whether the figure has for a while been on none of the people whose keypoints were seen.
+bool Tracker::off_detected(const SceneEvidence& evidence, const FrameEstimate& estimate) {
+  const PosedBody posed(body(), estimate.pose);
+  bool off = false, on = false;
+  for (size_t c = 0; c < evidence.size(); ++c) {
+    const auto found =
+        KeypointTerm::on_somebody(scene_.observation, evidence[c], scene_.cameras[c], posed);
+    if (found) (*found ? on : off) = true;
+  }
+  frames_off_ = on || !(off || frames_off_ > 0) ? 0 : frames_off_ + 1;
+  return frames_off_ >= frames_in(config_.off_detected_after, scene_.dt);
 }
 
 }  // namespace walktrack

@@ -8,8 +8,9 @@
 //   starting:  hypotheses over phase and side compete for a while    (tracker/start_hypotheses.h)
 //   tracking:  for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h)
 //   lost:      the likelihood fell far below its own past, or below that of a figure that merely
-//              stands in the same place, whichever way it faces; search again, for a while only
-//              where the walker can be
+//              stands in the same place, whichever way it faces, or the figure lies on none of the
+//              people whose keypoints are seen; search again, for a while only where the walker can
+//              be
 //
 // Frames before the walk was found, and while it was lost, are reported as not tracked. Searching
 // looks a window ahead, so records come out late at first and one for one afterwards.
@@ -37,11 +38,12 @@ struct TrackerConfig {
   double lost_below = 0.35;  // share of the likelihood's own median at which the track is lost
   double lost_after = 1;     // s below it: so long may a walker be hidden
   double outscored_after =
-      0.4;           // s of explaining the images worse than a stiff figure in its place
-  int samples = 20;  // particles kept of every frame to show the spread
-  double evidence_window = 1.5;  // s of past likelihoods that the median is taken over
-  double reacquire_within = 4;   // s for which a lost walker is looked for only where they can be
-  double model_error = 1;        // multiplies what bands hold beyond the particles' spread
+      0.4;  // s of explaining the images worse than a stiff figure in its place
+  double off_detected_after = 0.5;  // s of lying on none of the people whose keypoints are seen
+  int samples = 20;                 // particles kept of every frame to show the spread
+  double evidence_window = 1.5;     // s of past likelihoods that the median is taken over
+  double reacquire_within = 4;  // s for which a lost walker is looked for only where they can be
+  double model_error = 1;       // multiplies what bands hold beyond the particles' spread
   EstimateKind estimate = EstimateKind::kMap;
 };
 
@@ -57,7 +59,7 @@ struct TrackerState {
   FilterState<WalkerParticle> filter;
   std::optional<LastSeen> last_seen;
   std::deque<double> log_likelihoods;
-  int frames_below = 0, frames_outscored = 0, losses = 0;
+  int frames_below = 0, frames_outscored = 0, frames_off = 0, losses = 0;
   double p_legs_swapped = 0;
   std::optional<Stature> stature;
 };
@@ -155,6 +157,7 @@ class Tracker {
   void see(const FrameEstimate& estimate);
   double figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const;
   bool fading(double log_likelihood, double figure);
+  bool off_detected(const SceneEvidence& evidence, const FrameEstimate& estimate);
 
   TrackerScene scene_;
   const GaitPrior& prior_;
@@ -182,6 +185,7 @@ class Tracker {
   std::optional<LastSeen> last_seen_;
   std::deque<double> log_likelihoods_;
   int frames_below_ = 0, frames_outscored_ = 0;
+  int frames_off_ = 0;  // since the figure lay on somebody whose keypoints were seen
   int losses_ = 0;
   double p_legs_swapped_ = 0;  // probability that the start has chosen the wrong leg
   std::optional<Stature> stature_;

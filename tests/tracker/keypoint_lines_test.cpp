@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kHeight = 1.7, kDt = 1.0 / 30;
+constexpr double kHeight = 1.7;
 
 // Left and right a little apart, as somebody who walks along x has them.
 KeypointEvidence::Person standing(const Camera& camera, const Vector2d& place, Rng& rng,

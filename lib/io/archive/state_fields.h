@@ -113,10 +113,10 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<TrackerState> T>
 void fields(Archive& archive, T& value) {
-  auto& [frame, starts, filter, last_seen, log_likelihoods, below, outscored, losses,
+  auto& [frame, starts, filter, last_seen, log_likelihoods, below, outscored, off, losses,
          p_legs_swapped, stature] = value;
   archive(frame, starts, filter, last_seen, log_likelihoods, a_count(below), a_count(outscored),
-          a_count(losses), a_share(p_legs_swapped), stature);
+          a_count(off), a_count(losses), a_share(p_legs_swapped), stature);
 }
 
 template <typename Archive, ArchivedAs<BackgroundModel> T>

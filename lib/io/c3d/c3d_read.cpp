@@ -19,9 +19,9 @@ namespace {
 
 constexpr int kAnyParameters = 0x50;
 
-class Bytes {
+class C3dBytes {
  public:
-  Bytes(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
+  C3dBytes(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
 
   [[noreturn]] void fail(const std::string& found, const std::string& allowed) const {
     throw InputError(describe({file_, 0, ""}, found, allowed));
@@ -62,7 +62,7 @@ std::string upper(std::string_view text) {
 }
 
 // Groups and parameters come in any order; each says how far the next one is.
-Parameters parameters_of(const Bytes& bytes) {
+Parameters parameters_of(const C3dBytes& bytes) {
   size_t at = kC3dBlock * static_cast<size_t>(std::max(1, bytes.byte(0)) - 1);
   if (bytes.byte(1) != kAnyParameters) bytes.fail("another kind of file", "a C3D file");
   if (bytes.byte(at + 3) != kIntelProcessor)
@@ -104,7 +104,8 @@ std::string without_padding(std::string_view text) {
 }
 
 // The texts of a parameter; none where it is missing.
-std::vector<std::string> texts(const Bytes& bytes, const Parameters& all, const std::string& key) {
+std::vector<std::string> texts(const C3dBytes& bytes, const Parameters& all,
+                               const std::string& key) {
   const auto found = all.find(key);
   if (found == all.end() || found->second.type != -1 || found->second.dimensions.empty()) return {};
   const Parameter& parameter = found->second;
@@ -118,7 +119,7 @@ std::vector<std::string> texts(const Bytes& bytes, const Parameters& all, const 
   return out;
 }
 
-std::vector<std::string> labels_of(const Bytes& bytes, const Parameters& all) {
+std::vector<std::string> labels_of(const C3dBytes& bytes, const Parameters& all) {
   std::vector<std::string> out = texts(bytes, all, "POINT:LABELS");
   for (int k = 2; all.contains(fmt::format("POINT:LABELS{}", k)); ++k)
     for (std::string& label : texts(bytes, all, fmt::format("POINT:LABELS{}", k)))
@@ -126,7 +127,7 @@ std::vector<std::string> labels_of(const Bytes& bytes, const Parameters& all) {
   return out;
 }
 
-double metres_per(const Bytes& bytes, const Parameters& all) {
+double metres_per(const C3dBytes& bytes, const Parameters& all) {
   const auto units = texts(bytes, all, "POINT:UNITS");
   if (units.empty() || units[0] == "mm") return 1e-3;
   if (units[0] == "m") return 1;
@@ -141,7 +142,7 @@ struct Layout {
   double scale, rate;
 };
 
-Layout layout_of(const Bytes& bytes) {
+Layout layout_of(const C3dBytes& bytes) {
   Layout out{};
   out.points = static_cast<size_t>(bytes.word(2));
   const auto analog = static_cast<size_t>(bytes.word(4));  // values a frame
@@ -163,7 +164,7 @@ Layout layout_of(const Bytes& bytes) {
   return out;
 }
 
-Eigen::Vector3d point_at(const Bytes& bytes, const Layout& layout, size_t at, double metres) {
+Eigen::Vector3d point_at(const C3dBytes& bytes, const Layout& layout, size_t at, double metres) {
   const size_t width = layout.floats ? 4 : 2;
   const auto value = [&](size_t k) {
     return layout.floats ? bytes.real(at + k * width) : bytes.signed_word(at + k * width);
@@ -177,7 +178,7 @@ Eigen::Vector3d point_at(const Bytes& bytes, const Layout& layout, size_t at, do
 }  // namespace
 
 MarkerTable markers_from_c3d(std::string_view content, const std::string& file) {
-  const Bytes bytes(content, file);
+  const C3dBytes bytes(content, file);
   const Parameters parameters = parameters_of(bytes);
   const Layout layout = layout_of(bytes);
   const double metres = metres_per(bytes, parameters);

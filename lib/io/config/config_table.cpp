@@ -159,6 +159,9 @@ void add_track(ParameterTable& table) {
   t.number(
       "outscored_after", &T::outscored_after, 0, 100,
       "time of a lower likelihood than that of a rigid figure after which the track is lost, s");
+  t.number("off_detected_after", &T::off_detected_after, 0, 100,
+           "time of lying on none of the people whose keypoints are seen after which the track is "
+           "lost, s");
   t.number("reacquire_within", &T::reacquire_within, 0, 1000,
            "time in which a lost subject is searched only within walking distance, s");
   t.number("model_error", &T::model_error, 0, 100,
