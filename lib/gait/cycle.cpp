@@ -1,9 +1,9 @@
 #include "gait/cycle.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <functional>
 
+#include "core/dense.h"
 #include "gait/newton.h"
 #include "gait/walker_units.h"
 
@@ -72,10 +72,6 @@ SectionMatrix step_matrix(const CycleJacobian& jacobian) {
   return jacobian.block<kSectionSize, kSectionSize>(0, kControlSize) + SectionMatrix::Identity();
 }
 
-SectionVector multipliers(const SectionMatrix& matrix) {
-  SectionVector values = matrix.eigenvalues().cwiseAbs();
-  std::sort(values.data(), values.data() + kSectionSize, std::greater<>());
-  return values;
-}
+SectionVector multipliers(const SectionMatrix& matrix) { return eigenvalues(matrix).cwiseAbs(); }
 
 }  // namespace walktrack

@@ -1,10 +1,10 @@
 // Newton's method and continuation for cycles of whatever walker; internal to lib/gait.
 #pragma once
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <optional>
 
+#include "core/dense.h"
 #include "gait/prior_table.h"
 
 namespace walktrack {
@@ -22,7 +22,7 @@ std::optional<Gait> newton(const Gait& guess, const Residual& residual, const Ja
     if (now->norm() < kConverged) return at;
     const auto slope = jacobian(at);
     if (!slope) return std::nullopt;
-    const Gait step = slope->completeOrthogonalDecomposition().solve(-*now);
+    const Gait step = least_squares(*slope, -*now);
     // The first of the halved steps that lowers the residual.
     double share = 1;
     auto next = now;

@@ -1,11 +1,11 @@
 #include "gait/optimal_gait.h"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlopt.hpp>
+
+#include "core/dense.h"
 
 namespace walktrack {
 namespace {
@@ -43,9 +43,8 @@ class TangentPlane {
   TangentPlane(const KneedModel& model, const GaitTarget& target, const GaitObjective& objective,
                const GaitSearch& search, const GaitVector& origin, const CycleJacobian& jacobian)
       : model_(model), target_(target), objective_(objective), search_(search), origin_(origin) {
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeFullV);
-    basis_ = svd.matrixV().rightCols<kFree>();
-    inverse_ = jacobian.completeOrthogonalDecomposition().pseudoInverse();
+    basis_ = null_space(jacobian);
+    inverse_ = pseudo_inverse(jacobian);
   }
 
   double cost(const Offset& offset) {

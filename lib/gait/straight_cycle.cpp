@@ -1,10 +1,10 @@
 #include "gait/straight_cycle.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 
+#include "core/dense.h"
 #include "gait/newton.h"
 
 namespace walktrack {
@@ -126,7 +126,7 @@ StraightStepMatrix step_matrix(const StraightJacobian& jacobian) {
 }
 
 double largest_multiplier(const StraightJacobian& jacobian) {
-  return step_matrix(jacobian).eigenvalues().cwiseAbs().maxCoeff();
+  return std::abs(eigenvalues(step_matrix(jacobian))(0));
 }
 
 std::optional<StraightGaitVector> find_straight_cycle(const StraightGaitVector& guess,

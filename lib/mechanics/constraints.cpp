@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/QR>
+#include "core/dense.h"
 
 namespace walktrack {
 namespace {
@@ -31,8 +31,7 @@ ConstrainedMotion solve_saddle(const MatrixXd& mass, const MatrixXd& E, const Ve
   VectorXd right(n + m);
   right << a, b;
   const MatrixXd scaled = scale.asDiagonal() * saddle * scale.asDiagonal();
-  const VectorXd solution =
-      scale.cwiseProduct(scaled.completeOrthogonalDecomposition().solve(scale.cwiseProduct(right)));
+  const VectorXd solution = scale.cwiseProduct(least_squares(scaled, scale.cwiseProduct(right)));
   return {solution.head(n), solution.tail(m)};
 }
 

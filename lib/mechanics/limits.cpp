@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
+
+#include "core/dense.h"
 
 namespace walktrack {
 namespace {
@@ -24,9 +25,7 @@ VectorXd solve_on(const MatrixXd& A, const VectorXd& b, const std::vector<bool>&
   VectorXd x = VectorXd::Zero(b.size());
   if (rows.empty()) return x;
   const MatrixXd part = A(rows, rows);
-  const VectorXd right = -b(rows);
-  const VectorXd solution = part.completeOrthogonalDecomposition().solve(right);
-  x(rows) = solution;
+  x(rows) = least_squares(part, -b(rows));
   return x;
 }
 

@@ -5,9 +5,9 @@
 #include <complex>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/SVD>
+
+#include "core/dense.h"
 
 namespace walktrack {
 namespace {
@@ -29,15 +29,6 @@ std::optional<MatrixXd> reduced_jacobian(const ReturnMap& map, const VectorXd& x
     jacobian.col(i) = N.transpose() * (*plus - *minus) / (2 * h);
   }
   return jacobian;
-}
-
-VectorXcd sorted_eigenvalues(const MatrixXd& matrix) {
-  if (matrix.rows() == 0) return {};
-  VectorXcd values = matrix.eigenvalues();
-  std::sort(values.begin(), values.end(), [](auto a, auto b) {
-    return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
-  });
-  return values;
 }
 
 struct Iterate {
@@ -108,12 +99,6 @@ double LimitCycle::largest_multiplier() const {
   return multipliers.size() > 0 ? std::abs(multipliers(0)) : 0.0;
 }
 
-MatrixXd null_space(const MatrixXd& rows, Index n) {
-  if (rows.rows() == 0) return MatrixXd::Identity(n, n);
-  const Eigen::JacobiSVD<MatrixXd> svd(rows, Eigen::ComputeFullV);
-  return svd.matrixV().rightCols(n - svd.rank());
-}
-
 std::optional<LimitCycle> find_limit_cycle(const ReturnMap& plain_map, const SectionRows& rows,
                                            const VectorXd& guess, const CycleOptions& options,
                                            const SectionProjection& onto) {
@@ -121,13 +106,13 @@ std::optional<LimitCycle> find_limit_cycle(const ReturnMap& plain_map, const Sec
   auto now = evaluated(map, onto, guess);
   double previous = 0;
   for (int i = 0; now && i <= options.max_iterations; ++i) {
-    const MatrixXd N = null_space(rows(now->x), now->x.size());
+    const MatrixXd N = null_space(rows(now->x));
     const auto A = reduced_jacobian(map, now->x, N, options.difference_step);
     if (!A) return std::nullopt;
     const bool close = now->residual() < options.tolerance;
     // One step beyond the tolerance, as long as it still helps.
     if (close && previous > 0 && now->residual() > 0.1 * previous) {
-      return LimitCycle{now->x, now->residual(), N, *A, sorted_eigenvalues(*A), i};
+      return LimitCycle{now->x, now->residual(), N, *A, eigenvalues(*A), i};
     }
     previous = now->residual();
     const VectorXd d = (MatrixXd::Identity(N.cols(), N.cols()) - *A)
@@ -135,7 +120,7 @@ std::optional<LimitCycle> find_limit_cycle(const ReturnMap& plain_map, const Sec
                            .solve(N.transpose() * (now->image - now->x));
     const auto next = damped_step(map, onto, *now, N, d, options.max_halvings);
     if (!next && close) {
-      return LimitCycle{now->x, now->residual(), N, *A, sorted_eigenvalues(*A), i};
+      return LimitCycle{now->x, now->residual(), N, *A, eigenvalues(*A), i};
     }
     now = next;
   }

@@ -48,9 +48,6 @@ std::optional<LimitCycle> find_limit_cycle(const ReturnMap& map, const SectionRo
                                            const CycleOptions& options = {},
                                            const SectionProjection& onto = {});
 
-// Orthonormal basis of the null space of `rows` in dimension n.
-Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows, Eigen::Index n);
-
 // A family of maps over one parameter.
 struct MapFamily {
   std::function<ReturnMap(double)> map;

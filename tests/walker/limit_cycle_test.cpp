@@ -132,15 +132,5 @@ TEST(LimitCycle, KeepsWhatIsConserved) {
   }
 }
 
-TEST(LimitCycle, NullSpaceIsOrthonormal) {
-  MatrixXd rows(2, 4);
-  rows << 1, 2, 3, 4, 2, 4, 6, 8;  // rank one
-  const MatrixXd N = null_space(rows, 4);
-  EXPECT_EQ(N.cols(), 3);
-  EXPECT_LT((rows * N).norm(), 1e-13);
-  EXPECT_LT((N.transpose() * N - MatrixXd::Identity(3, 3)).norm(), 1e-14);
-  EXPECT_EQ(null_space(MatrixXd(0, 4), 4), MatrixXd::Identity(4, 4));
-}
-
 }  // namespace
 }  // namespace walktrack

@@ -1,0 +1,23 @@
+// Solvers for small dense systems. Eigen's are templates, which take seconds to compile for every
+// size of matrix and every source; these are compiled once, for all sizes.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace walktrack {
+
+// The x of least norm among those that minimise |a x - b| (complete orthogonal decomposition: Golub
+// & Van Loan 2013, 5.5.2).
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
+// The matrix that takes every b there.
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
+
+// Of a square matrix, the largest absolute value first, of a conjugate pair that with the positive
+// imaginary part.
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a);
+
+// Orthonormal columns that span the x with a x = 0. All of space where `a` has no rows.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& a);
+
+}  // namespace walktrack

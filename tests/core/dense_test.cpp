@@ -1,0 +1,47 @@
+#include "core/dense.h"
+
+#include <complex>
+
+#include <gtest/gtest.h>
+
+namespace walktrack {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd rank_one() {
+  MatrixXd out(2, 4);
+  out << 1, 2, 3, 4, 2, 4, 6, 8;
+  return out;
+}
+
+// The residual is orthogonal to all that `a` can reach, the solution to all that it cannot see.
+TEST(LeastSquares, IsShortestOfTheBest) {
+  const MatrixXd a = rank_one();
+  const VectorXd b = Eigen::Vector2d(1, 5), x = least_squares(a, b);
+  EXPECT_LT((a.transpose() * (a * x - b)).norm(), 1e-13);
+  EXPECT_LT((null_space(a).transpose() * x).norm(), 1e-14);
+  EXPECT_LT((pseudo_inverse(a) * b - x).norm(), 1e-14);
+}
+
+TEST(NullSpace, IsOrthonormal) {
+  const MatrixXd N = null_space(rank_one());
+  EXPECT_EQ(N.cols(), 3);
+  EXPECT_LT((rank_one() * N).norm(), 1e-13);
+  EXPECT_LT((N.transpose() * N - MatrixXd::Identity(3, 3)).norm(), 1e-14);
+  EXPECT_EQ(null_space(MatrixXd(0, 4)), MatrixXd::Identity(4, 4));
+}
+
+TEST(Eigenvalues, AreInOrder) {
+  MatrixXd turning(3, 3);  // a quarter turn, twice as large, and a shrinking axis
+  turning << 0, -2, 0, 2, 0, 0, 0, 0, 0.5;
+  const Eigen::VectorXcd values = eigenvalues(turning);
+  EXPECT_LT(std::abs(values(0) - std::complex<double>(0, 2)), 1e-14);
+  EXPECT_LT(std::abs(values(1) - std::complex<double>(0, -2)), 1e-14);
+  EXPECT_LT(std::abs(values(2) - 0.5), 1e-14);
+  EXPECT_EQ(eigenvalues(MatrixXd()).size(), 0);
+}
+
+}  // namespace
+}  // namespace walktrack
