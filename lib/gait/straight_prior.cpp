@@ -9,7 +9,7 @@ namespace walktrack {
 namespace {
 
 // Bound of a feedback's correction, of the control; of 0.05 where that is smaller.
-constexpr double kMaxCorrection = 0.4;
+constexpr double kMaxStraightCorrection = 0.4;
 constexpr double kLeastControl = 0.05;
 
 StraightNode blended(const StraightPrior& prior, const GaitTarget& at) {
@@ -120,7 +120,7 @@ StraightControls next_controls(const StraightGait& gait, const StraightState& st
   const Vector2 wanted = -strength * (gait.gain * off);
   StraightGaitVector corrected = gait.vector;
   for (int i = 0; i < kStraightControlSize; ++i) {
-    const double bound = kMaxCorrection * std::max(corrected[i], kLeastControl);
+    const double bound = kMaxStraightCorrection * std::max(corrected[i], kLeastControl);
     corrected[i] += std::clamp(wanted[i], -bound, bound);
   }
   return in_units(corrected, gait.units);

@@ -13,7 +13,7 @@ namespace walktrack {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoDifference = std::numeric_limits<double>::quiet_NaN();
 using Curves = std::span<const std::vector<double>>;
 
 // Of the mean, at every point.
@@ -71,7 +71,7 @@ MeanDifference mean_difference(Curves a, Curves b, double level, size_t draws, u
   MeanDifference out;
   for (size_t k = 0; k < of_a.mean.size(); ++k)
     out.difference.push_back(of_a.mean[k] - of_b.mean[k]);
-  out.low.assign(out.difference.size(), kNaN);
+  out.low.assign(out.difference.size(), kNoDifference);
   out.high = out.low;
   if (a.size() < kLeastForBand || b.size() < kLeastForBand) return out;
   std::vector<double> deviations;
@@ -96,7 +96,7 @@ SampleSpread sample_spread(std::span<const double> values) {
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
   double squares = 0;
   for (const double value : values) squares += (value - mean) * (value - mean);
-  return {values.size(), mean, values.size() > 1 ? std::sqrt(squares / (n - 1)) : kNaN};
+  return {values.size(), mean, values.size() > 1 ? std::sqrt(squares / (n - 1)) : kNoDifference};
 }
 
 // With t = sqrt(n) tan(phi), P(0 < T < t) = Gamma((n+1)/2) / (sqrt(pi) Gamma(n/2)) times the

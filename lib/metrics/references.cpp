@@ -10,14 +10,14 @@ namespace walktrack {
 namespace {
 
 constexpr double kFoundWithin = 0.25;  // m; a third of a usual step
-constexpr double kSameTime = 1e-4;     // s; times come from frame numbers with a few decimals
+constexpr double kSameInstant = 1e-4;  // s; times come from frame numbers with a few decimals
 
 // Mean |x - place| of that foot over [on, off]; NaN where it is never known.
 double mean_offset(const Motion& motion, Side side, double place, double on, double off) {
   double sum = 0;
   size_t count = 0;
   for (size_t i = 0; i < motion.time.size(); ++i) {
-    if (motion.time[i] < on - kSameTime || motion.time[i] > off + kSameTime) continue;
+    if (motion.time[i] < on - kSameInstant || motion.time[i] > off + kSameInstant) continue;
     const Eigen::Vector3d foot = foot_point(motion.joints[i], side);
     if (!known(foot)) continue;
     sum += std::abs(foot.x() - place);

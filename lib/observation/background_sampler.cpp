@@ -15,7 +15,7 @@ namespace walktrack {
 namespace {
 
 // Grey levels from a pixel's densest colour within which its samples are of the background.
-constexpr float kReach = 18;
+constexpr float kNeighbourhood = 18;
 
 struct Statistics {
   float luma, orange, green, luma_variance, chroma_variance;
@@ -80,7 +80,9 @@ Statistics robust_statistics(std::vector<Sample>& samples, std::vector<float>& s
   float n = 0, s[3] = {}, q[3] = {};
   for (const Sample& x : samples) {
     const float d[3] = {x.luma - mode.luma, x.orange - mode.orange, x.green - mode.green};
-    if (std::abs(d[0]) > kReach || std::abs(d[1]) > kReach || std::abs(d[2]) > kReach) continue;
+    if (std::abs(d[0]) > kNeighbourhood || std::abs(d[1]) > kNeighbourhood ||
+        std::abs(d[2]) > kNeighbourhood)
+      continue;
     n += 1;
     for (int c = 0; c < 3; ++c) {
       s[c] += d[c];
@@ -190,7 +192,7 @@ void fill_row(const Frames& frames, size_t y, BackgroundModel& model) {
   const auto n = static_cast<float>(frames.bgr.size());
   const auto width = static_cast<size_t>(frames.width);
   for (size_t x = 0; x < width; ++x) {
-    const bool still = std::max({luma.range(x), orange.range(x), green.range(x)}) <= kReach;
+    const bool still = std::max({luma.range(x), orange.range(x), green.range(x)}) <= kNeighbourhood;
     set_pixel(model, y * width + x,
               still ? Statistics{luma.mean(x, n), orange.mean(x, n), green.mean(x, n),
                                  luma.variance(x, n),

@@ -17,7 +17,7 @@ constexpr std::array<double, kPointKinds> kFirstScale{.015, .033, .030, .026, .0
                                                       .037, .037, .028, .028};
 // A track that has gone astray makes every residual large: scales may grow by so much only, and
 // shrink by as much as the best detectors do.
-constexpr double kMostGrowth = 1.5, kLeastShare = 0.2;
+constexpr double kMostGrowth = 1.5, kSmallestShare = 0.2;
 // Steps of the running median, of the logarithm of a scale.
 constexpr double kFirstStep = 0.2, kLastStep = 0.005;
 // Frames after which an offset's evidence has faded to 1/e: 10 to 20 s.
@@ -45,7 +45,7 @@ void learn_scale(size_t kind, double z, double dof, KeypointErrors& errors) {
   const double step = std::max(kLastStep, kFirstStep / std::sqrt(seen));
   double& scale = errors.scale[kind];
   scale *= std::exp(z > median ? step : -step);
-  scale = std::clamp(scale, kLeastShare * kFirstScale[kind], kMostGrowth * kFirstScale[kind]);
+  scale = std::clamp(scale, kSmallestShare * kFirstScale[kind], kMostGrowth * kFirstScale[kind]);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "observation/observed_frame.h"
@@ -18,6 +19,9 @@ using Point = KeypointEvidence::Point;
 constexpr double kPointsCompared = 1500;
 // A point is no better known than that, px of the shrunk image: detectors round.
 constexpr double kLeastScale = 0.5;
+
+// Who is further away from a figure, in its heights, is another person.
+constexpr double kNear = 0.5;
 
 // Points whose names may be swapped together.
 struct Group {
@@ -103,11 +107,27 @@ const Person* subject_of(const KeypointConfig& config, std::span<const Person> p
   return best;
 }
 
+// Of the figure, from its head to its ankles, px.
+double height_of(const PointPixels& points) {
+  constexpr size_t kAnkle = 2 * static_cast<size_t>(PointKind::kAnkle) - 1;
+  return (points[0] - 0.5 * (points[kAnkle] + points[kAnkle + 1])).norm();
+}
+
 bool is_swapped(const KeypointConfig& config, const NamedSums& sums) {
   return std::log(config.flip) + sums.swapped > std::log1p(-config.flip) + sums.as_named;
 }
 
 }  // namespace
+
+double median_distance(const KeypointEvidence::Person& person, const PointPixels& predicted) {
+  std::vector<double> all;
+  for (size_t i = 0; i < kBodyPoints; ++i)
+    if (person[i].precision > 0) all.push_back((person[i].px - predicted[i]).norm());
+  if (all.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = all.begin() + static_cast<long>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
+}
 
 KeypointTerm::Memory::Memory(const ObserverSetting&, ObserverInput& input)
     : arms_(input.appearances[static_cast<size_t>(Appearance::kArms)]) {}
@@ -170,10 +190,13 @@ double KeypointTerm::log_likelihood(const ObservationConfig& config, const Camer
 std::optional<bool> KeypointTerm::on_somebody(const ObservationConfig& config,
                                               const CameraEvidence& evidence, const Camera& camera,
                                               const PosedBody& now) {
-  if (!says(evidence)) return std::nullopt;
   const KeypointEvidence& seen = evidence.keypoints;
-  return subject_of(config.keypoints, seen.people, point_pixels(camera, now, seen.offsets)) !=
-         nullptr;
+  const PointPixels predicted = point_pixels(camera, now, seen.offsets);
+  if (subject_of(config.keypoints, seen.people, predicted)) return true;
+  const bool near = std::any_of(seen.people.begin(), seen.people.end(), [&](const Person& person) {
+    return median_distance(person, predicted) < kNear * height_of(predicted);
+  });
+  return near ? std::optional(false) : std::nullopt;
 }
 
 TermCosts KeypointTerm::cost(const ObservationConfig& config, const TermWork& work) {

@@ -38,6 +38,9 @@ struct KeypointEvidence {
   PointOffsets offsets;
 };
 
+// Of a person's points from where a pose has them, px; NaN where none was seen.
+double median_distance(const KeypointEvidence::Person& person, const PointPixels& predicted);
+
 // Of one camera: counts for the run's record.
 struct KeypointUse {
   int64_t frames = 0;        // tracked frames with people in them
@@ -96,7 +99,8 @@ struct KeypointTerm {
                                const Camera& camera, const PosedBody& now, const PosedBody* before);
   static TermCosts cost(const ObservationConfig& config, const TermWork& work);
 
-  // Whether a pose lies on one of the people whose points were seen; nullopt where nobody's were.
+  // Whether a pose lies on one of the people whose points were seen; nullopt where nobody's were
+  // seen near it: whoever is further away than half the figure's height is known to be another one.
   static std::optional<bool> on_somebody(const ObservationConfig& config,
                                          const CameraEvidence& evidence, const Camera& camera,
                                          const PosedBody& now);

@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kInner = 0.85;      // share of a leg's width that is surely the leg
-constexpr double kBelowHands = 0.4;  // share of the thigh, from the knee
+constexpr double kInnerRadius = 0.85;  // share of a leg's width that is surely the leg
+constexpr double kBelowHands = 0.4;    // share of the thigh, from the knee
 // Beyond three standard deviations one misfit is like another: shoes, hems, the edge of a shadow.
 constexpr double kWorst = 9;
 constexpr double kDof = 3;  // of the Student-t
@@ -53,7 +53,7 @@ PixelRect pixels_in_both(const Box& a, const Box& b) {
 
 std::vector<Crossing> crossings(std::span<const Part> parts, const CapsuleList& now) {
   const auto side = [&](size_t i) { return leg_of(parts[size_t(now[i].part)].segment); };
-  const auto box = [&](size_t i) { return box_of(shape_of(now[i], kInner)); };
+  const auto box = [&](size_t i) { return box_of(shape_of(now[i], kInnerRadius)); };
   std::vector<Crossing> out;
   for (size_t near = 0; near < now.size(); ++near) {
     for (size_t far = near + 1; side(near) && far < now.size(); ++far) {
@@ -66,7 +66,7 @@ std::vector<Crossing> crossings(std::span<const Part> parts, const CapsuleList& 
 }
 
 // One leg's part, now and before.
-struct Limb {
+struct SeenLimb {
   Shape inner, now, before;
   Appearance appearance;
   bool thigh;
@@ -80,7 +80,7 @@ struct Limb {
   }
 };
 
-bool looks_like(const Limb& limb, const LogRatioPlanes& planes, const Vector2d& point) {
+bool looks_like(const SeenLimb& limb, const LogRatioPlanes& planes, const Vector2d& point) {
   return log_ratio_at(planes, limb.appearance, static_cast<int>(std::lround(point.x())),
                       static_cast<int>(std::lround(point.y()))) > 0;
 }
@@ -101,7 +101,7 @@ struct Asked {
   const SeenLegs& now;
 };
 
-double point_log_ratio(const Asked& asked, const Limb& near, const Limb& far,
+double point_log_ratio(const Asked& asked, const SeenLimb& near, const SeenLimb& far,
                        const Vector2d& point) {
   const Vector2d from_near = near.origin(point), from_far = far.origin(point);
   if (!looks_like(near, asked.now.planes, point) ||
@@ -125,8 +125,8 @@ std::vector<Shape> hiders(const CapsuleList& capsules, const Crossing& crossing)
   return out;
 }
 
-double crossing_log_ratio(const Asked& asked, const Crossing& crossing, const Limb& near,
-                          const Limb& far) {
+double crossing_log_ratio(const Asked& asked, const Crossing& crossing, const SeenLimb& near,
+                          const SeenLimb& far) {
   const std::vector<Shape> in_front = hiders(asked.now.capsules, crossing);
   double sum = 0;
   for (int y = crossing.area.y0; y < crossing.area.y1; ++y) {
@@ -160,12 +160,12 @@ double leg_order_log_ratio(std::span<const Part> parts, const FramePair& pair,
   std::array<const Capsule*, kMaxCapsules> earlier{};
   for (const Capsule& capsule : before.capsules)
     earlier[static_cast<size_t>(capsule.part)] = &capsule;
-  const auto limb = [&](size_t i) -> std::optional<Limb> {
+  const auto limb = [&](size_t i) -> std::optional<SeenLimb> {
     const Capsule& capsule = now.capsules[i];
     const auto part = static_cast<size_t>(capsule.part);
     if (!earlier[part]) return {};
-    return Limb{shape_of(capsule, kInner), shape_of(capsule), shape_of(*earlier[part]),
-                capsule.appearance, is_thigh(parts[part].segment)};
+    return SeenLimb{shape_of(capsule, kInnerRadius), shape_of(capsule), shape_of(*earlier[part]),
+                    capsule.appearance, is_thigh(parts[part].segment)};
   };
   double sum = 0;
   for (const Crossing& crossing : crossings(parts, now.capsules)) {

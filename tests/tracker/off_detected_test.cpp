@@ -55,9 +55,11 @@ bool tracked_after(double aside, double seconds) {
 }
 
 TEST(OffDetected, LosesTheTrackAfterAWhile) {
-  EXPECT_TRUE(tracked_after(2, 0.4));
-  EXPECT_FALSE(tracked_after(2, 0.6));
+  EXPECT_TRUE(tracked_after(0.5, 0.4));
+  EXPECT_FALSE(tracked_after(0.5, 0.6));
 }
+
+TEST(OffDetected, KnowsOthersByTheirDistance) { EXPECT_TRUE(tracked_after(3, 1)); }
 
 TEST(OffDetected, DoesNotWhereTheFigureLiesOnThem) { EXPECT_TRUE(tracked_after(0, 1)); }
 

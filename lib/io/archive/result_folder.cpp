@@ -22,7 +22,7 @@ constexpr const char* kMarker = ".walktrack_";
 // A batch puts the scene that it makes of a template beside the result that is tracked from it.
 constexpr const char* kSceneMaker = "batch";
 constexpr char kNumber = '\t';  // stands for the number of numbered files: no name holds one
-constexpr size_t kMaxMarkerBytes = size_t{1} << 24;
+constexpr size_t kMaxFolderMarkerBytes = size_t{1} << 24;
 constexpr size_t kLongestName = 200;
 
 using Names = std::set<std::string>;
@@ -60,7 +60,7 @@ Names marked(const fs::path& folder, const std::string& command) {
   const fs::path file = folder / marker_name(command);
   std::error_code none;
   if (!fs::is_regular_file(file, none)) return {};
-  std::istringstream lines(read_text_file(file, kMaxMarkerBytes));
+  std::istringstream lines(read_text_file(file, kMaxFolderMarkerBytes));
   Names names;
   std::string line;
   std::getline(lines, line);  // which says what the file is

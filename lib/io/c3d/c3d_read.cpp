@@ -47,12 +47,12 @@ class C3dBytes {
   std::string file_;
 };
 
-struct Parameter {
+struct StoredParameter {
   int type = 0;
   std::vector<size_t> dimensions;
   size_t data = 0;  // where it begins
 };
-using Parameters = std::map<std::string, Parameter>;  // "POINT:LABELS"
+using StoredParameters = std::map<std::string, StoredParameter>;  // "POINT:LABELS"
 
 std::string upper(std::string_view text) {
   std::string out(text);
@@ -62,14 +62,14 @@ std::string upper(std::string_view text) {
 }
 
 // Groups and parameters come in any order; each says how far the next one is.
-Parameters parameters_of(const C3dBytes& bytes) {
+StoredParameters parameters_of(const C3dBytes& bytes) {
   size_t at = kC3dBlock * static_cast<size_t>(std::max(1, bytes.byte(0)) - 1);
   if (bytes.byte(1) != kAnyParameters) bytes.fail("another kind of file", "a C3D file");
   if (bytes.byte(at + 3) != kIntelProcessor)
     bytes.fail("numbers of another processor (DEC or MIPS)",
                "a little-endian C3D file; most programs that save C3D can write one");
   std::map<int, std::string> groups;
-  std::map<std::pair<int, std::string>, Parameter> found;
+  std::map<std::pair<int, std::string>, StoredParameter> found;
   for (at += 4;;) {
     const auto letters = static_cast<size_t>(std::abs(bytes.signed_byte(at)));
     const int id = bytes.signed_byte(at + 1);
@@ -80,7 +80,7 @@ Parameters parameters_of(const C3dBytes& bytes) {
     if (id < 0) {
       groups[-id] = name;
     } else {
-      Parameter parameter{bytes.signed_byte(here), {}, 0};
+      StoredParameter parameter{bytes.signed_byte(here), {}, 0};
       const int dimensions = bytes.byte(here + 1);
       here += 2;
       for (int i = 0; i < dimensions; ++i)
@@ -92,7 +92,7 @@ Parameters parameters_of(const C3dBytes& bytes) {
     if (step == 0) break;
     at = next + static_cast<size_t>(step);
   }
-  Parameters out;
+  StoredParameters out;
   for (const auto& [key, parameter] : found)
     if (groups.contains(key.first)) out[groups[key.first] + ":" + key.second] = parameter;
   return out;
@@ -104,11 +104,11 @@ std::string without_padding(std::string_view text) {
 }
 
 // The texts of a parameter; none where it is missing.
-std::vector<std::string> texts(const C3dBytes& bytes, const Parameters& all,
+std::vector<std::string> texts(const C3dBytes& bytes, const StoredParameters& all,
                                const std::string& key) {
   const auto found = all.find(key);
   if (found == all.end() || found->second.type != -1 || found->second.dimensions.empty()) return {};
-  const Parameter& parameter = found->second;
+  const StoredParameter& parameter = found->second;
   const size_t length = parameter.dimensions[0];
   if (length == 0) return {};
   size_t count = 1;
@@ -119,7 +119,7 @@ std::vector<std::string> texts(const C3dBytes& bytes, const Parameters& all,
   return out;
 }
 
-std::vector<std::string> labels_of(const C3dBytes& bytes, const Parameters& all) {
+std::vector<std::string> labels_of(const C3dBytes& bytes, const StoredParameters& all) {
   std::vector<std::string> out = texts(bytes, all, "POINT:LABELS");
   for (int k = 2; all.contains(fmt::format("POINT:LABELS{}", k)); ++k)
     for (std::string& label : texts(bytes, all, fmt::format("POINT:LABELS{}", k)))
@@ -127,7 +127,7 @@ std::vector<std::string> labels_of(const C3dBytes& bytes, const Parameters& all)
   return out;
 }
 
-double metres_per(const C3dBytes& bytes, const Parameters& all) {
+double metres_per(const C3dBytes& bytes, const StoredParameters& all) {
   const auto units = texts(bytes, all, "POINT:UNITS");
   if (units.empty() || units[0] == "mm") return 1e-3;
   if (units[0] == "m") return 1;
@@ -136,14 +136,14 @@ double metres_per(const C3dBytes& bytes, const Parameters& all) {
 }
 
 // What the header says of the data.
-struct Layout {
+struct C3dLayout {
   size_t points, start, frame_bytes, frames;
   bool floats;
   double scale, rate;
 };
 
-Layout layout_of(const C3dBytes& bytes) {
-  Layout out{};
+C3dLayout layout_of(const C3dBytes& bytes) {
+  C3dLayout out{};
   out.points = static_cast<size_t>(bytes.word(2));
   const auto analog = static_cast<size_t>(bytes.word(4));  // values a frame
   const int first = bytes.word(6), last = bytes.word(8);
@@ -164,7 +164,7 @@ Layout layout_of(const C3dBytes& bytes) {
   return out;
 }
 
-Eigen::Vector3d point_at(const C3dBytes& bytes, const Layout& layout, size_t at, double metres) {
+Eigen::Vector3d point_at(const C3dBytes& bytes, const C3dLayout& layout, size_t at, double metres) {
   const size_t width = layout.floats ? 4 : 2;
   const auto value = [&](size_t k) {
     return layout.floats ? bytes.real(at + k * width) : bytes.signed_word(at + k * width);
@@ -179,8 +179,8 @@ Eigen::Vector3d point_at(const C3dBytes& bytes, const Layout& layout, size_t at,
 
 MarkerTable markers_from_c3d(std::string_view content, const std::string& file) {
   const C3dBytes bytes(content, file);
-  const Parameters parameters = parameters_of(bytes);
-  const Layout layout = layout_of(bytes);
+  const StoredParameters parameters = parameters_of(bytes);
+  const C3dLayout layout = layout_of(bytes);
   const double metres = metres_per(bytes, parameters);
   MarkerTable out{file, labels_of(bytes, parameters), {}, {}};
   out.names.resize(std::min(out.names.size(), layout.points));

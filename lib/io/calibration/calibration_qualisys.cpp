@@ -22,13 +22,13 @@ constexpr const char* kQualisys = "a Qualisys calibration with cameras";
 constexpr double kPerPixel = 64;
 constexpr size_t kMostCameras = 256;
 
-struct Entry {
+struct CameraEntry {
   std::string name;
   size_t from, to;  // in the text
 };
 
-std::vector<Entry> entries_of(const std::string& text, const std::string& file) {
-  std::vector<Entry> out;
+std::vector<CameraEntry> entries_of(const std::string& text, const std::string& file) {
+  std::vector<CameraEntry> out;
   for (size_t at = text.find("<camera "); at != std::string::npos;
        at = text.find("<camera ", at + 1)) {
     if (!out.empty()) out.back().to = at;
@@ -42,10 +42,10 @@ std::vector<Entry> entries_of(const std::string& text, const std::string& file) 
   return out;
 }
 
-const Entry& entry_called(const std::vector<Entry>& entries, const std::string& file,
-                          const std::string& name) {
+const CameraEntry& entry_called(const std::vector<CameraEntry>& entries, const std::string& file,
+                                const std::string& name) {
   std::vector<std::string> names;
-  for (const Entry& entry : entries) {
+  for (const CameraEntry& entry : entries) {
     if (entry.name == name) return entry;
     names.push_back(entry.name);
   }
@@ -77,14 +77,14 @@ Eigen::Matrix3d rotation_of(const XmlElement& transform) {
 
 std::vector<std::string> qualisys_names(const std::string& text, const std::string& file) {
   std::vector<std::string> out;
-  for (const Entry& entry : entries_of(text, file)) out.push_back(entry.name);
+  for (const CameraEntry& entry : entries_of(text, file)) out.push_back(entry.name);
   return out;
 }
 
 Camera camera_from_qualisys(const std::string& text, const std::string& file,
                             const std::string& name) {
-  const std::vector<Entry> entries = entries_of(text, file);
-  const Entry& entry = entry_called(entries, file, name);
+  const std::vector<CameraEntry> entries = entries_of(text, file);
+  const CameraEntry& entry = entry_called(entries, file, name);
   const auto element = [&](const char* what) {
     return XmlElement(text, file, what, fmt::format("one for camera '{}'", name), entry.from,
                       entry.to);

@@ -30,13 +30,13 @@ double shrinking_to(int width_px, double wide) {
 }
 
 // How far joints reach from the pelvis, px: to the upper left, and to the lower right.
-struct Reach {
+struct PixelReach {
   Vector2d pelvis;
   Array2d before{0, 0}, after{0, 0};
 };
 
 // Of the joints that have a place near the picture: lenses do not tell where others are.
-std::optional<Reach> reach_of(const Camera& camera, const JointPositions& joints) {
+std::optional<PixelReach> reach_of(const Camera& camera, const JointPositions& joints) {
   const Array2d size(camera.width_px, camera.height_px);
   const auto pixel = [&](const Eigen::Vector3d& joint) -> std::optional<Vector2d> {
     if (!known(joint)) return std::nullopt;
@@ -46,7 +46,7 @@ std::optional<Reach> reach_of(const Camera& camera, const JointPositions& joints
   };
   const auto pelvis = pixel(joints[Joint::kPelvis]);
   if (!pelvis) return std::nullopt;
-  Reach out{*pelvis};
+  PixelReach out{*pelvis};
   for (const Eigen::Vector3d& joint : joints.at) {
     const auto px = pixel(joint);
     if (!px) continue;
@@ -59,7 +59,7 @@ std::optional<Reach> reach_of(const Camera& camera, const JointPositions& joints
 }
 
 // The pelvis in every frame: straight lines between those that are known.
-std::vector<Vector2d> filled(const std::vector<std::optional<Reach>>& reaches) {
+std::vector<Vector2d> filled(const std::vector<std::optional<PixelReach>>& reaches) {
   std::vector<Vector2d> out(reaches.size());
   std::optional<size_t> before;
   for (size_t i = 0; i < reaches.size(); ++i) {
@@ -112,7 +112,7 @@ OverlayView whole_view(const Camera& camera, int width_px) {
 
 std::vector<OverlayView> views_around(const Camera& camera, std::span<const JointPositions> frames,
                                       int width_px) {
-  std::vector<std::optional<Reach>> reaches;
+  std::vector<std::optional<PixelReach>> reaches;
   Array2d before(0, 0), after(0, 0);
   for (const JointPositions& joints : frames) {
     const auto& reach = reaches.emplace_back(reach_of(camera, joints));

@@ -12,8 +12,8 @@ namespace walktrack {
 namespace {
 
 // Pixels.
-constexpr double kWidth = 760, kLeft = 64, kRight = 740, kTop = 72, kFloor = 432;
-constexpr double kLegendTop = 492, kLegendLine = 19, kRadius = 5;
+constexpr double kPlotWidth = 760, kPlotLeft = 64, kPlotRight = 740, kPlotTop = 72, kFloor = 432;
+constexpr double kLegendTop = 492, kPlotLegendLine = 19, kRadius = 5;
 constexpr double kRoom = 1.15;  // beyond the outermost points, a factor of speed
 constexpr std::string_view kGrid = "#ccc", kOther = "#888";
 
@@ -40,8 +40,8 @@ Axes axes_of(const std::vector<TradePoint>& points) {
     most = std::max(most, p.error_mm + std::fmax(p.error_sd_mm, 0));
   }
   const double high = most > 0 ? most : 1, step = tick_step(high);
-  return {{std::log10(slowest / kRoom), std::log10(fastest * kRoom), kLeft, kRight},
-          {0, std::ceil(high / step) * step, kFloor, kTop}};
+  return {{std::log10(slowest / kRoom), std::log10(fastest * kRoom), kPlotLeft, kPlotRight},
+          {0, std::ceil(high / step) * step, kFloor, kPlotTop}};
 }
 
 std::string error_ticks(const SvgAxis& error) {
@@ -49,8 +49,8 @@ std::string error_ticks(const SvgAxis& error) {
   const double step = tick_step(error.high);
   for (int i = 0; i * step <= error.high * (1 + 1e-9); ++i) {
     const double y = error(i * step);
-    out += line(kLeft, y, kRight, y, kGrid) +
-           svg_text(kLeft - 6, y + 4, "end", fmt::format("{:g}", i * step));
+    out += line(kPlotLeft, y, kPlotRight, y, kGrid) +
+           svg_text(kPlotLeft - 6, y + 4, "end", fmt::format("{:g}", i * step));
   }
   return out;
 }
@@ -61,12 +61,12 @@ std::string speed_ticks(const SvgAxis& log_speed) {
   for (int power = -3; power <= 6; ++power) {
     for (const double digit : {1.0, 2.0, 5.0}) {
       const double speed = digit * std::pow(10, power), x = log_speed(std::log10(speed));
-      if (x < kLeft || x > kRight) continue;
-      out += line(x, kTop, x, kFloor, kGrid) +
+      if (x < kPlotLeft || x > kPlotRight) continue;
+      out += line(x, kPlotTop, x, kFloor, kGrid) +
              svg_text(x, kFloor + 18, "middle", fmt::format("{:g}", speed));
     }
   }
-  return out + svg_text((kLeft + kRight) / 2, kFloor + 38, "middle", "frames/s");
+  return out + svg_text((kPlotLeft + kPlotRight) / 2, kFloor + 38, "middle", "frames/s");
 }
 
 std::string mark(const TradePoint& p, const Axes& axes) {
@@ -95,7 +95,7 @@ std::string front(const std::vector<TradePoint>& sorted, const Axes& axes) {
     path += fmt::format("{}{:.1f} {:.1f}", number == 0 ? "M" : "L", x, y);
     ++number;
     names += svg_text(x + kRadius + 3, y - kRadius, "start", fmt::format("{}", number));
-    names += svg_text(kLeft, kLegendTop + number * kLegendLine, "start",
+    names += svg_text(kPlotLeft, kLegendTop + number * kPlotLegendLine, "start",
                       fmt::format("{}  {}: {:.1f} mm at {:.3g} frames/s", number, p.name,
                                   p.error_mm, p.frames_per_second));
   }
@@ -115,16 +115,16 @@ std::string trade_plot_svg(const std::string& title, const std::string& error_is
     return a.frames_per_second < b.frames_per_second;
   });
   const Axes axes = axes_of(known);
-  std::string out = svg_text(kLeft, kTop - 12, "start", error_is) + error_ticks(axes.error) +
-                    speed_ticks(axes.log_speed);
+  std::string out = svg_text(kPlotLeft, kPlotTop - 12, "start", error_is) +
+                    error_ticks(axes.error) + speed_ticks(axes.log_speed);
   for (const TradePoint& p : known) out += mark(p, axes);
   out += front(known, axes);
-  out += svg_text(kLeft, kLegendTop - 4, "start",
+  out += svg_text(kPlotLeft, kLegendTop - 4, "start",
                   "filled: nothing is both faster and better; cross: lost the subject");
   const auto named =
       std::count_if(known.begin(), known.end(), [](const TradePoint& p) { return p.on_front; });
-  const double height = kLegendTop + static_cast<double>(named + 1) * kLegendLine;
-  return svg_picture(kWidth, height, kLeft, title, out);
+  const double height = kLegendTop + static_cast<double>(named + 1) * kPlotLegendLine;
+  return svg_picture(kPlotWidth, height, kPlotLeft, title, out);
 }
 
 }  // namespace walktrack

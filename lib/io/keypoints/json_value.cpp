@@ -10,7 +10,7 @@
 
 namespace walktrack {
 
-using Json = nlohmann::json;
+using AnyJson = nlohmann::json;
 
 namespace {
 
@@ -27,16 +27,16 @@ int line_of(const std::string& text, size_t byte) {
 
 }  // namespace
 
-Json json_from_text(std::string text, const std::string& file) {
+AnyJson json_from_text(std::string text, const std::string& file) {
   replace_all(text, "-Infinity", "null");
   replace_all(text, "Infinity", "null");
   replace_all(text, "NaN", "null");
   try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
+    return AnyJson::parse(text);
+  } catch (const AnyJson::parse_error& error) {
     const int line = line_of(text, error.byte > 0 ? error.byte - 1 : 0);
     throw InputError(describe({file, line, ""}, "no JSON", "a complete JSON file"));
-  } catch (const Json::exception&) {
+  } catch (const AnyJson::exception&) {
     throw InputError(describe({file, 0, ""}, "a number that is too large", "pixels"));
   }
 }
@@ -54,7 +54,7 @@ std::vector<JsonValue> JsonValue::items() const {
   if (!is_list()) fail(describe_found(), "a list");
   std::vector<JsonValue> out;
   out.reserve(value_->size());
-  for (const Json& item : *value_)
+  for (const AnyJson& item : *value_)
     out.emplace_back(item, *file_, fmt::format("{}[{}]", key_, out.size()));
   return out;
 }
@@ -77,7 +77,7 @@ std::vector<double> JsonValue::numbers() const {
   if (!is_list()) fail(describe_found(), "a list of numbers");
   std::vector<double> out;
   out.reserve(value_->size());
-  for (const Json& item : *value_) {
+  for (const AnyJson& item : *value_) {
     if (!item.is_number() && !item.is_null())
       JsonValue(item, *file_, fmt::format("{}[{}]", key_, out.size()))
           .fail(JsonValue(item, *file_).describe_found(), "a number");
@@ -93,7 +93,7 @@ void JsonValue::fail(std::string_view found, std::string_view allowed) const {
 std::string JsonValue::describe_found() const {
   if (is_map()) return "a map";
   if (is_list()) return "a list";
-  const std::string text = value_->dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = value_->dump(-1, ' ', false, AnyJson::error_handler_t::replace);
   constexpr size_t kLongest = 40;
   return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }

@@ -104,7 +104,7 @@ RenderCamera read_camera(const YamlValue& value, const fs::path& folder) {
   return camera;
 }
 
-Thing read_occluder(const YamlValue& value) {
+Thing read_thing(const YamlValue& value) {
   value.only_keys({"post", "box"});
   const Material material{Colour(0.55f, 0.53f, 0.5f), Colour(0.4f, 0.37f, 0.34f), Pattern::kMottled,
                           0.15};
@@ -281,7 +281,7 @@ RenderFile read_render_file(const fs::path& path) {
   }
   if (file.has("occluders")) {
     for (const YamlValue& item : file.at("occluders").items())
-      options.occluders.push_back(read_occluder(item));
+      options.occluders.push_back(read_thing(item));
   }
   if (file.has("others")) {
     for (const YamlValue& item : file.at("others").items())

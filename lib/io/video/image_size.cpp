@@ -9,7 +9,7 @@ namespace walktrack {
 namespace {
 
 using Bytes = std::span<const unsigned char>;
-using Size = std::optional<ImageSize>;
+using Size = std::optional<StatedSize>;
 
 enum class Order { kLittle, kBig };
 
@@ -33,7 +33,7 @@ std::optional<int64_t> number_at(Bytes bytes, size_t at, size_t count, Order ord
 
 Size size_of(std::optional<int64_t> width, std::optional<int64_t> height) {
   if (!width || !height || *width < 1 || *height < 1) return std::nullopt;
-  return ImageSize{*width, *height};
+  return StatedSize{*width, *height};
 }
 
 // Two numbers of `count` bytes, one `step` bytes after the other.
@@ -53,7 +53,7 @@ Size bmp_size(Bytes bytes) {
   const Size size = size_at(bytes, 18, 4, Order::kLittle);
   if (!size || size->width > INT32_MAX) return std::nullopt;
   const int64_t height = size->height;
-  return ImageSize{size->width, height > INT32_MAX ? (int64_t{1} << 32) - height : height};
+  return StatedSize{size->width, height > INT32_MAX ? (int64_t{1} << 32) - height : height};
 }
 
 // "P5 640 480 255", blanks and comments between the words.
@@ -86,12 +86,12 @@ Size webp_size(Bytes bytes) {
   if (begins_with(bytes, "VP8L", 12)) {
     const auto bits = number_at(bytes, 21, 4, Order::kLittle);
     if (!bits) return std::nullopt;
-    return ImageSize{1 + (*bits & 0x3fff), 1 + (*bits >> 14 & 0x3fff)};
+    return StatedSize{1 + (*bits & 0x3fff), 1 + (*bits >> 14 & 0x3fff)};
   }
   if (!begins_with(bytes, "VP8X", 12)) return std::nullopt;
   const auto width = number_at(bytes, 24, 3, Order::kLittle);
   const auto height = number_at(bytes, 27, 3, Order::kLittle);
-  return width && height ? Size(ImageSize{1 + *width, 1 + *height}) : std::nullopt;
+  return width && height ? Size(StatedSize{1 + *width, 1 + *height}) : std::nullopt;
 }
 
 // TIFF 6.0: entries of 12 bytes in the first directory; tags 256 and 257, types SHORT and LONG.
@@ -138,7 +138,7 @@ Size jpeg_size(Bytes bytes) {
 
 }  // namespace
 
-std::optional<ImageSize> image_size_from_header(Bytes bytes) {
+std::optional<StatedSize> image_size_from_header(Bytes bytes) {
   if (begins_with(bytes, "\x89PNG\r\n\x1a\n")) return png_size(bytes);
   if (begins_with(bytes, "\xff\xd8\xff")) return jpeg_size(bytes);
   if (begins_with(bytes, "BM")) return bmp_size(bytes);

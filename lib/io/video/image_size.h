@@ -9,12 +9,12 @@
 
 namespace walktrack {
 
-struct ImageSize {
+struct StatedSize {
   int64_t width = 0, height = 0;  // px
 };
 
 // Of the whole file's bytes (for JPEG and TIFF the header may stand anywhere); nullopt for other
 // formats, cut-off headers and sizes below one pixel.
-std::optional<ImageSize> image_size_from_header(std::span<const unsigned char> bytes);
+std::optional<StatedSize> image_size_from_header(std::span<const unsigned char> bytes);
 
 }  // namespace walktrack

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t kMaxJsonBytes = size_t{1} << 28;
 // Between the 5 and 95 % points of a normal distribution, in standard deviations.
 constexpr double kBandInSd = 3.29;
@@ -36,7 +36,7 @@ Json read_json(const fs::path& file) {
 
 double number_of(const Json& object, const char* key) {
   const auto found = object.find(key);
-  return found != object.end() && found->is_number() ? found->get<double>() : kNaN;
+  return found != object.end() && found->is_number() ? found->get<double>() : kMissing;
 }
 
 size_t side_index(const Json& object) { return object.at("side") == "left" ? 0 : 1; }
@@ -92,7 +92,7 @@ double band_sd(const Signal& signal, const std::vector<Stride>& strides) {
       ++count;
     }
   }
-  return count > 0 ? sum / static_cast<double>(count) : kNaN;
+  return count > 0 ? sum / static_cast<double>(count) : kMissing;
 }
 
 void take_angle(const Signal& signal, size_t angle, const std::vector<Stride>& strides,
@@ -158,7 +158,7 @@ std::string folder_name(const fs::path& folder) {
 ComparedTrial read_trial(const fs::path& folder) {
   const Json run = read_json(folder / kRunFile), gait = read_json(folder / "gait.json");
   ComparedTrial trial{folder, folder_name(folder), run.value("status", ""), {}, {}};
-  for (SideStrides& side : trial.sides) side.band_sd.fill(kNaN);
+  for (SideStrides& side : trial.sides) side.band_sd.fill(kMissing);
   try {
     for (const Json& measure : run.value("quality", Json::array()))
       if (!measure.value("passed", true)) trial.failed.push_back(measure.value("what", ""));

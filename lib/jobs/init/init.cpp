@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char *kScene = "scene.yaml", *kCalibration = "camera.yaml", *kPicture = "init.png",
-                     *kRecord = "init.json";
+constexpr const char *kScene = "scene.yaml", *kCalibrationFile = "camera.yaml",
+                     *kPicture = "init.png", *kRecord = "init.json";
 
 // A walker between floor and top of the head, mean over a stride, as a share of their height: knees
 // are bent, shoes and hair add, the floor in the picture is that of the nearer edge of the feet.
@@ -138,7 +138,7 @@ std::string scene_yaml(const InitJob& job, const InitOutcome& out) {
       "width and\n"
       "# what turns out of the picture are not to be used.\n"
       "cameras:\n  - {{name: camera, video: {}, calibration: {}",
-      percent(out.view.metres_per_px), beside(job.video), kCalibration);
+      percent(out.view.metres_per_px), beside(job.video), kCalibrationFile);
   if (!job.background.empty()) text += fmt::format(", background: {}", beside(job.background));
   text += "}\n";
   if (job.frame_rate) text += fmt::format("frame_rate: {:g}\n", *job.frame_rate);
@@ -210,7 +210,7 @@ std::string picture_png(const InitJob& job, const InitOutcome& out,
 
 Outputs outputs_of(const InitJob& job) {
   Outputs outputs{
-      job.output, "init", {kScene, kCalibration, kPicture, kRecord}, {job.video}, kRecord};
+      job.output, "init", {kScene, kCalibrationFile, kPicture, kRecord}, {job.video}, kRecord};
   if (!job.background.empty()) outputs.inputs.push_back(job.background);
   return outputs;
 }
@@ -236,7 +236,7 @@ InitOutcome init_scene(const InitJob& job, const JobControl& control) {
     out.farthest = std::max(out.farthest, distance_of(out.view.camera, seen));
   }
   const ResultFolder folder(outputs_of(job), job.overwrite);
-  folder.write(kCalibration, opencv_from_camera(out.view.camera));
+  folder.write(kCalibrationFile, opencv_from_camera(out.view.camera));
   folder.write(kPicture,
                picture_png(job, out, positions, walk.figures[walk.figures.size() / 2].frame));
   folder.write(kScene, scene_yaml(job, out));

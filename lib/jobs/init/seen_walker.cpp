@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kWorkingSide_px = 960;  // of the shrunk image: a person is 100 px high or more
 constexpr double kLooks_hz = 10;      // frames looked at in a second
-constexpr size_t kMostLooks = 600;    // at frames with somebody in them
+constexpr size_t kMostFrames = 600;   // at frames with somebody in them
 constexpr double kLeastHeight = 0.08, kMostHeight = 0.98;  // of the figure, shares of the picture
 constexpr double kWidest = 1.2;                            // a walker is higher than wide
 // Beyond the points of a head and an ankle, shares of the way between them.
@@ -30,7 +30,7 @@ constexpr double kAboveHead = 0.17, kBelowAnkle = 0.10, kBeside = 0.2;
 // Of the height in which a person is looked for: pieces that are more than specks, and how much of
 // it a whole person fills.
 constexpr double kLeastPiece = 0.04, kLeastCovered = 0.72;
-constexpr float kSeen = 0.25F;
+constexpr float kSeenEnough = 0.25F;
 // Between two looks at the same person: a gap, and how far they get in it, in their heights.
 constexpr double kLongestGap_s = 0.6, kFarthestSideways = 0.6, kFarthestUpwards = 0.2;
 // A stride of ordinary walking, and how unequal in height its frames may be.
@@ -105,7 +105,7 @@ class Foreground {
   CameraEvidence evidence_;
 };
 
-double median(std::vector<double> values) {
+double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<long>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -141,7 +141,7 @@ std::optional<cv::Rect> box_of(const DetectedPerson& person) {
   for (size_t i = 0; i < kKeypointCount; ++i) {
     const auto name = static_cast<KeypointName>(i);
     const Keypoint& point = person[name];
-    if (point.confidence < kSeen) continue;
+    if (point.confidence < kSeenEnough) continue;
     if (name <= kRightEar) {
       top = std::min<double>(top, point.y_px);
       ++head;
@@ -262,7 +262,7 @@ double way_of(const Track& track) {
       track.begin(), track.end(), [](const auto& a, const auto& b) { return a.u_px < b.u_px; });
   std::vector<double> sizes;
   for (const SeenFigure& figure : track) sizes.push_back(size_of(figure));
-  return (right->u_px - left->u_px) / median(sizes);
+  return (right->u_px - left->u_px) / median_of(sizes);
 }
 
 // Who goes farthest: others stand about.
@@ -277,7 +277,7 @@ std::optional<WalkerPosition> mean_of(std::span<const SeenFigure> figures, size_
   if (figures.size() < least) return std::nullopt;
   std::vector<double> sizes;
   for (const SeenFigure& figure : figures) sizes.push_back(size_of(figure));
-  const double usual = median(sizes);
+  const double usual = median_of(sizes);
   SeenStature sum{0, 0, 0};
   double count = 0, time = 0;
   for (const SeenFigure& figure : figures) {
@@ -312,7 +312,7 @@ SeenWalk seen_walk(const InitJob& job, const JobControl& control) {
   cv::Mat frame;
   std::vector<Track> tracks;
   size_t looked = 0;
-  for (int n = 0; looked < kMostLooks && !control.stopping() && source.read(frame); ++n) {
+  for (int n = 0; looked < kMostFrames && !control.stopping() && source.read(frame); ++n) {
     control.progress("looking for the subject", static_cast<size_t>(n),
                      static_cast<size_t>(facts.frame_count));
     if (n % every != 0) continue;

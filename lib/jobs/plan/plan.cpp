@@ -17,7 +17,7 @@ namespace walktrack {
 
 namespace {
 
-constexpr double kPercent = 100;
+constexpr double kHundred = 100;
 
 // The box that is looked at reaches half a metre to all sides of the walker (jobs/track/track.cpp),
 // seen obliquely, and a quarter of that above and below.
@@ -196,7 +196,7 @@ std::vector<std::pair<std::string, double>> memory_of(const Scene& scene, const 
 }
 
 std::string saving(double without, double all) {
-  return fmt::format("saves {:.0f} % of the time", kPercent * (1 - without / all));
+  return fmt::format("saves {:.0f} % of the time", kHundred * (1 - without / all));
 }
 
 // The camera that sees the walk most from the side, if the scene says where it goes.

@@ -24,7 +24,7 @@ constexpr double kRowRate = 240;    // Hz, of the motion: the fastest cameras
 constexpr int kMarginRows = 60;     // before time 0 and after the end, for shutters and events
 constexpr double kArmPerLeg = 0.6;  // of the other thigh's swing; Murray et al. 1967
 constexpr double kArmAside = 0.1, kElbow = 0.35;  // rad
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoStep = std::numeric_limits<double>::quiet_NaN();
 
 size_t index(Side side) { return static_cast<size_t>(side); }
 
@@ -163,7 +163,7 @@ KineticsFrame frame_at(const WalkedGait& walked, double time, double interval) {
   frame.com = in_world(now.com, 0);
   frame.kinetic_energy = now.kinetic;
   frame.potential_energy = now.potential;
-  frame.legs.fill({kNone, kNone, kNone, kNone, kNone, kNone, kNone});
+  frame.legs.fill({kNoStep, kNoStep, kNoStep, kNoStep, kNoStep, kNoStep, kNoStep});
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const size_t i = index(side);
     const Vector2d force = (after[i] - before[i]) / interval;

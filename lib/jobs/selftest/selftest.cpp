@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr auto kPollInterval = std::chrono::milliseconds(10);
+constexpr auto kTrialPollInterval = std::chrono::milliseconds(10);
 constexpr size_t kMaxLogBytes = 16u << 20;
 // Of one trial: many times what a sound one takes, so that a busy machine does not look like a
 // hang.
@@ -39,7 +39,7 @@ std::vector<size_t> order_of(const std::vector<std::string>& names) {
   return order;
 }
 
-struct Running {
+struct RunningTrial {
   size_t index;
   ChildProcess child;
 };
@@ -93,7 +93,7 @@ std::vector<TrialResult> run_selftest(const SelftestJob& job, const JobControl& 
   const std::vector<size_t> order = order_of(names);
   std::vector<TrialResult> results(names.size());
   std::vector<bool> done(names.size(), false);
-  std::list<Running> running;
+  std::list<RunningTrial> running;
   const auto place = [&](size_t i) { return job.folder / fmt::format("{:02}", i); };
   const auto log = [&](size_t i) { return job.folder / fmt::format("{:02}.log", i); };
   fs::create_directories(job.folder);
@@ -107,8 +107,8 @@ std::vector<TrialResult> run_selftest(const SelftestJob& job, const JobControl& 
           {index, ChildProcess(words, log(index), job.stress ? kStressLimits : kLimits)});
       continue;
     }
-    std::this_thread::sleep_for(kPollInterval);
-    std::erase_if(running, [&](Running& each) {
+    std::this_thread::sleep_for(kTrialPollInterval);
+    std::erase_if(running, [&](RunningTrial& each) {
       const auto end = each.child.poll();
       if (!end) return false;
       results[each.index] = result_of(names[each.index], *end, log(each.index));

@@ -28,9 +28,9 @@ constexpr double kSeconds = 2;      // of a video
 constexpr double kHeight = 1.75;    // m, of who walks in it
 constexpr double kLeastMass = 0.5;  // kg, that a scene may state
 constexpr double kFarthest = 1000;  // m; nobody walks out of that in a self-test
-constexpr size_t kMaxTableBytes = 64u << 20;
-constexpr int kBackgroundFrames = 10;
-constexpr double kMostGrowth = 1;  // MB, from the first half of a video to the second
+constexpr size_t kMaxJointTableBytes = 64u << 20;
+constexpr int kEmptyFrames = 10;
+constexpr double kMostMemoryGrowth = 1;  // MB, from the first half of a video to the second
 constexpr uint32_t kVideoStream = 0, kBackgroundStream = 1;
 
 struct Shot {
@@ -71,7 +71,7 @@ Shot shoot(const TestVideo& video) {
     shot.frames.push_back(image_of(light, video, kVideoStream, times.size()));
     times.push_back(time);
   }
-  for (size_t i = 0; i < kBackgroundFrames; ++i) {
+  for (size_t i = 0; i < kEmptyFrames; ++i) {
     shot.background.push_back(image_of(view.empty, video, kBackgroundStream, i));
   }
   shot.truth = truth_at(stage, times);
@@ -155,7 +155,7 @@ TrackOutcome track(const fs::path& scene, ConfigWithOrigin config, const fs::pat
 
 // What no result may hold; empty if it does not. The reader refuses cells that are no numbers.
 std::string fault_in(const fs::path& output) {
-  const std::string uncertainty = read_text_file(output / "uncertainty.csv", kMaxTableBytes);
+  const std::string uncertainty = read_text_file(output / "uncertainty.csv", kMaxJointTableBytes);
   if (uncertainty.find("nan", uncertainty.find('\n')) != std::string::npos ||
       uncertainty.find("inf", uncertainty.find('\n')) != std::string::npos) {
     return "uncertainty.csv holds what is no number";
@@ -257,7 +257,7 @@ TrialResult try_video(const TestVideo& video, const fs::path& folder) {
                                 height_of(video.walker), output);
     if (video.watch_memory) {
       result.what += fmt::format("; second half {:+.1f} MB", memory.growth());
-      if (memory.growth() > kMostGrowth) result.end = TrialEnd::kFailed;
+      if (memory.growth() > kMostMemoryGrowth) result.end = TrialEnd::kFailed;
     }
     return result;
   } catch (const InputError& error) {

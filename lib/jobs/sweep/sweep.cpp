@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoResult = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t kMaxBytes = size_t{1} << 28;
 constexpr size_t kMostRuns = 100'000;
 
@@ -49,7 +49,7 @@ std::string folder_name(const std::string& setting) {
 }
 
 // One run of the tracker within a sweep.
-struct Trial {
+struct SweepTrial {
   const SweepSetting& setting;
   uint64_t seed;
   int repeat;  // from 0
@@ -67,14 +67,14 @@ class Sweep {
   double frame_rate() const { return frame_rate_; }
   void expect(size_t runs) { total_ = runs * frames_; }
 
-  fs::path folder(const Trial& trial) const {
+  fs::path folder(const SweepTrial& trial) const {
     const std::string seed = fmt::format("seed_{}", trial.seed);
     return job_.output / "runs" / folder_name(setting_name(job_.parameters, trial.setting)) /
            (trial.repeat == 0 ? seed : fmt::format("{}_again_{}", seed, trial.repeat));
   }
 
   // Tracks, unless that has been done; false if told to stop before the end.
-  bool run(const Trial& trial) {
+  bool run(const SweepTrial& trial) {
     const size_t before = done_;
     done_ += frames_;
     if (control_.stopping()) return false;
@@ -89,13 +89,13 @@ class Sweep {
     return true;
   }
 
-  Json record(const Trial& trial) const {
+  Json record(const SweepTrial& trial) const {
     return Json::parse(read_text_file(folder(trial) / "run.json", kMaxBytes));
   }
-  Motion joints(const Trial& trial) const { return read_motion(folder(trial) / "joints.csv"); }
+  Motion joints(const SweepTrial& trial) const { return read_motion(folder(trial) / "joints.csv"); }
 
  private:
-  TrackJob track_job(const Trial& trial) const {
+  TrackJob track_job(const SweepTrial& trial) const {
     TrackJob track;
     track.scene = job_.scene;
     track.config = job_.config;
@@ -136,8 +136,8 @@ class Sweep {
   size_t frames_ = 0, done_ = 0, total_ = 0;  // frames of one run; of all runs
 };
 
-double median(std::vector<double> values) {
-  return values.empty() ? kNone : quantile(std::move(values), 0.5);
+double median_or_none(std::vector<double> values) {
+  return values.empty() ? kNoResult : quantile(std::move(values), 0.5);
 }
 
 // `clock`: stage_seconds or stage_cpu_seconds.
@@ -155,10 +155,10 @@ double headline(const Truth& truth, const Motion& estimate, std::string& label) 
     label = figure.label;
     return figure.value;
   }
-  return kNone;
+  return kNoResult;
 }
 
-SweepRun measure(const Sweep& sweep, const Trial& trial, int repeats, const Truth& truth,
+SweepRun measure(const Sweep& sweep, const SweepTrial& trial, int repeats, const Truth& truth,
                  std::string& label) {
   SweepRun out;
   out.seed = trial.seed;
@@ -176,8 +176,8 @@ SweepRun measure(const Sweep& sweep, const Trial& trial, int repeats, const Trut
     seconds.push_back(tracking_seconds(again, "stage_seconds") / frames);
     cpu_seconds.push_back(tracking_seconds(again, "stage_cpu_seconds") / frames);
   }
-  out.seconds_per_frame = median(std::move(seconds));
-  out.cpu_seconds_per_frame = median(std::move(cpu_seconds));
+  out.seconds_per_frame = median_or_none(std::move(seconds));
+  out.cpu_seconds_per_frame = median_or_none(std::move(cpu_seconds));
   return out;
 }
 
@@ -189,7 +189,7 @@ std::optional<Truth> reference_of(const SweepJob& job, Sweep& sweep, const Sweep
     report.reference = file.filename().string();
     return read_truth(file, sweep.frame_rate());
   }
-  const Trial trial{richest, job.config.values.seed + static_cast<uint64_t>(job.seeds), 0};
+  const SweepTrial trial{richest, job.config.values.seed + static_cast<uint64_t>(job.seeds), 0};
   report.against_truth = false;
   report.reference =
       fmt::format("a run of {} with seed {}", setting_name(job.parameters, richest), trial.seed);
@@ -258,13 +258,13 @@ void summarise_sweep(std::vector<SweepRow>& rows, double most_lost_share) {
       row.holds = row.holds && run.found && run.lost_share <= most_lost_share;
     }
     const auto n = static_cast<double>(errors.size());
-    row.error_mm = errors.empty() ? kNone : std::reduce(errors.begin(), errors.end()) / n;
+    row.error_mm = errors.empty() ? kNoResult : std::reduce(errors.begin(), errors.end()) / n;
     double squares = 0;
     for (const double error : errors) squares += std::pow(error - row.error_mm, 2);
-    row.error_sd_mm = errors.size() > 1 ? std::sqrt(squares / (n - 1)) : kNone;
-    row.seconds_per_frame = median(std::move(seconds));
-    row.cpu_seconds_per_frame = median(std::move(cpu_seconds));
-    trades.push_back({row.seconds_per_frame, row.holds ? row.error_mm : kNone});
+    row.error_sd_mm = errors.size() > 1 ? std::sqrt(squares / (n - 1)) : kNoResult;
+    row.seconds_per_frame = median_or_none(std::move(seconds));
+    row.cpu_seconds_per_frame = median_or_none(std::move(cpu_seconds));
+    trades.push_back({row.seconds_per_frame, row.holds ? row.error_mm : kNoResult});
   }
   const std::vector<bool> front = pareto_front(trades);
   for (size_t i = 0; i < rows.size(); ++i) rows[i].on_front = front[i];

@@ -87,7 +87,7 @@ std::vector<SceneCamera> chosen_cameras(const std::string& value,
 }
 
 // The words that `terms` takes.
-std::vector<std::string_view> term_names() {
+std::vector<std::string_view> term_keys() {
   std::vector<std::string_view> names;
   for (const TermSwitch& each : term_switches()) names.push_back(each.key);
   return names;
@@ -95,7 +95,7 @@ std::vector<std::string_view> term_names() {
 
 std::vector<std::pair<std::string, std::string>> term_flags(const std::string& value) {
   const std::vector<std::string> on = split(value, '+');
-  const std::vector<std::string_view> names = term_names();
+  const std::vector<std::string_view> names = term_keys();
   const bool known = std::all_of(on.begin(), on.end(), [&](const std::string& word) {
     return std::find(names.begin(), names.end(), word) != names.end();
   });

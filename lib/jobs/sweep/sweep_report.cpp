@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 // A setting is as good as the best while its error is at most this much larger.
 constexpr double kAsGood = 1.1;
-constexpr double kMs = 1000, kPercent = 100;
+constexpr double kMilliseconds = 1000, kPerHundred = 100;
 
 std::string number(double value, int decimals) {
   return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
@@ -135,7 +135,7 @@ std::string sweep_csv(const SweepReport& report) {
   for (const SweepRow& row : report.rows) {
     for (const std::string& value : row.setting) text += csv_cell(value) + ",";
     text += fmt::format("{},{},{},{:.6f},{:.6f},{:.3f},{},{},{}\n", csv_value(row.error_mm, 3),
-                        csv_value(row.error_sd_mm, 3), csv_value(kPercent * row.lost_share, 2),
+                        csv_value(row.error_sd_mm, 3), csv_value(kPerHundred * row.lost_share, 2),
                         row.seconds_per_frame, row.cpu_seconds_per_frame, row.frames_per_second(),
                         row.runs.size(), row.holds ? 1 : 0, row.on_front ? 1 : 0);
   }
@@ -188,8 +188,8 @@ std::string sweep_markdown(const SweepReport& report, const std::vector<std::str
   for (const SweepRow& row : report.rows)
     text += fmt::format("| {} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.3g} | {} |\n",
                         name_of(report, row), number(row.error_mm, 1), number(row.error_sd_mm, 1),
-                        kPercent * row.lost_share, kMs * row.seconds_per_frame,
-                        kMs * row.cpu_seconds_per_frame, row.frames_per_second(),
+                        kPerHundred * row.lost_share, kMilliseconds * row.seconds_per_frame,
+                        kMilliseconds * row.cpu_seconds_per_frame, row.frames_per_second(),
                         row.on_front ? "front"
                         : row.holds  ? ""
                                      : "lost");

@@ -14,16 +14,6 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-double median_distance(const KeypointEvidence::Person& person, const PointPixels& predicted) {
-  std::vector<double> distances;
-  for (size_t i = 0; i < kBodyPoints; ++i)
-    if (person[i].precision > 0) distances.push_back((person[i].px - predicted[i]).norm());
-  if (distances.empty()) return kNothing;
-  const auto middle = distances.begin() + static_cast<long>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
-}
-
 // Where a pixel of the shrunk image is in the picture.
 Eigen::Vector2d picture_px(const Eigen::Vector2d& shrunk_px, int shrink) {
   return (shrunk_px.array() + 0.5) * shrink - 0.5;

@@ -69,9 +69,10 @@ void draw_record(const FrameRecord& record, size_t camera, const OverlayView& vi
 }
 
 // Frames as they are read and shrunk, one ahead of those that are drawn.
-class Pictures {
+class OverlayPictures {
  public:
-  Pictures(const Scene& scene, std::vector<CameraVideo>& videos) : video_(scene), videos_(videos) {}
+  OverlayPictures(const Scene& scene, std::vector<CameraVideo>& videos)
+      : video_(scene), videos_(videos) {}
 
   // The frame `i` into all `next`; false if there is none.
   bool read(size_t i) {
@@ -107,7 +108,7 @@ std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames&
   for (const SceneCamera& camera : job.scene.cameras)
     clips.push_back({camera.name, folder.file(overlay_name(camera))});
   std::vector<CameraVideo> videos = opened(job, frames, clips);
-  Pictures pictures(job.scene, videos);
+  OverlayPictures pictures(job.scene, videos);
   const bool arms = job.config.values.body.arms;
   const size_t count = frames.records.size();
   bool there = count > 0 && pictures.read(0);
