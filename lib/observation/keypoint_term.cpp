@@ -20,7 +20,7 @@ constexpr double kPointsCompared = 1500;
 // A point is no better known than that, px of the shrunk image: detectors round.
 constexpr double kLeastScale = 0.5;
 
-// Who is further away from a figure, in its heights, is another person.
+// Who is further away from a figure, in its heights, is another person. By hand.
 constexpr double kNear = 0.5;
 
 // Points whose names may be swapped together.
