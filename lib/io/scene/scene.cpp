@@ -76,6 +76,7 @@ SceneCamera read_camera(const YamlValue& value, const fs::path& folder, const Wo
   require_pictures_or_points(value, camera);
   if (value.has("start_frame")) {
     camera.start_frame = value.at("start_frame").integer(0, kMostFrames);
+    camera.start_given = true;
   }
   if (value.has("frame_rate")) {
     camera.frame_rate = value.at("frame_rate").number(kSlowestRate, kFastestRate);

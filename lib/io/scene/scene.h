@@ -39,6 +39,7 @@ struct SceneCamera {
   KeypointSource keypoints;           // there where there is no video
   Camera camera;                      // in the world
   int start_frame = 0;                // frame numbers count from here
+  bool start_given = false;           // otherwise `track` may find it from the walk
   std::optional<double> frame_rate;   // Hz, where it differs from the scene's
   std::vector<Occluder> occluders;
 };

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct Finding {
   std::string camera;  // empty = the scene
   bool failure;        // otherwise worth knowing only
   std::string what, cure;
+  bool may_be_lag = false;  // cameras that began at different moments would explain it
 };
 
 struct CheckedCamera {
@@ -39,9 +41,18 @@ struct CheckedCamera {
   VideoFacts video;
 };
 
+// By how much one of two cameras shows things later than the other, found from the walk, where the
+// scene does not state it.
+struct FoundLag {
+  size_t camera;     // the late one: it starts at `frames`, the other one at 0
+  int frames;        // of the scene, > 0
+  double sd_frames;  // standard deviation
+};
+
 struct CheckReport {
   std::vector<CheckedCamera> cameras;
   std::vector<Finding> findings;
+  std::optional<FoundLag> lag;  // that `track` takes out
   bool failed() const;
 };
 

@@ -61,6 +61,7 @@ std::vector<OutOfStep> find_out_of_step(const std::vector<Camera>& cameras,
 struct PairLag {
   int before = 0, after = 0;  // frames that the second camera shows things later than the first
   int changes_at = 0;         // frame from which `after` holds; equal lags: no change
+  double sd = 0;              // frames, of `after` where nothing changes
 };
 // nullopt if the cameras see too little to tell.
 std::optional<PairLag> find_pair_lag(const std::vector<Camera>& cameras,

@@ -86,6 +86,12 @@ std::optional<double> median_gap(const std::vector<PlanePath>& planes, size_t la
   return *middle;
 }
 
+// Whether the scene leaves it to the walk to tell when its cameras began.
+bool starts_are_open(const Scene& scene) {
+  return std::none_of(scene.cameras.begin(), scene.cameras.end(),
+                      [](const SceneCamera& camera) { return camera.start_given; });
+}
+
 // What to do about a camera that began so many frames early; or the other one late.
 std::string start_cure(const Scene& scene, int lag) {
   const bool second = scene.cameras[1].start_frame + lag >= 0;
@@ -121,7 +127,21 @@ void say_pair_lag(const Scene& scene, const std::optional<PairLag>& lag, double 
   }
   if (lag->before != lag->after) return say_lost(scene, *lag, frame_rate, report);
   if (lag->after == 0) return;
-  const SceneCamera& late = scene.cameras[lag->after > 0 ? 1 : 0];
+  const size_t late_camera = lag->after > 0 ? 1 : 0;
+  const SceneCamera& late = scene.cameras[late_camera];
+  if (starts_are_open(scene)) {
+    for (Finding& finding : report.findings)
+      finding.failure = finding.failure && !finding.may_be_lag;
+    report.lag = FoundLag{late_camera, std::abs(lag->after), lag->sd};
+    report.findings.push_back(
+        {"", false,
+         fmt::format("{} shows things {} frames later than the other (standard deviation {:.1f}), "
+                     "found from the walk",
+                     late.name, report.lag->frames, lag->sd),
+         fmt::format("none needed, `track` puts the cameras in step; {} states it",
+                     start_cure(scene, lag->after))});
+    return;
+  }
   report.findings.insert(report.findings.begin(),
                          {"", true,
                           fmt::format("the cameras are out of step: {} shows things {} frames "

@@ -136,7 +136,8 @@ void check_lengths(const Scene& scene, const std::vector<Timing>& timing, double
                    longest),
        began_together ? "if one has lost frames, give it its time stamps back; if they began "
                         "unequally, set start_frame; if only their ends differ, state last_frame"
-                      : "tracking ends with the shortest"});
+                      : "tracking ends with the shortest",
+       began_together});
 }
 
 }  // namespace

@@ -252,6 +252,16 @@ size_t best_lag(const std::vector<Sums>& lags) {
 
 bool is_clear(const Gain& gain) { return gain.mean >= kWorth && gain.clear >= kClear; }
 
+// Standard deviation of the best lag, frames: lags that are not worse by a standard error are as
+// likely, and a lag is a whole number of frames.
+double lag_sd(const std::vector<Sums>& lags, size_t best, size_t moment) {
+  const auto as_likely = [&](size_t l) { return gain(lags[best], lags[l], moment).clear < 1; };
+  size_t first = best, last = best;
+  while (first > 0 && as_likely(first - 1)) --first;
+  while (last + 1 < lags.size() && as_likely(last + 1)) ++last;
+  return static_cast<double>(last - first + 1) / std::sqrt(12.0);
+}
+
 // All lags from -longest to longest; empty if neither end tells anything. `little`: see tells().
 std::vector<Sums> lags_tried(const std::vector<Camera>& cameras,
                              const std::vector<FigurePath>& paths, int longest, int little) {
@@ -297,7 +307,7 @@ std::optional<PairLag> find_pair_lag(const std::vector<Camera>& cameras,
   if (lost && is_clear(gain(otherwise(lags, change, best), lags[best], moment)))
     return PairLag{lag_of(change.before), lag_of(change.after), static_cast<int>(change.at)};
   if (!apart(best, none) || !is_clear(gain(lags[best], lags[none], moment))) return PairLag{};
-  return PairLag{lag_of(best), lag_of(best), 0};
+  return PairLag{lag_of(best), lag_of(best), 0, lag_sd(lags, best, moment)};
 }
 
 }  // namespace walktrack

@@ -164,6 +164,11 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
     out.numbers.emplace_back("estimated_height_m", run.stature()->height);
     out.numbers.emplace_back("estimated_height_sd_m", run.stature()->sd);
   }
+  if (outcome.lag) {
+    out.numbers.emplace_back("lag_frames_" + job.scene.cameras[outcome.lag->camera].name,
+                             outcome.lag->frames);
+    out.numbers.emplace_back("lag_sd_frames", outcome.lag->sd_frames);
+  }
   const std::vector<double> overlaps = mean_overlaps(frames);
   for (size_t c = 0; c < overlaps.size(); ++c)
     out.numbers.emplace_back(overlap_key(job.scene.cameras[c]), 100 * overlaps[c]);
@@ -249,13 +254,20 @@ void see_to_earlier_result(const TrackJob& job, const Origin& origin, const JobC
                             job.output.string(), changed));
 }
 
+struct LookedAt {
+  std::vector<std::string> notes;
+  std::optional<FoundLag> lag;
+};
+
 // Says and hands back what the scene's checks found. InputError for the first failure, with its
 // cure, unless failures are to be ignored.
-std::vector<std::string> looked_at(const TrackJob& job, const JobControl& control) {
-  std::vector<std::string> notes;
+LookedAt looked_at(const TrackJob& job, const JobControl& control) {
+  const CheckReport report = look_at_scene(job.scene, control);
+  LookedAt out{{}, report.lag};
+  std::vector<std::string>& notes = out.notes;
   std::string failure;
   int more = -1;
-  for (const Finding& finding : look_at_scene(job.scene, control).findings) {
+  for (const Finding& finding : report.findings) {
     if (finding.failure && failure.empty()) failure = one_line(finding);
     if (finding.failure) ++more;
     notes.push_back((finding.failure ? "a failed check was ignored: " : "") + one_line(finding));
@@ -266,7 +278,7 @@ std::vector<std::string> looked_at(const TrackJob& job, const JobControl& contro
         more > 0 ? fmt::format("; and {} more, see walktrack check", more) : std::string()));
   }
   for (const std::string& note : notes) control.say(note);
-  return notes;
+  return out;
 }
 
 // The checkpoint to go on from, if that is wanted and there is one that fits.
@@ -332,7 +344,10 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const TimePoint looking;
   require_a_term(job.config.values.observation);
   TrackOutcome outcome;
-  outcome.checks = looked_at(job, control);
+  LookedAt looked = looked_at(job, control);
+  outcome.checks = std::move(looked.notes);
+  outcome.lag = looked.lag;
+  if (looked.lag) job.scene.cameras[looked.lag->camera].start_frame = looked.lag->frames;
   const Elapsed checking = elapsed_since(looking);
   SceneVideo video(job.scene);
   require_room_for_search(job.scene, job.config.values, video.frame_rate());

@@ -21,6 +21,7 @@
 #include "core/job_control.h"
 #include "io/config/config.h"
 #include "io/scene/scene.h"
+#include "jobs/check/check.h"
 #include "jobs/track/walk_summary.h"
 
 namespace walktrack {
@@ -53,6 +54,7 @@ struct TrackOutcome {
   WalkSummary walk;
   std::vector<QualityMeasure> failed_checks;  // for kQualityFailed
   std::vector<std::string> checks;            // what the scene's checks found
+  std::optional<FoundLag> lag;                // between two cameras, taken out
   std::string message;                        // for kCutShort and kQualityFailed: what happened
   std::filesystem::path open_first;           // the file to open first
 };
