@@ -2,9 +2,10 @@
 """Would a test notice? Plants the faults of tests/faults/faults.toml into copies of single sources,
 one at a time, links the test programs that are named for each and runs them until one fails. Writes
 tests/faults/caught.csv: which test caught which fault, at which commit. The working tree stays as it
-is; a build folder is needed and the test programs are brought up to date first.
+is. The test programs are built first, in a folder of their own, file by file: a source that is compiled
+together with others cannot be replaced alone.
 
-  scripts/planted_faults.py [--build build/ci] [--jobs 1] [--only WORD] [--new]
+  scripts/planted_faults.py [--build build/faults] [--jobs 1] [--only WORD] [--new]
 
 --only: faults whose area or description holds the word; --new: only those without a row. Exit code 1
 if a fault was not caught."""
@@ -33,6 +34,8 @@ def program_of(test):
 class Build:
     def __init__(self, folder, programs):
         self.folder = folder
+        subprocess.run(["cmake", "--preset", "ci", "-B", folder, "-DCMAKE_UNITY_BUILD=OFF"], cwd=ROOT,
+                       check=True, stdout=subprocess.DEVNULL)
         subprocess.run(["ninja", "-C", folder, *programs], check=True, stdout=subprocess.DEVNULL)
         self.commands = {
             program: subprocess.run(["ninja", "-C", folder, "-t", "commands", program], check=True,
@@ -111,7 +114,7 @@ def write_table(faults, rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--build", default="build/ci")
+    parser.add_argument("--build", default="build/faults")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--only", default="", metavar="WORD")
     parser.add_argument("--new", action="store_true")

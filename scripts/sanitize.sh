@@ -50,7 +50,8 @@ run_program() {  # sanitizer, build folder, program
 sanitize() {  # sanitizer, preset, programs
   local sanitizer=$1 preset=$2 found=0
   shift 2
-  cmake --preset "$preset" >/dev/null || exit 1
+  # Sources compiled together: a third of the time, and the same code.
+  cmake --preset "$preset" -DCMAKE_UNITY_BUILD=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF >/dev/null || exit 1
   for program in "$@"; do run_program "$sanitizer" "build/$preset" "$program" || found=1; done
   return $found
 }

@@ -65,6 +65,19 @@ TEST_F(QualityOf, NobodyTrackedLosesNothing) {
   EXPECT_EQ(named(quality_of(standing(0, {})), "leg_swaps_per_min").value, 0);
 }
 
+TEST_F(QualityOf, LegsThatAreLikelySwappedFailTheirCheck) {
+  QualityConfig limits;
+  limits.least_steps = 0;
+  limits.legs_swapped = 0.2;
+  for (const double probability : {0.15, 0.25}) {
+    FrameRecord doubtful = still();
+    doubtful.modes.p_legs_swapped = probability;
+    const Quality quality = quality_of(standing(12, {}, doubtful), limits);
+    EXPECT_NEAR(named(quality, "legs_exchanged_percent").value, 100 * probability, 1e-9);
+    EXPECT_EQ(named(quality, "legs_exchanged_percent").passed(), probability < 0.2);
+  }
+}
+
 TEST_F(QualityOf, FeetBelowTheGroundFailTheirCheck) {
   FrameRecord sunken = still();
   sunken.estimate.joints[Joint::kLeftToe].z() = -0.02;

@@ -82,6 +82,19 @@ TEST(AppearanceModel, NeverForgetsItsFirstFrames) {
             broad_table(bins)[static_cast<size_t>(blue)] + 2);
 }
 
+TEST(AppearanceModel, OneFrameOfAnotherColourChangesLittle) {
+  const ColourBins bins;
+  const ForegroundConfig config;
+  AppearanceModel model(config, kAll);
+  const int red = bins.bin(90, 80, -20), blue = bins.bin(90, -80, -10);
+  for (int i = 0; i < 50; ++i) model.learn(bins, counts_of(model, 0, red, 300));
+  const double before = static_cast<double>(model.table(0)[static_cast<size_t>(red)]);
+  model.learn(bins, counts_of(model, 0, blue, 300));
+  // The recent half gives up its share of one frame.
+  const double after = std::log(1 - (1 - config.anchor_share) * config.learning_rate);
+  EXPECT_NEAR(static_cast<double>(model.table(0)[static_cast<size_t>(red)]), before + after, 1e-3);
+}
+
 TEST(AppearanceModel, ClassesAreAMatterOfConfigAndBody) {
   EXPECT_EQ(AppearanceModel({}, kAll).classes(), 5);
   ForegroundConfig merged;

@@ -161,6 +161,15 @@ TEST_F(KeypointTermTest, MissingPointsSayNothing) {
   EXPECT_FALSE(KeypointTerm::says(evidence({person})));
 }
 
+TEST_F(KeypointTermTest, UnsurePointsBindLess) {
+  const auto cost = [&](float confidence) {
+    const CameraEvidence points = evidence({seen(pose(0), confidence)});
+    return score(points, pose(0)) - score(points, pose(0.05));
+  };
+  EXPECT_GT(cost(0.9F), 1.2 * cost(0.45F));
+  EXPECT_GT(cost(0.45F), 1.2 * cost(0.2F));
+}
+
 TEST_F(KeypointTermTest, SomebodyElseChangesNothing) {
   const DetectedPerson subject = seen(pose(0));
   Pose far = pose(1.4);

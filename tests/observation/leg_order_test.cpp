@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "observation/leg_order_term.h"
+#include "tests/observation/scenes.h"
+
 namespace walktrack {
 namespace {
 
@@ -135,6 +138,40 @@ TEST(LegOrder, AsksOnlyTheLowerEndsOfThighs) {
   const double lower = log_ratio(cloth(0), cloth(kStep), thighs(60 - kStep), thighs(60));
   EXPECT_GT(lower, 0.2 * whole);
   EXPECT_LT(lower, 0.6 * whole);
+}
+
+// Cloth that moves by `shift` px, on somebody who fills the picture.
+CameraEvidence cloth_evidence(const Camera& camera, double shift) {
+  CameraEvidence out;
+  out.picture = {camera.width_px, camera.height_px, {}};
+  for (int y = 0; y < camera.height_px; ++y)
+    for (int x = 0; x < camera.width_px; ++x)
+      out.picture.pixels.push_back(
+          static_cast<uint8_t>(std::lround(120 + 40 * std::sin(0.35 * (x - shift) + 0.1 * y))));
+  resize(out.planes, {0, 0, camera.width_px, camera.height_px}, 1);
+  const std::vector<float> row(static_cast<size_t>(camera.width_px), 1);
+  for (int y = 0; y < camera.height_px; ++y) set_row(out.planes, 0, y, row, 4);
+  return out;
+}
+
+// Somebody walks to the right before a camera on their right-hand side: the right leg is in front.
+TEST(LegOrderTerm, SpeaksForTheSwingOfTheLegInFront) {
+  const Camera camera = camera_at({0, -4, 0.9}, {0, 0, 0.9}, 600);
+  const Body body = make_body(Subject{}, {});
+  const auto standing_on = [](Side stands, double swing) {
+    Pose pose;
+    pose.root = {0, 0, 0.93};
+    pose.legs[stands == Side::kLeft ? 1 : 0].hip_flexion = swing;
+    return pose;
+  };
+  const CameraEvidence before = cloth_evidence(camera, 0), now = cloth_evidence(camera, 5);
+  const auto said = [&](Side stands) {
+    return LegOrderTerm::names_log_odds({}, body, camera, before, now,
+                                        PosedBody(body, standing_on(stands, -0.02)),
+                                        PosedBody(body, standing_on(stands, 0.04)));
+  };
+  EXPECT_GT(said(Side::kLeft), 1) << "the right leg swings, as the pictures show";
+  EXPECT_LT(said(Side::kRight), -1) << "the left leg would swing behind it";
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ TEST(Terms, ThatAreOffCostNothing) {
 
 // The fold is the sum that is written out by hand.
 TEST(Terms, AddUp) {
-  const CameraEvidence evidence = made_evidence(0.7, true);
+  CameraEvidence evidence = made_evidence(0.7, true);
+  evidence.pixel_weight = 0.3;
   const Camera camera = camera_at({0, -4, 1}, {0, 0, 1}, 300, kEvidenceWidth, kEvidenceHeight);
   const Body body = make_body(Subject{}, {});
   Pose pose;
