@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "observation/leg_order_term.h"
+#include "observation/terms.h"
 #include "tests/observation/scenes.h"
 
 namespace walktrack {
