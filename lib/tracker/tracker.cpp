@@ -14,14 +14,22 @@ namespace walktrack {
 
 namespace {
 
-// Walkers that explain an image no better than this share of what a stiff figure does are lost:
-// where a person is a few dozen pixels high, a figure does nearly as well as the walker itself. By
-// hand; sensitivity not measured.
-constexpr double kFigureShare = 0.9;
-
 // What is left of a video is searched from so many seconds on: as long as start
 // hypotheses compete.
 constexpr double kShortestWindow = 0.5;
+
+// Whether a figure lies on somebody whose keypoints are seen in any camera; nullopt where nobody's
+// are.
+std::optional<bool> on_somebody(const TrackerScene& scene, const SceneEvidence& evidence,
+                                const PosedBody& figure) {
+  std::optional<bool> out;
+  for (size_t c = 0; c < evidence.size(); ++c) {
+    const auto found =
+        KeypointTerm::on_somebody(scene.observation, evidence[c], scene.cameras[c], figure);
+    if (found) out = out.value_or(false) || *found;
+  }
+  return out;
+}
 
 const WalkerParticle& best_particle(const ParticleSet<WalkerParticle>& set) {
   const auto best = std::max_element(set.log_weights.begin(), set.log_weights.end());
@@ -78,9 +86,7 @@ std::vector<FrameRecord> Tracker::finish() {
 }
 
 TrackerState Tracker::state() const {
-  return {frame_,           starts_,         filter_.state(),   last_seen_,
-          log_likelihoods_, frames_below_,   frames_outscored_, frames_off_,
-          losses_,          p_legs_swapped_, stature_};
+  return {frame_, starts_, filter_.state(), monitor_, losses_, p_legs_swapped_, stature_};
 }
 
 void Tracker::resume(TrackerState state) {
@@ -89,11 +95,7 @@ void Tracker::resume(TrackerState state) {
   frame_ = state.frame;
   starts_ = state.starts;
   filter_.resume(std::move(state.filter));
-  last_seen_ = state.last_seen;
-  log_likelihoods_ = std::move(state.log_likelihoods);
-  frames_below_ = state.frames_below;
-  frames_outscored_ = state.frames_outscored;
-  frames_off_ = state.frames_off;
+  monitor_ = std::move(state.monitor);
   losses_ = state.losses;
   p_legs_swapped_ = state.p_legs_swapped;
   stature_ = state.stature;
@@ -168,9 +170,9 @@ void Tracker::compete(const SceneEvidence& evidence, std::vector<FrameRecord>& o
 // What is left of the start hypotheses becomes one set of particles.
 void Tracker::settle(std::vector<FrameRecord>& out) {
   filter_.start(hypotheses_->resampled());
-  log_likelihoods_.clear();
+  std::deque<double> log_likelihoods;
   for (const FrameRecord& record : hypotheses_->records()) {
-    log_likelihoods_.push_back(record.mean_log_likelihood);
+    log_likelihoods.push_back(record.mean_log_likelihood);
     out.push_back(record);
     if (hypotheses_frames_.empty()) continue;
     refine(hypotheses_frames_.front(), out.back());
@@ -180,7 +182,7 @@ void Tracker::settle(std::vector<FrameRecord>& out) {
   mean_pose_ = hypotheses_->records().back().estimate.pose;
   hypotheses_.reset();
   mode_ = Mode::kTracking;
-  frames_below_ = frames_outscored_ = frames_off_ = 0;
+  begin_watch(std::move(log_likelihoods), monitor_);
 }
 
 // Whether a set that takes one leg for the other goes unnoticed: several cameras see it, and only
@@ -221,15 +223,13 @@ void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out
   ++frame_;
   // A hypothesis that lost the start is not followed any more, so its evidence is unknown now.
   record.modes.p_legs_swapped += p_legs_swapped_ * (1 - 2 * record.modes.p_legs_swapped);
-  if (record.filter.all_dead ||
-      fading(record.mean_log_likelihood, figure_score(evidence, record.estimate)) ||
-      off_detected(evidence, record.estimate)) {
+  if (is_lost(evidence, record)) {
     record.tracked = false;
     ++losses_;
-    log_likelihoods_.clear();
     mode_ = Mode::kSearching;
   }
-  if (mode_ == Mode::kTracking && frames_below_ == 0) see(record.estimate);
+  if (mode_ == Mode::kTracking && monitor_.frames_below == 0)
+    see(record.estimate, frame_, scene_.dt, monitor_);
   mean_pose_ = record.estimate.pose;
   if (record.tracked)
     record.evidence =
@@ -238,58 +238,20 @@ void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out
   out.push_back(std::move(record));
 }
 
-// Remembers where the walker is and how they have been going on: a frame's own speed trembles.
-void Tracker::see(const FrameEstimate& estimate) {
-  constexpr double kMemory = 1;  // s
-  const Pose& pose = estimate.pose;
-  const Eigen::Vector2d now =
-      estimate.speed * Eigen::Vector2d(std::cos(pose.heading), std::sin(pose.heading));
-  const Eigen::Vector2d before = last_seen_ ? last_seen_->velocity : now;
-  const double kept = std::exp(-scene_.dt / kMemory);
-  last_seen_ = {pose.root.head<2>(), kept * before + (1 - kept) * now, frame_};
-}
-
-// Whether a walker who was lost can be at a place: not far from where they were going.
+// Whether a walker who was lost can be at a place.
 bool Tracker::within_reach(const Eigen::Vector2d& place, uint32_t frame) const {
-  if (!last_seen_) return true;
-  // By hand: half a step, and a change of speed or heading as of somebody who stops or turns aside.
-  constexpr double kNear = 0.5, kTurnsAside = 0.8;  // m, m/s
-  const double elapsed = scene_.dt * (frame - last_seen_->frame);
-  if (elapsed > config_.reacquire_within) return true;
-  const Eigen::Vector2d expected = last_seen_->position + elapsed * last_seen_->velocity;
-  return (place - expected).norm() < kNear + kTurnsAside * elapsed;
+  return is_within_reach(config_.monitor, monitor_, place, frame, scene_.dt);
 }
 
-// Whether the track is lost: for a while the likelihood has been far below its own recent median,
-// as that of a hidden walker is, or for a shorter while a stiff figure has done better.
-bool Tracker::fading(double log_likelihood, double figure) {
-  std::vector<double> past(log_likelihoods_.begin(), log_likelihoods_.end());
-  std::nth_element(past.begin(), past.begin() + static_cast<long>(past.size() / 2), past.end());
-  const double least =
-      std::max(config_.lost_below * past[past.size() / 2], config_.detector.least_score);
-  const bool outscored = figure > least && log_likelihood < kFigureShare * figure;
-  const bool below = log_likelihood < least;
-  frames_outscored_ = outscored ? frames_outscored_ + 1 : 0;
-  frames_below_ = below || outscored ? frames_below_ + 1 : 0;
-  // Bad frames do not become the measure of good ones.
-  if (frames_below_ == 0) log_likelihoods_.push_back(log_likelihood);
-  if (static_cast<int>(log_likelihoods_.size()) > frames_in(config_.evidence_window, scene_.dt))
-    log_likelihoods_.pop_front();
-  return frames_below_ >= frames_in(config_.lost_after, scene_.dt) ||
-         frames_outscored_ >= frames_in(config_.outscored_after, scene_.dt);
-}
-
-// Whether the figure has for a while been on none of the people whose keypoints were seen.
-bool Tracker::off_detected(const SceneEvidence& evidence, const FrameEstimate& estimate) {
-  const PosedBody posed(body(), estimate.pose);
-  bool off = false, on = false;
-  for (size_t c = 0; c < evidence.size(); ++c) {
-    const auto found =
-        KeypointTerm::on_somebody(scene_.observation, evidence[c], scene_.cameras[c], posed);
-    if (found) (*found ? on : off) = true;
-  }
-  frames_off_ = on || !(off || frames_off_ > 0) ? 0 : frames_off_ + 1;
-  return frames_off_ >= frames_in(config_.off_detected_after, scene_.dt);
+// What the monitor says of a frame; it takes in all that there is to say, lost or not.
+bool Tracker::is_lost(const SceneEvidence& evidence, const FrameRecord& record) {
+  if (record.filter.all_dead) return true;
+  const double figure = figure_score(evidence, record.estimate);
+  if (is_fading(config_.monitor, config_.detector.least_score, scene_.dt,
+                record.mean_log_likelihood, figure, monitor_))
+    return true;
+  const PosedBody posed(body(), record.estimate.pose);
+  return is_off_people(config_.monitor, scene_.dt, on_somebody(scene_, evidence, posed), monitor_);
 }
 
 }  // namespace walktrack

@@ -7,10 +7,8 @@
 //              once
 //   starting:  hypotheses over phase and side compete for a while    (tracker/start_hypotheses.h)
 //   tracking:  for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h)
-//   lost:      the likelihood fell far below its own past, or below that of a figure that merely
-//              stands in the same place, whichever way it faces, or the figure lies on none of the
-//              people whose keypoints are seen; search again, for a while only where the walker can
-//              be
+//   lost:      the monitor says so (tracker/monitor.h); search again, for a while only where the
+//              walker can be
 //
 // Frames before the walk was found, and while it was lost, are reported as not tracked. Searching
 // looks a window ahead, so records come out late at first and one for one afterwards.
@@ -23,6 +21,7 @@
 
 #include "tracker/detect/standing_start.h"
 #include "tracker/detect/stature.h"
+#include "tracker/monitor.h"
 #include "tracker/motion/standing.h"
 #include "tracker/smooth/refinement.h"
 #include "tracker/start_hypotheses.h"
@@ -35,31 +34,18 @@ struct TrackerConfig {
   FilterConfig filter;
   DetectorConfig detector;
   StartConfig start;
-  double lost_below = 0.35;  // share of the likelihood's own median at which the track is lost
-  double lost_after = 1;     // s below it: so long may a walker be hidden
-  double outscored_after =
-      0.4;  // s of explaining the images worse than a stiff figure in its place
-  double off_detected_after = 0.5;  // s of lying on none of the people whose keypoints are seen
-  int samples = 20;                 // particles kept of every frame to show the spread
-  double evidence_window = 1.5;     // s of past likelihoods that the median is taken over
-  double reacquire_within = 4;  // s for which a lost walker is looked for only where they can be
-  double model_error = 1;       // multiplies what bands hold beyond the particles' spread
+  MonitorConfig monitor;
+  int samples = 20;        // particles kept of every frame to show the spread
+  double model_error = 1;  // multiplies what bands hold beyond the particles' spread
   EstimateKind estimate = EstimateKind::kMap;
-};
-
-// Where the walker was last surely seen, and how they went on.
-struct LastSeen {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero(), velocity = position;  // m, m/s
-  uint32_t frame = 0;
 };
 
 // All that the next frame of a tracker in its tracking mode depends on.
 struct TrackerState {
   uint32_t frame = 0, starts = 0;
   FilterState<WalkerParticle> filter;
-  std::optional<LastSeen> last_seen;
-  std::deque<double> log_likelihoods;
-  int frames_below = 0, frames_outscored = 0, frames_off = 0, losses = 0;
+  MonitorState monitor;
+  int losses = 0;
   double p_legs_swapped = 0;
   std::optional<Stature> stature;
 };
@@ -154,10 +140,8 @@ class Tracker {
   void refine(const SceneEvidence& evidence, FrameRecord& record) const;
   WalkerFilterContext context(bool first) const;
   bool within_reach(const Eigen::Vector2d& place, uint32_t frame) const;
-  void see(const FrameEstimate& estimate);
   double figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const;
-  bool fading(double log_likelihood, double figure);
-  bool off_detected(const SceneEvidence& evidence, const FrameEstimate& estimate);
+  bool is_lost(const SceneEvidence& evidence, const FrameRecord& record);
 
   TrackerScene scene_;
   const GaitPrior& prior_;
@@ -182,10 +166,7 @@ class Tracker {
   bool start_is_given_ = false;  // the last one
   WalkerFilter filter_;
   Pose mean_pose_;
-  std::optional<LastSeen> last_seen_;
-  std::deque<double> log_likelihoods_;
-  int frames_below_ = 0, frames_outscored_ = 0;
-  int frames_off_ = 0;  // since the figure lay on somebody whose keypoints were seen
+  MonitorState monitor_;
   int losses_ = 0;
   double p_legs_swapped_ = 0;  // probability that the start has chosen the wrong leg
   std::optional<Stature> stature_;

@@ -311,7 +311,7 @@ Tracker::Trial Tracker::with_legs_named(Trial first) {
 // explains them worse than the straight walk of mere figures that it came from.
 bool Tracker::attempt(const DetectedWalk& detected, std::vector<FrameRecord>& out) {
   const uint32_t first_frame = frame_;
-  const auto seen_before = last_seen_;
+  const auto seen_before = monitor_.last_seen;
   const int losses_before = losses_;
   begin(detected, std::nullopt);
   Trial trial;
@@ -330,7 +330,7 @@ bool Tracker::attempt(const DetectedWalk& detected, std::vector<FrameRecord>& ou
   }
   mode_ = Mode::kSearching;
   frame_ = first_frame;
-  last_seen_ = seen_before;
+  monitor_.last_seen = seen_before;
   losses_ = losses_before;
   hypotheses_.reset();
   hypotheses_frames_.clear();

@@ -37,7 +37,7 @@ TEST_F(CheckpointFile, ComesBack) {
   EXPECT_EQ(found.checkpoint->observers[0].use.matched, 9);
   EXPECT_EQ(found.checkpoint->tracker.filter.set.states.at(0).pose.heading, 0.5);
   EXPECT_EQ(found.checkpoint->tracker.filter.scale, 0.25);
-  EXPECT_EQ(found.checkpoint->tracker.last_seen->velocity.y(), 4);
+  EXPECT_EQ(found.checkpoint->tracker.monitor.last_seen->velocity.y(), 4);
 }
 
 TEST_F(CheckpointFile, IsOfNoUseForAnythingElseAndSaysForWhat) {
@@ -87,7 +87,7 @@ TEST_F(CheckpointFile, OneThatDoesNotFitTogetherIsNotBelievedWithTheRightDigestE
       {"different numbers", [](Checkpoint& c) { c.tracker.filter.set.log_weights.pop_back(); }},
       {"different numbers", [](Checkpoint& c) { c.tracker.filter.set = {}; }},
       {"different numbers", [](Checkpoint& c) { c.regions.clear(); }},
-      {"out of its bounds", [](Checkpoint& c) { c.tracker.frames_below = -1; }},
+      {"out of its bounds", [](Checkpoint& c) { c.tracker.monitor.frames_below = -1; }},
       {"out of its bounds",
        [](Checkpoint& c) {
          c.tracker.stature = Stature{-1.7, 0.1};

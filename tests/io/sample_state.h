@@ -26,8 +26,8 @@ inline TrackerState sample_tracker() {
   set.log_weights = {-0.5, -std::numeric_limits<double>::infinity()};
   set.log_likelihoods = set.log_weights;
   out.filter.scale = 0.25;
-  out.log_likelihoods = {1, 2};
-  out.last_seen = LastSeen{{1, 2}, {3, 4}, 6};
+  out.monitor.log_likelihoods = {1, 2};
+  out.monitor.last_seen = LastSeen{{1, 2}, {3, 4}, 6};
   return out;
 }
 

@@ -38,7 +38,7 @@ bool tracked_after(double aside, double seconds) {
   scene.initial = DetectedWalk{.position = {-1, 0}, .velocity = {kSpeed, 0}, .given = true};
   TrackerConfig config;
   config.filter.particles = 100;
-  config.lost_after = 100;
+  config.monitor.lost_after = 100;
   const GaitPrior prior = load_gait_prior();
   Tracker tracker(scene, prior, config, 1, 1);
   const int before = frames_in(1.0, kDt), after = frames_in(seconds, kDt);

@@ -111,12 +111,16 @@ void fields(Archive& archive, T& value) {
   archive(within(height, 0.1, 10), within(sd, 0, 10));
 }
 
+template <typename Archive, ArchivedAs<MonitorState> T>
+void fields(Archive& archive, T& value) {
+  auto& [last_seen, log_likelihoods, below, outscored, off] = value;
+  archive(last_seen, log_likelihoods, a_count(below), a_count(outscored), a_count(off));
+}
+
 template <typename Archive, ArchivedAs<TrackerState> T>
 void fields(Archive& archive, T& value) {
-  auto& [frame, starts, filter, last_seen, log_likelihoods, below, outscored, off, losses,
-         p_legs_swapped, stature] = value;
-  archive(frame, starts, filter, last_seen, log_likelihoods, a_count(below), a_count(outscored),
-          a_count(off), a_count(losses), a_share(p_legs_swapped), stature);
+  auto& [frame, starts, filter, monitor, losses, p_legs_swapped, stature] = value;
+  archive(frame, starts, filter, monitor, a_count(losses), a_share(p_legs_swapped), stature);
 }
 
 template <typename Archive, ArchivedAs<BackgroundModel> T>

@@ -152,23 +152,25 @@ void add_search(ParameterTable& table) {
 void add_track(ParameterTable& table) {
   using T = TrackerConfig;
   ParameterGroup<T> t(table, "track", "keeping the track", &Config::tracker);
-  t.number("lost_below", &T::lost_below, 0, 1,
+  using M = MonitorConfig;
+  ParameterGroup<M> m(table, "track", "", &Config::tracker, &T::monitor);
+  m.number("lost_below", &M::lost_below, 0, 1,
            "share of the likelihood's median below which a frame counts as lost");
-  t.number("lost_after", &T::lost_after, 0, 100,
+  m.number("lost_after", &M::lost_after, 0, 100,
            "time below lost_below after which the track is lost, s");
-  t.number(
-      "outscored_after", &T::outscored_after, 0, 100,
+  m.number(
+      "outscored_after", &M::outscored_after, 0, 100,
       "time of a lower likelihood than that of a rigid figure after which the track is lost, s");
-  t.number("off_detected_after", &T::off_detected_after, 0, 100,
+  m.number("off_detected_after", &M::off_detected_after, 0, 100,
            "time of lying on none of the people whose keypoints are seen after which the track is "
            "lost, s");
-  t.number("reacquire_within", &T::reacquire_within, 0, 1000,
+  m.number("reacquire_within", &M::reacquire_within, 0, 1000,
            "time in which a lost subject is searched only within walking distance, s");
   t.number("model_error", &T::model_error, 0, 100,
            "factor on the part of the 90 % bands that is not the particles' spread");
   t.choice("estimate", &T::estimate, {{"mean", EstimateKind::kMean}, {"map", EstimateKind::kMap}},
            "reported pose: the particles' mean, or the most probable pose near it");
-  t.number("evidence_window", &T::evidence_window, 0.1, 100,
+  m.number("evidence_window", &M::evidence_window, 0.1, 100,
            "length of the past whose median likelihood a frame is compared with, s");
   t.integer("samples", &T::samples, 0, 1000,
             "particles of a frame that are kept for overlays and bands");

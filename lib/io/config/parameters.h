@@ -58,7 +58,7 @@ class ParameterGroup {
       : table_(table),
         prefix_(std::move(prefix)),
         reach_([members...](Config& config) -> Group& { return follow(config, members...); }) {
-    table_.groups.emplace_back(prefix_, std::move(about));
+    if (!about.empty()) table_.groups.emplace_back(prefix_, std::move(about));
   }
 
   void number(const std::string& name, double Group::*member, double lowest, double highest,

@@ -1,0 +1,79 @@
+#include "tracker/monitor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "tracker/scene.h"
+
+namespace walktrack {
+
+namespace {
+
+// Walkers that explain an image no better than this share of what a stiff figure does are lost:
+// where a person is a few dozen pixels high, a figure does nearly as well as the walker itself. By
+// hand; sensitivity not measured.
+constexpr double kFigureShare = 0.9;
+
+// A frame's own speed trembles.
+constexpr double kVelocityMemory = 1;  // s
+
+// By hand: half a step, and a change of speed or heading as of somebody who stops or turns aside.
+constexpr double kNear = 0.5, kTurnsAside = 0.8;  // m, m/s
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void begin_watch(std::deque<double> log_likelihoods, MonitorState& state) {
+  state.log_likelihoods = std::move(log_likelihoods);
+  state.frames_below = state.frames_outscored = state.frames_off = 0;
+}
+
+bool is_fading(const MonitorConfig& config, double least_score, double dt, double log_likelihood,
+               double figure, MonitorState& state) {
+  auto& past = state.log_likelihoods;
+  const double least =
+      std::max(config.lost_below * median({past.begin(), past.end()}), least_score);
+  const bool outscored = figure > least && log_likelihood < kFigureShare * figure;
+  const bool below = log_likelihood < least;
+  state.frames_outscored = outscored ? state.frames_outscored + 1 : 0;
+  state.frames_below = below || outscored ? state.frames_below + 1 : 0;
+  // Bad frames do not become the measure of good ones.
+  if (state.frames_below == 0) past.push_back(log_likelihood);
+  if (static_cast<int>(past.size()) > frames_in(config.evidence_window, dt)) past.pop_front();
+  return state.frames_below >= frames_in(config.lost_after, dt) ||
+         state.frames_outscored >= frames_in(config.outscored_after, dt);
+}
+
+bool is_off_people(const MonitorConfig& config, double dt, std::optional<bool> on_somebody,
+                   MonitorState& state) {
+  const bool on = on_somebody.value_or(false), off = on_somebody.has_value() && !on;
+  state.frames_off = on || !(off || state.frames_off > 0) ? 0 : state.frames_off + 1;
+  return state.frames_off >= frames_in(config.off_detected_after, dt);
+}
+
+void see(const FrameEstimate& estimate, uint32_t frame, double dt, MonitorState& state) {
+  const Pose& pose = estimate.pose;
+  const Eigen::Vector2d now =
+      estimate.speed * Eigen::Vector2d(std::cos(pose.heading), std::sin(pose.heading));
+  const Eigen::Vector2d before = state.last_seen ? state.last_seen->velocity : now;
+  const double kept = std::exp(-dt / kVelocityMemory);
+  state.last_seen = {pose.root.head<2>(), kept * before + (1 - kept) * now, frame};
+}
+
+bool is_within_reach(const MonitorConfig& config, const MonitorState& state,
+                     const Eigen::Vector2d& place, uint32_t frame, double dt) {
+  if (!state.last_seen) return true;
+  const double elapsed = dt * (frame - state.last_seen->frame);
+  if (elapsed > config.reacquire_within) return true;
+  const Eigen::Vector2d expected = state.last_seen->position + elapsed * state.last_seen->velocity;
+  return (place - expected).norm() < kNear + kTurnsAside * elapsed;
+}
+
+}  // namespace walktrack
