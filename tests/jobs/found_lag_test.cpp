@@ -32,7 +32,8 @@ class FoundLag : public testing::Test {
     cv::Mat frame;
     for (int i = 0; source.read(frame); ++i)
       if (i >= kLate) frames.push_back(frame.clone());
-    write_timed_video(folder_ / "front.mp4", frames, kDemoRate, std::vector<double>(frames.size(), 1));
+    write_timed_video(folder_ / "front.mp4", frames, kDemoRate,
+                      std::vector<double>(frames.size(), 1));
   }
   // `front`: what the scene says of the camera besides.
   Scene scene(const std::string& front) const {

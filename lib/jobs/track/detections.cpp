@@ -36,18 +36,36 @@ KeypointFrames checked_keypoints(const SceneCamera& camera) {
                             "off, or keypoint files for every camera"));
 }
 
+bool has_network(const KeypointConfig& config) {
+  return has_pose_net() && pose_model_file(config.model);
+}
+
+// Whether one camera alone sees people large enough for the network.
+bool network_would_tell(const Scene& scene, const Config& config) {
+  return scene.cameras.size() <= kCamerasInDoubt &&
+         std::all_of(scene.cameras.begin(), scene.cameras.end(), [&](const SceneCamera& camera) {
+           return wants_network(camera) &&
+                  working_scale(scene, camera.camera, config).person_px >= kLeastPerson_px;
+         });
+}
+
 }  // namespace
 
 bool keypoints_wanted(const Scene& scene, const Config& config) {
   const KeypointConfig& keypoints = config.observation.keypoints;
   if (keypoints.enabled != TermSetting::kAuto) return keypoints.enabled == TermSetting::kOn;
-  if (all_have_files(scene)) return true;
-  const bool network = has_pose_net() && pose_model_file(keypoints.model);
-  return network && scene.cameras.size() <= kCamerasInDoubt &&
-         std::all_of(scene.cameras.begin(), scene.cameras.end(), [&](const SceneCamera& camera) {
-           return wants_network(camera) &&
-                  working_scale(scene, camera.camera, config).person_px >= kLeastPerson_px;
-         });
+  return all_have_files(scene) || (has_network(keypoints) && network_would_tell(scene, config));
+}
+
+std::string missing_network_note(const Scene& scene, const Config& config) {
+  const KeypointConfig& keypoints = config.observation.keypoints;
+  if (keypoints.enabled != TermSetting::kAuto || all_have_files(scene) || has_network(keypoints) ||
+      !network_would_tell(scene, config))
+    return "";
+  return fmt::format(
+      "without keypoints: {}; with one camera left and right then rest on outlines alone",
+      has_pose_net() ? "the network '" + keypoints.model + "' is not beside the program"
+                     : "the program was built without a pose detector");
 }
 
 bool flow_wanted(const Config& config) {

@@ -33,6 +33,8 @@ struct WorkingScale {
 // built-in network where there is one camera, with a video that shows people large enough, and the
 // program has the network.
 bool keypoints_wanted(const Scene& scene, const Config& config);
+// Says that `auto` would have asked the network, if it were there; "" otherwise.
+std::string missing_network_note(const Scene& scene, const Config& config);
 // Whether flow is: as configured; `auto` is off, for it has not been seen to gain
 // (observation/reports/flow.md).
 bool flow_wanted(const Config& config);

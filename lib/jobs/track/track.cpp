@@ -340,12 +340,17 @@ std::string_view status_word(TrackStatus status) {
 TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const auto start = Clock::now();
   TrackJob job = given;
+  const std::string no_network = missing_network_note(job.scene, job.config.values);
   job.config.values.observation = decided_terms(job.scene, job.config.values);
   const TimePoint looking;
   require_a_term(job.config.values.observation);
   TrackOutcome outcome;
   LookedAt looked = looked_at(job, control);
   outcome.checks = std::move(looked.notes);
+  if (!no_network.empty()) {
+    control.say(no_network);
+    outcome.checks.push_back(no_network);
+  }
   outcome.lag = looked.lag;
   if (looked.lag) job.scene.cameras[looked.lag->camera].start_frame = looked.lag->frames;
   const Elapsed checking = elapsed_since(looking);
