@@ -36,11 +36,11 @@ def processor():
 
 
 def measure(table, walktrack, out):
-    command = shlex.split(table["command"].format(walktrack=walktrack, out=out / table["name"]))
-    printed = output_of(*command).strip()
-    commit = output_of("git", "rev-parse", "--short", "HEAD").strip()
     if output_of("git", "status", "--porcelain", "lib", "configs"):
         sys.exit("lib/ or configs/ differ from the last commit: commit first, then measure")
+    commit = output_of("git", "rev-parse", "--short", "HEAD").strip()
+    command = shlex.split(table["command"].format(walktrack=walktrack, out=out / table["name"], all=out))
+    printed = output_of(*command).strip()
     head = (f"Measured on {datetime.date.today()} at commit {commit} with {len(os.sched_getaffinity(0))} cores of "
             f"{processor()}: `scripts/figures.sh {table['name']}`.")
     (KEPT / f"{table['name']}.md").write_text(f"{head}\n\n{printed}\n")

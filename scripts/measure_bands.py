@@ -33,11 +33,11 @@ def main():
             results = sorted((out / f"{scene.parent.name}_{scene.stem}").glob("*/run.json"))
             scores = [json.loads(run(walktrack, "evaluate", scene.parent / "truth.csv", result.parent, "--json").stdout)
                       ["estimates"][0] for result in results]
-            if scores:
-                held.append(f"{statistics.median(s['coverage90_percent'] for s in scores):.0f}")
-                widths += [s["interval_width_mm"] for s in scores]
-        if held:
-            print(f"| {what} | {' '.join(held)} % | {statistics.mean(widths):.0f} mm | {fitted} |")
+            if not scores:
+                sys.exit(f"no results of {scene} in {out}: scripts/measure_results.py makes them")
+            held.append(f"{statistics.median(s['coverage90_percent'] for s in scores):.0f}")
+            widths += [s["interval_width_mm"] for s in scores]
+        print(f"| {what} | {' '.join(held)} % | {statistics.mean(widths):.0f} mm | {fitted} |")
 
 
 if __name__ == "__main__":
