@@ -86,6 +86,11 @@ std::optional<double> median_gap(const std::vector<PlanePath>& planes, size_t la
   return *middle;
 }
 
+// As many frames as a step takes:
+constexpr const char* kOrStandsElsewhere =
+    ", if that is so; a camera that stands a step's length further along the way than its "
+    "calibration says looks the same";
+
 // Whether the scene leaves it to the walk to tell when its cameras began.
 bool starts_are_open(const Scene& scene) {
   return std::none_of(scene.cameras.begin(), scene.cameras.end(),
@@ -129,7 +134,7 @@ void say_pair_lag(const Scene& scene, const std::optional<PairLag>& lag, double 
   if (lag->after == 0) return;
   const size_t late_camera = lag->after > 0 ? 1 : 0;
   const SceneCamera& late = scene.cameras[late_camera];
-  if (starts_are_open(scene)) {
+  if (starts_are_open(scene) && !lag->may_be_steps) {
     for (Finding& finding : report.findings)
       finding.failure = finding.failure && !finding.may_be_lag;
     report.lag = FoundLag{late_camera, std::abs(lag->after), lag->sd};
@@ -142,12 +147,13 @@ void say_pair_lag(const Scene& scene, const std::optional<PairLag>& lag, double 
                      start_cure(scene, lag->after))});
     return;
   }
-  report.findings.insert(report.findings.begin(),
-                         {"", true,
-                          fmt::format("the cameras are out of step: {} shows things {} frames "
-                                      "later than the other",
-                                      late.name, std::abs(lag->after)),
-                          start_cure(scene, lag->after)});
+  report.findings.insert(
+      report.findings.begin(),
+      {"", true,
+       fmt::format("the cameras are out of step: {} shows things {} frames "
+                   "later than the other",
+                   late.name, std::abs(lag->after)),
+       start_cure(scene, lag->after) + (lag->may_be_steps ? kOrStandsElsewhere : "")});
 }
 
 }  // namespace

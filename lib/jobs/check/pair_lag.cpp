@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "jobs/check/check_parts.h"
+#include "jobs/check/step_time.h"
 
 namespace walktrack {
 
@@ -28,6 +29,7 @@ constexpr double kTelling = 0.1;        // and by how much more than out of step
 constexpr double kPeak = 0.1;           // s, which begins here
 constexpr size_t kFewest = 20;          // frames
 constexpr int kLeastLag = 2;            // frames
+constexpr double kQuickStep = 0.4;      // s; walking steps take longer
 constexpr double kClear = 3;            // standard errors
 constexpr double kWorth = 0.08;         // gain in that share
 
@@ -262,6 +264,17 @@ double lag_sd(const std::vector<Sums>& lags, size_t best, size_t moment) {
   return static_cast<double>(last - first + 1) / std::sqrt(12.0);
 }
 
+// Whether a lag is one of steps, by the camera and the end that show them best.
+bool may_be_steps(const std::vector<Camera>& cameras, const std::vector<FigurePath>& paths,
+                  double lag, double frame_rate) {
+  const auto pencil = pencil_of(cameras[0], cameras[1]);
+  std::optional<double> step;
+  for (size_t i = 0; pencil && !step && i < cameras.size(); ++i)
+    step = step_time(heights_of(cameras[i], *pencil, paths[i])[kTop], frame_rate);
+  const double time = std::abs(lag) / frame_rate;
+  return step ? is_whole_steps(time, *step) : time >= kQuickStep;
+}
+
 // All lags from -longest to longest; empty if neither end tells anything. `little`: see tells().
 std::vector<Sums> lags_tried(const std::vector<Camera>& cameras,
                              const std::vector<FigurePath>& paths, int longest, int little) {
@@ -307,7 +320,8 @@ std::optional<PairLag> find_pair_lag(const std::vector<Camera>& cameras,
   if (lost && is_clear(gain(otherwise(lags, change, best), lags[best], moment)))
     return PairLag{lag_of(change.before), lag_of(change.after), static_cast<int>(change.at)};
   if (!apart(best, none) || !is_clear(gain(lags[best], lags[none], moment))) return PairLag{};
-  return PairLag{lag_of(best), lag_of(best), 0, lag_sd(lags, best, moment)};
+  return PairLag{lag_of(best), lag_of(best), 0, lag_sd(lags, best, moment),
+                 may_be_steps(cameras, paths, lag_of(best), frame_rate)};
 }
 
 }  // namespace walktrack
