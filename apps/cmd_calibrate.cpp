@@ -89,7 +89,8 @@ struct ImportOptions {
     auto add = line.options().add_options();
     add("import", po::value(&file)->value_name("FILE"),
         "take over all cameras of a calibration (or that of --name): OpenCap .pickle, Qualisys "
-        ".qca.txt, EasyMocap intri.yml, Pose2Sim or Anipose .toml, Tsai .xml, OpenCV .yaml");
+        ".qca.txt, Vicon .xcp, EasyMocap intri.yml, HumanEva .cal, Pose2Sim or Anipose .toml, Tsai "
+        ".xml, OpenCV .yaml");
     add("image-size", po::value(&size)->value_name("WxH"),
         "size of the images, px, for an imported file that does not state it");
   }

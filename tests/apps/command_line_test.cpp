@@ -142,7 +142,7 @@ TEST(CommandLine, NamesMistakes) {
       {{"calibrate", "--import", "a.pickle", "--image-size", "640", "-o", "/tmp/x"},
        2,
        "--image-size: found '640', allowed: WIDTHxHEIGHT"},
-      {{"calibrate", "--import", "a.xcp", "-o", "/tmp/x"}, 3, ".qca.txt (Qualisys)"},
+      {{"calibrate", "--import", "a.cp", "-o", "/tmp/x"}, 3, ".qca.txt (Qualisys)"},
       {{"check"}, 2, "SCENE.yaml is missing"},
       {{"compare"}, 2, "GROUP is missing"},
       {{"compare", "/nowhere"}, 2, "--output is missing"},

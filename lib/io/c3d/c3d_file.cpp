@@ -135,18 +135,18 @@ std::array<double, kChannelCount> channels_of(const KineticsFrame& frame, const 
 
 bool has_arms(const Motion& motion) { return listed_joint_count(motion) == kJointCount; }
 
-struct Shape {
+struct C3dShape {
   size_t joints, angles, channels, frames;
   size_t points() const { return joints + angles; }
 };
 
-Shape shape_of(const C3dContent& content) {
+C3dShape shape_of(const C3dContent& content) {
   return {static_cast<size_t>(has_arms(content.motion) ? kJointCount : kJointCountWithoutArms),
           content.angles.empty() ? 0 : kTriples.size(), content.kinetics ? kChannelCount : 0,
           content.motion.time.size()};
 }
 
-C3dGroup point_group(const C3dContent& content, const Shape& shape, int data_start) {
+C3dGroup point_group(const C3dContent& content, const C3dShape& shape, int data_start) {
   C3dGroup group{"POINT", "joint centres and angles"};
   std::vector<std::string> labels(kJointNames.begin(), kJointNames.begin() + shape.joints),
       descriptions(kDescriptions.begin(), kDescriptions.begin() + shape.joints), angles;
@@ -173,7 +173,7 @@ C3dGroup point_group(const C3dContent& content, const Shape& shape, int data_sta
   return group;
 }
 
-C3dGroup analog_group(const C3dContent& content, const Shape& shape) {
+C3dGroup analog_group(const C3dContent& content, const C3dShape& shape) {
   C3dGroup group{"ANALOG", "ground reactions, computed from the motion"};
   group.whole("USED", static_cast<int>(shape.channels));
   group.real("GEN_SCALE", 1);
@@ -196,7 +196,7 @@ C3dGroup analog_group(const C3dContent& content, const Shape& shape) {
   return group;
 }
 
-C3dGroup plate_group(const C3dContent& content, const Shape& shape) {
+C3dGroup plate_group(const C3dContent& content, const C3dShape& shape) {
   C3dGroup group{"FORCE_PLATFORM", "no plates: under the left and the right foot, computed"};
   const int plates = shape.channels > 0 ? static_cast<int>(kFeet.size()) : 0;
   group.whole("USED", plates);
@@ -255,7 +255,7 @@ C3dGroup context_group() {
   return group;
 }
 
-C3dGroup trial_group(const Shape& shape) {
+C3dGroup trial_group(const C3dShape& shape) {
   C3dGroup group{"TRIAL", "frames"};
   const int frames = static_cast<int>(shape.frames);
   group.wholes("ACTUAL_START_FIELD", std::array{1, 0});
@@ -279,14 +279,14 @@ C3dGroup maker_group() {
   return group;
 }
 
-std::string parameters_of(const C3dContent& content, const Shape& shape, int data_start) {
+std::string parameters_of(const C3dContent& content, const C3dShape& shape, int data_start) {
   return c3d_parameter_section(std::array{point_group(content, shape, data_start),
                                           analog_group(content, shape), plate_group(content, shape),
                                           event_group(content), context_group(), trial_group(shape),
                                           subject_group(), maker_group()});
 }
 
-std::string header(const C3dContent& content, const Shape& shape, int data_start) {
+std::string header(const C3dContent& content, const C3dShape& shape, int data_start) {
   const int frames = static_cast<int>(std::min<size_t>(shape.frames, kMostInHeader));
   std::string bytes{2, 0x50};  // the block of the parameters, the format's mark
   append_c3d_whole(bytes, static_cast<int>(shape.points()));
@@ -325,7 +325,7 @@ void append_angles(std::string& bytes, const AngleRow& row) {
 }  // namespace
 
 std::string c3d_from_motion(const C3dContent& content) {
-  const Shape shape = shape_of(content);
+  const C3dShape shape = shape_of(content);
   const size_t blocks = parameters_of(content, shape, 0).size() / kC3dBlock;
   const int data_start = 2 + static_cast<int>(blocks);
   std::string bytes = header(content, shape, data_start);

@@ -19,7 +19,7 @@ std::string lower_case_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-enum class Format { kYaml, kToml, kTsai, kQualisys, kOpencap };
+enum class Format { kYaml, kToml, kTsai, kQualisys, kOpencap, kVicon, kHumaneva };
 
 Format format_of(const std::filesystem::path& path) {
   const std::string extension = lower_case_extension(path);
@@ -27,11 +27,13 @@ Format format_of(const std::filesystem::path& path) {
   if (extension == ".toml") return Format::kToml;
   if (extension == ".xml") return Format::kTsai;
   if (extension == ".pickle" || extension == ".pkl") return Format::kOpencap;
+  if (extension == ".xcp") return Format::kVicon;
+  if (extension == ".cal") return Format::kHumaneva;
   if (extension == ".txt" && lower_case_extension(path.stem()) == ".qca") return Format::kQualisys;
   throw InputError(
       describe({path.string(), 0, ""}, "'" + extension + "' as calibration",
                ".yaml .yml .json (OpenCV, EasyMocap), .toml (Pose2Sim, Anipose), .xml (Tsai), "
-               ".qca.txt (Qualisys), .pickle (OpenCap)"));
+               ".qca.txt (Qualisys), .xcp (Vicon), .pickle (OpenCap), .cal (HumanEva)"));
 }
 
 Camera easymocap_camera(const std::filesystem::path& path, const std::string& text,
@@ -55,6 +57,10 @@ Camera read_calibration(const std::filesystem::path& path, const std::string& na
       return camera_from_tsai(text, file);
     case Format::kQualisys:
       return camera_from_qualisys(text, file, name);
+    case Format::kVicon:
+      return camera_from_vicon(text, file, name);
+    case Format::kHumaneva:
+      return camera_from_humaneva(text, file, size);
     case Format::kOpencap:
       return camera_from_opencap(text, file);
     case Format::kYaml:
@@ -69,6 +75,7 @@ std::vector<std::string> calibration_names(const std::filesystem::path& path) {
   const std::string file = path.string(), text = read_text_file(path, kMostBytes);
   if (format == Format::kToml) return toml_names(text, file);
   if (format == Format::kQualisys) return qualisys_names(text, file);
+  if (format == Format::kVicon) return vicon_names(text, file);
   if (format == Format::kYaml && is_easymocap(text, file)) return easymocap_names(text, file);
   return {};
 }

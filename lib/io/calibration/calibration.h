@@ -11,8 +11,9 @@
 //   (Tsai, IEEE J. Robotics and Automation 3(4), 1987). Its distortion is turned into OpenCV's by a
 //   fit over the image.
 //
-// Qualisys (.qca.txt), EasyMocap (intri.yml with extri.yml beside it) and OpenCap (.pickle of one
-// camera) are described where they are read, calibration_<tool>.cpp.
+// Qualisys (.qca.txt), Vicon (.xcp), EasyMocap (intri.yml with extri.yml beside it), OpenCap
+// (.pickle of one camera) and HumanEva (.cal) are described where they are read,
+// calibration_<tool>.cpp.
 //
 // All readers throw InputError naming file, line where the format has lines, key, what was found
 // and what is allowed. A rotation may be rounded (kRotationTolerance) and is made exact.
@@ -51,6 +52,10 @@ Camera camera_from_tsai(const std::string& text, const std::string& file);
 Camera camera_from_qualisys(const std::string& text, const std::string& file,
                             const std::string& name);
 std::vector<std::string> qualisys_names(const std::string& text, const std::string& file);
+Camera camera_from_vicon(const std::string& text, const std::string& file, const std::string& name);
+std::vector<std::string> vicon_names(const std::string& text, const std::string& file);
+Camera camera_from_humaneva(const std::string& text, const std::string& file,
+                            const std::optional<ImageSize>& size = std::nullopt);
 Camera camera_from_opencap(const std::string& bytes, const std::string& file);
 
 struct FileText {
