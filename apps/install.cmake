@@ -12,11 +12,13 @@ add_custom_command(TARGET walktrack POST_BUILD VERBATIM BYPRODUCTS ${MANUAL}
 install(FILES ${MANUAL} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 
 install(FILES completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME walktrack)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs ${PROJECT_SOURCE_DIR}/data/demo ${PROJECT_SOURCE_DIR}/data/schemas
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs ${PROJECT_SOURCE_DIR}/data/demo ${PROJECT_SOURCE_DIR}/data/opensim ${PROJECT_SOURCE_DIR}/data/schemas
   DESTINATION ${CMAKE_INSTALL_DATADIR}/walktrack)
 if(WALKTRACK_HAS_POSE_NET)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/pose_net DESTINATION ${CMAKE_INSTALL_DATADIR}/walktrack)
 endif()
+# Where Debian's Python looks, with the prefix /usr.
+install(FILES python/walktrack.py DESTINATION lib/python3/dist-packages)
 install(DIRECTORY guide DESTINATION ${DOCUMENTS})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${DOCUMENTS} RENAME copyright)
 
@@ -31,5 +33,6 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-numpy, python3-pandas, python3-matplotlib")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # dependencies: the packages of the libraries that it loads
 include(CPack)
