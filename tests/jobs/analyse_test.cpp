@@ -38,9 +38,9 @@ class Analyse : public testing::Test {
 TEST_F(Analyse, WritesACompleteResult) {
   const AnalyseOutcome outcome = analyse(job(kDemo / "truth.csv"));
   EXPECT_GE(outcome.steps, 5u);
-  for (const char* name :
-       {"gait.json", "gait.csv", "angles.csv", "angles.mot", "joints.trc", "joints.c3d",
-        "kinetics.csv", "ground_reaction.mot", "joint_moments.sto", "tables.json"})
+  for (const char* name : {"gait.json", "gait.csv", "angles.csv", "angles.mot", "joints.trc",
+                           "joints.c3d", "figure.bvh", "figure.glb", "kinetics.csv",
+                           "ground_reaction.mot", "joint_moments.sto", "tables.json"})
     EXPECT_TRUE(fs::exists(folder_ / name)) << name;
   EXPECT_TRUE(is_complete_result(folder_));
   const auto run = nlohmann::json::parse(read_text_file(folder_ / "run.json", size_t{1} << 20));

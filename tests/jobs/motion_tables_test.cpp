@@ -10,7 +10,9 @@
 #include "io/tables/csv.h"
 #include "io/tables/motion_file.h"
 #include "tests/data_folders.h"
+#include "tests/io/bvh_reader.h"
 #include "tests/io/c3d_reader.h"
+#include "tests/io/glb_reader.h"
 #include "tests/io/opensim_reader.h"
 #include "tests/run_program.h"
 
@@ -169,6 +171,35 @@ TEST_F(MotionTables, LaboratoriesSeeTheSameWalk) {
       ++loaded;
     }
   EXPECT_GT(loaded, 100);
+}
+
+// In Blender every joint is where joints.csv has it, to less than a millimetre.
+TEST_F(MotionTables, FiguresMoveAsTheJointsDo) {
+  AnalysedMotion demo;
+  demo.motion = read_motion(kDemo / "truth.csv");
+  demo.motion.joints[7] = unknown_joints();
+  write(demo);
+  const ReadBvh bvh = read_bvh(read_text_file(folder_ / "figure.bvh", 1u << 24));
+  const std::string bytes = read_text_file(folder_ / "figure.glb", 1u << 24);
+  const ReadGlb glb(bytes);
+  ASSERT_EQ(bvh.frames.size(), demo.motion.time.size());
+  EXPECT_EQ(bvh.frames[7], bvh.frames[6]);
+  for (size_t row = 0; row < bvh.frames.size(); ++row) {
+    const auto places = bvh.places(row);
+    const GlbPose pose = glb.at(demo.motion.time[row] + 1e-6);
+    if (row == 7) {
+      EXPECT_EQ(pose.nodes.at("head").linear().norm(), 0);
+      continue;
+    }
+    for (const Joint joint : {Joint::kPelvis, Joint::kNeck, Joint::kLeftHip, Joint::kRightKnee,
+                              Joint::kLeftAnkle, Joint::kRightElbow}) {
+      const std::string name(kJointNames[static_cast<size_t>(joint)]);
+      const Eigen::Vector3d& at = demo.motion.joints[row][joint];
+      const Eigen::Vector3d there(at.x(), at.z(), -at.y());
+      EXPECT_LT((places.at(name) - there).norm(), 1e-3) << name << " in " << row;
+      EXPECT_LT((pose.place(name) - there).norm(), 1e-3) << name << " in " << row;
+    }
+  }
 }
 
 // Spreadsheets and pandas take the first line for the header.

@@ -52,7 +52,8 @@ TEST_F(Track, SameSeedSameBytesForAnyThreadCount) {
   constexpr std::array kTables{"joints.csv",        "uncertainty.csv", "gait.json",
                                "gait.csv",          "angles.csv",      "angles.mot",
                                "joints.trc",        "kinetics.csv",    "ground_reaction.mot",
-                               "joint_moments.sto", "tables.json"};
+                               "joint_moments.sto", "tables.json",     "figure.bvh",
+                               "figure.glb"};
   std::string digest;
   std::map<std::string, std::string> bytes;  // by table, of the first thread count
   for (const int threads : {1, 2, 8}) {

@@ -40,7 +40,8 @@ in_root walktrack track /usr/share/walktrack/demo/scene.yaml -o /tmp/demo -y
 in_root walktrack evaluate /usr/share/walktrack/demo/truth.csv /tmp/demo
 for file in tmp/demo/report.html tmp/demo/run.json tmp/demo/overlay_side.mp4 usr/share/doc/walktrack/copyright \
   usr/share/doc/walktrack/guide/README.md usr/share/man/man1/walktrack.1.gz \
-  usr/share/bash-completion/completions/walktrack usr/share/walktrack/configs/models/kneed_1.2.yaml; do
+  usr/share/bash-completion/completions/walktrack usr/share/walktrack/configs/models/kneed_1.2.yaml \
+  usr/share/walktrack/opensim/ik_setup.xml usr/lib/python3/dist-packages/walktrack.py tmp/demo/figure.glb; do
   # minbase leaves out manuals and documents; the package's own list does not.
   [ -e "$root/$file" ] || dpkg-deb --contents "$deb" | grep -q " ./$file\$" || { echo "deb_test: $file is missing"; exit 1; }
 done

@@ -183,4 +183,7 @@ class Tables(WithResult):
 
 
 if __name__ == "__main__":
+    for name in ("numpy", "pandas", "matplotlib"):
+        if not found(name):
+            print(f"SKIPPED: what is tried with {name}, which is not installed")
     unittest.main(argv=sys.argv[:1])

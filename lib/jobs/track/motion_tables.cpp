@@ -4,6 +4,8 @@
 #include <array>
 
 #include "io/c3d/c3d_file.h"
+#include "io/figure/bvh_file.h"
+#include "io/figure/glb_file.h"
 #include "io/tables/gait_file.h"
 #include "io/tables/kinetics_file.h"
 #include "io/tables/opensim.h"
@@ -54,6 +56,13 @@ void write_c3d(const AnalysedMotion& analysed, const Gait& gait, const Kinetics&
                                               gait.events, any ? &forces : nullptr}));
 }
 
+void write_figure(const AnalysedMotion& analysed, const ResultFolder& folder) {
+  const AnimatedFigure figure = animated_figure(analysed.motion, body_lengths(analysed.subject));
+  if (!figure.any_frame()) return;
+  folder.write("figure.bvh", bvh_from_figure(figure, analysed.rate));
+  folder.write("figure.glb", glb_from_figure(figure, analysed.subject));
+}
+
 }  // namespace
 
 std::vector<FootContact> foot_contacts(const Gait& gait) {
@@ -76,8 +85,9 @@ std::vector<FootContact> foot_contacts(const Gait& gait) {
 }
 
 std::vector<std::string> motion_table_files() {
-  return {"joints.trc", "joints.c3d",   "angles.csv",          "angles.mot",        "gait.json",
-          "gait.csv",   "kinetics.csv", "ground_reaction.mot", "joint_moments.sto", "tables.json"};
+  return {"joints.trc",   "joints.c3d",          "figure.bvh",        "figure.glb",
+          "angles.csv",   "angles.mot",          "gait.json",         "gait.csv",
+          "kinetics.csv", "ground_reaction.mot", "joint_moments.sto", "tables.json"};
 }
 
 TableTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsConfig& config,
@@ -94,6 +104,7 @@ TableTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsCo
   };
   const Kinetics result = forces(analysed.motion);
   write_c3d(analysed, events, result, folder);
+  write_figure(analysed, folder);
   const double weight = analysed.subject.mass * analysed.gravity.norm();
   KineticsBands bands(analysed.world, analysed.model_error * kTrackedLoadError * weight);
   for (size_t m = 0; m < analysed.members.size; ++m) bands.add(forces(analysed.members.member(m)));

@@ -1,6 +1,7 @@
 // The tables that follow from a motion, whether it was tracked or measured: gait.json, gait.csv,
 // angles.csv, kinetics.csv with tables.json, for OpenSim joints.trc, angles.mot,
-// ground_reaction.mot and joint_moments.sto, and for laboratories joints.c3d.
+// ground_reaction.mot and joint_moments.sto, for laboratories joints.c3d, and the moving figure,
+// figure.bvh and figure.glb.
 #pragma once
 
 #include <string>
