@@ -42,7 +42,7 @@ macro(fill_page page title sources)
 endmacro()
 
 read_parts(STYLE libraries/uplot.min.css style.css)
-read_parts(SCRIPT libraries/uplot.min.js libraries/ogl.min.js elements.js data.js player.js space.js chart.js charts.js tables.js main.js)
+read_parts(SCRIPT libraries/uplot.min.js libraries/ogl.min.js elements.js data.js follow.js player.js space.js chart.js charts.js tables.js main.js)
 file(READ ${FOLDER}/page.html PAGE)
 file(READ ${FOLDER}/normal_gait.csv NORMAL_GAIT)
 fill_page(PAGE "<!--TITLE-->" "; img-src data: blob:; media-src blob: file: 'self'")

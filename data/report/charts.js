@@ -1,24 +1,41 @@
 // Curves over the gait cycle with their bands, and over time.
-const normal = (() => {
-  const rows = data.normal_csv.split('\n').filter((line) => line && line[0] !== '#').map((line) => line.split(','));
-  const head = rows.shift();
-  return {percent: rows.map((r) => +r[0]), column: (name) => rows.map((r) => +r[head.indexOf(name)]),
-    source: data.normal_csv.split('\n').filter((l) => l[0] === '#').map((l) => l.slice(2)).join(' ')};
-})();
+// Norms: comments (#) say of whom (who: ...) and from where, a header names percent,<angle>_low,<angle>_high,... Throws
+// an Error that says what is wrong.
+function readNorms(text, name) {
+  const lines = text.split(/\r?\n/), notes = lines.filter((line) => line[0] === '#').map((line) => line.slice(1).trim());
+  const rows = lines.filter((line) => line.trim() && line[0] !== '#').map((line) => line.split(',').map((cell) => cell.trim()));
+  const head = rows.shift() ?? [], at = Object.fromEntries(head.map((column, i) => [column, i]));
+  if (head[0] !== 'percent') throw new Error(`${name}: the header begins with percent, not with '${head[0] ?? ''}'`);
+  const numbers = rows.map((row) => row.map((cell) => cell === '' ? NaN : Number(cell)));
+  const wrong = numbers.findIndex((row, i) => row.length !== head.length || row.some((value) => !isFinite(value)) ||
+    row[0] < 0 || row[0] > 100 || (i > 0 && row[0] <= numbers[i - 1][0]));
+  if (wrong >= 0) throw new Error(`${name}: row ${wrong + 1} below the header is no row of numbers with a percent that grows from 0 to 100`);
+  if (numbers.length < 2) throw new Error(`${name}: there are fewer than two rows`);
+  const told = notes.find((note) => note.startsWith('who:'));
+  return {who: told ? told.slice(4).trim() : name.replace(/\.csv$/i, ''), source: notes.filter((note) => note !== told).join(' '), percent: numbers.map((row) => row[0]),
+    has: (angle) => angle + '_low' in at && angle + '_high' in at, column: (column) => numbers.map((row) => row[at[column]])};
+}
 
-// Whom the range is of, as its source says: no adults.
-const normalAges = 'healthy 4- to 17-year-olds';
+const shippedNorms = readNorms(data.normal_csv, 'normal_gait.csv');
+const allNorms = [shippedNorms];
+let norms = shippedNorms;
 
-// The published range at every per cent of the cycle.
+// The norm at every per cent of the cycle, null outside it.
 function normalAt(name) {
-  const column = normal.column(name);
-  return Array.from({length: 101}, (_, i) => {
-    const below = Math.min(normal.percent.length - 2, Math.floor(i / 2)), share = (i - normal.percent[below]) / 2;
-    return column[below] + share * (column[below + 1] - column[below]);
+  const {percent} = norms, column = norms.column(name);
+  return Array.from({length: 101}, (_, at) => {
+    const after = percent.findIndex((p) => p >= at);
+    if (after < 0 || (after === 0 && percent[0] > at)) return null;
+    if (percent[after] === at) return column[after];
+    const share = (at - percent[after - 1]) / (percent[after] - percent[after - 1]);
+    return (1 - share) * column[after - 1] + share * column[after];
   });
 }
 
-// What is drawn: caption, label of the axis, whether the normal range is comparable.
+// The shipped range has other axes of the pelvis; whose own norms they are knows theirs.
+const comparable = (name) => norms.has(name) && (norms !== shippedNorms || !(name in angles) || angles[name][2]);
+
+// What is drawn: caption, label of the axis, whether the shipped norms are comparable.
 const angles = {
   hip_flexion: ['Hip', '°  extension − / flexion +', true], knee_flexion: ['Knee', '°  flexion +', true],
   ankle_dorsiflexion: ['Ankle', '°  plantar − / dorsiflexion +', true], pelvis_tilt: ['Pelvis', '°  forward tilt +', false],
@@ -30,33 +47,34 @@ const loads = {
 };
 
 // What video tells too badly to be read as numbers is drawn grey. Measured motions are as good as their measurement.
-const rough = (name) => !analysed && (name.startsWith('ankle') || name in loads);
-const roughAngles = 'Grey: ankle angles, and hip rotation in angles.csv, are rough estimates. Against motion capture the ankle is 8 to 23° off (rms), ' +
+const rough = (name) => !analysed && (name.startsWith('ankle') || name === 'hip_rotation' || name in loads);
+const roughAngles = 'Grey: ankle angles and hip rotation are rough estimates. Against motion capture the ankle is 8 to 23° off (rms), ' +
   'a large part of the 30° that an ankle moves in walking; outlines hardly show how a hip is rotated. Do not use them as measurements.';
 const roughForces = 'Grey: forces, moments and work computed from video are rough estimates. Against force plates the vertical load is off by 14 % of body weight, ' +
   'and somebody assumed to stand still would be off by 15 %. Do not use them as measurements.';
 
-function cycleChart(parent, cycles, name, [caption, label, comparable]) {
-  const series = [{}], values = [Array.from({length: 101}, (_, i) => i)], bands = [];
-  const line = (points, stroke, width) => {
+function cycleChart(parent, cycles, name, [caption, label]) {
+  const series = [{}], values = [Array.from({length: 101}, (_, i) => i)], bands = [], columns = ['percent'];
+  const line = (points, stroke, width, name) => {
     values.push(points);
+    columns.push(name);
     series.push({stroke, width, points: {show: false}});
   };
-  const band = (low, high, fill) => {
-    line(high, 'transparent', 0);
-    line(low, 'transparent', 0);
+  const band = (low, high, fill, names) => {
+    line(high, 'transparent', 0, names[1]);
+    line(low, 'transparent', 0, names[0]);
     bands.push({series: [series.length - 2, series.length - 1], fill});
   };
-  if (comparable) band(normalAt(name + '_low'), normalAt(name + '_high'), faded('#8b98a5', 0.3));
+  if (comparable(name)) band(normalAt(name + '_low'), normalAt(name + '_high'), faded('#8b98a5', 0.3), ['norm low', 'norm high']);
   const toeOffs = [];
   for (const {side, count, mean, p05, p95, strides} of cycles.filter((c) => c.name === name)) {
     if (!count) continue;
-    for (const stride of strides) {
-      if (count > 1) line(stride.values, faded(colours[side], 0.35), 1);
+    for (const [i, stride] of strides.entries()) {
+      if (count > 1) line(stride.values, faded(colours[side], 0.35), 1, `${side} stride ${i + 1}`);
       if (stride.toe_off) toeOffs.push([100 * stride.toe_off, colours[side]]);
     }
-    band(p05, p95, faded(colours[side], 0.18));
-    line(mean, colours[side], 2.5);
+    band(p05, p95, faded(colours[side], 0.18), [`${side} p05`, `${side} p95`]);
+    line(mean, colours[side], 2.5, `${side} mean`);
   }
   const marks = (u) => {
     for (const [at, stroke] of toeOffs) {
@@ -70,7 +88,7 @@ function cycleChart(parent, cycles, name, [caption, label, comparable]) {
   chart(parent, caption, `${caption} over the gait cycle, left and right`, 230,
     {series, bands, scales: {x: {time: false, range: [0, 100]}}, hooks: {draw: [marks]},
       axes: [axis('% of the gait cycle', 24), axis(label, 40)]}, values,
-    [rough(name) ? 'rough estimate' : '', comparable ? `grey band: ${normalAges}` : ''].filter(Boolean).join('; '), rough(name));
+    [rough(name) ? 'rough estimate' : '', comparable(name) ? `grey band: ${norms.who}` : ''].filter(Boolean).join('; '), rough(name), columns);
 }
 
 function cycleKey(strides, extra) {
@@ -84,19 +102,53 @@ function startCycles() {
     byId('cycle-charts').append(element('p', {}, 'No whole stride, from one strike of a foot to its next, was tracked without a gap.'));
     return;
   }
-  byId('cycle-charts').before(cycleKey(strides, [element('i', {className: 'normal'}), `${normalAges} (mean ± 1 SD)`]));
+  startNorms();
+  drawCycles();
+}
+
+function drawCycles() {
+  const strides = (side) => Math.max(0, ...data.angles.filter((c) => c.side === side).map((c) => c.count));
+  byId('cycle-key').replaceChildren(cycleKey(strides, [element('i', {className: 'normal'}), `${norms.who}${norms === shippedNorms ? ' (mean ± 1 SD)' : ''}`]));
+  byId('cycle-charts').replaceChildren();
   for (const [name, what] of Object.entries(angles)) cycleChart(byId('cycle-charts'), data.angles, name, what);
-  if (!analysed) byId('cycle-charts').after(element('p', {className: 'caution'}, roughAngles));
-  byId('motion-range').append(table(['mean curve, °', 'least', 'greatest', 'range', 'greatest at %', 'at strike', `mean of ${normalAges}`], rangeRows()));
+  byId('cycle-caution').replaceChildren(...analysed ? [] : [element('p', {className: 'caution'}, roughAngles)]);
+  byId('motion-range').replaceChildren(table(['mean curve, °', 'least', 'greatest', 'range', 'greatest at %', 'at strike', `mean of ${norms.who}`], rangeRows(), 'angle ranges'));
   byId('normal-note').textContent = `Bold: mean of the strides; thin: each stride; ${analysed ? '' : 'coloured band: 5–95 % of the filter’s particles; '}dashes: toe-off. ` +
-    `${normal.source} The definitions differ (see the limits below): compare shape and range before level.`;
+    `${norms.source} ${norms === shippedNorms ? 'The definitions differ (see the limits below): compare shape and range before level.' : ''}`;
+}
+
+// The reader's own norms, from files that the browser reads and nobody else.
+function startNorms() {
+  const choice = byId('norm-choice'), files = byId('norm-files');
+  const list = () => choice.replaceChildren(...allNorms.map((each, i) => element('option', {value: i, selected: each === norms}, each.who)));
+  const draw = () => {
+    drawCycles();
+    byId('more-charts').replaceChildren();
+    if (byId('more-angles').open) drawMoreAngles();
+  };
+  choice.onchange = () => { norms = allNorms[Number(choice.value)]; draw(); };
+  files.onchange = async () => {
+    const wrong = [];
+    for (const file of [...files.files].sort((a, b) => a.name < b.name ? -1 : 1)) {
+      try {
+        allNorms.push(readNorms(await file.text(), file.name));
+        norms = allNorms.at(-1);
+      } catch (error) { wrong.push(error.message); }
+    }
+    byId('norm-message').textContent = wrong.join('; ');
+    list();
+    draw();
+  };
+  byId('norms').hidden = false;
+  list();
 }
 
 function rangeRows() {
   const rows = [];
-  for (const [name, [caption, , comparable]] of Object.entries(angles)) {
-    const normalMean = comparable ? normalAt(name + '_low').map((low, i) => (low + normalAt(name + '_high')[i]) / 2) : [];
-    const typical = comparable ? `${fixed(Math.min(...normalMean), 0)} to ${fixed(Math.max(...normalMean), 0)}` : '–';
+  for (const [name, [caption]] of Object.entries(angles)) {
+    const high = comparable(name) ? normalAt(name + '_high') : [];
+    const normalMean = comparable(name) ? normalAt(name + '_low').map((low, i) => low === null ? null : (low + high[i]) / 2).filter((value) => value !== null) : [];
+    const typical = comparable(name) ? `${fixed(Math.min(...normalMean), 0)} to ${fixed(Math.max(...normalMean), 0)}` : '–';
     for (const {side, count, mean} of data.angles.filter((c) => c.name === name)) {
       if (!count) continue;
       const low = Math.min(...mean), high = Math.max(...mean);
@@ -104,6 +156,24 @@ function rangeRows() {
     }
   }
   return rows;
+}
+
+// What angles.csv has besides, drawn when it is asked for.
+const moreAngles = {
+  hip_adduction: ['Hip adduction', '°  out − / in +'], hip_rotation: ['Hip rotation', '°  toes out − / in +'],
+  pelvis_list: ['Pelvis obliquity', '°  left down − / right down +'], pelvis_rotation: ['Pelvis rotation', '°  from x, to the left +'],
+  lumbar_extension: ['Trunk against pelvis, forward', '°  backward − / forward +'], lumbar_bending: ['Trunk against pelvis, sideways', '°  left − / right +'],
+  lumbar_rotation: ['Trunk against pelvis, turn', '°  right − / left +'], trunk_tilt: ['Trunk', '°  backward − / forward +'],
+};
+
+function startMoreAngles() {
+  const more = byId('more-angles');
+  more.hidden = !data.more_angles.some((c) => c.count);
+  more.addEventListener('toggle', () => { if (!byId('more-charts').children.length) drawMoreAngles(); });
+}
+
+function drawMoreAngles() {
+  for (const [name, what] of Object.entries(moreAngles)) cycleChart(byId('more-charts'), data.more_angles, name, what);
 }
 
 function startForces() {
@@ -121,7 +191,7 @@ function startForces() {
     ['Negative work, J', fixed(n.negative_work_j, 0)],
     ['Cost of transport (positive work per weight and way)', fixed(n.cost_of_transport, 3)],
     ['Greatest vertical load of a foot, body weights', fixed(n.peak_foot_load_body_weights, 2)],
-  ]));
+  ], 'forces of the whole walk'));
   byId('force-note').textContent = 'By inverse dynamics of the tracked body: computed from its motion, not measured. Moments are those of the muscles, ' +
     'positive as the angle is. In double support the sharing between the feet is a model; near the ends of the tracked span values lean on extrapolation. ' +
     `All scale with the mass of ${data.subject.mass_kg} kg.`;
@@ -145,7 +215,7 @@ function timeChart(caption, description, values, label, more = {}) {
     {series: [{}, ...values.map(([, stroke, width = 1.5]) => ({stroke, width, points: {show: false}}))],
       scales: {x: {time: false, range: [times[0] ?? 0, Math.max(times[lastFrame] ?? 0, (times[0] ?? 0) + 0.1)]}, ...more.scales},
       hooks: {draw: [lost, now, ...(more.draw ?? [])]}, axes: [axis('s', 24), axis(label, 44)]},
-    [times, ...values.map(([v]) => v)]);
+    [times, ...values.map(([v]) => v)], '', false, ['t', ...values.map(([v, , , name]) => v.some((x) => x !== null) ? name ?? caption : '')]);
   clock.listeners.push(() => plot.redraw(false));
   plot.over.addEventListener('click', (event) => clock.show(frameAt(plot.posToVal(event.offsetX, 'x'))));
 }
@@ -157,7 +227,7 @@ function fitChart(series) {
     .map(([name, values], i) => ({camera: name.slice('overlap_percent.'.length), values, shade: shades[i % shades.length]}));
   if (!lines.length) return;
   timeChart('How well the figure lies on the person', 'Overlap of figure and foreground over time, by camera',
-    lines.map(({values, shade}) => [values, shade]), '%', {scales: {y: {range: [0, 100]}}});
+    lines.map(({camera, values, shade}) => [values, shade, 1.5, camera]), '%', {scales: {y: {range: [0, 100]}}});
   const caption = byId('time-charts').lastChild.querySelector('small');
   for (const {camera, shade} of lines) caption.append(element('i', {className: 'swatch', style: `background: ${shade}`}), `${camera} `);
 }

@@ -28,7 +28,7 @@ function parameterTable(reference, sample) {
       const one = sample.parameters[name];
       return [`${label}, ${unit}`, spread(reference.parameters[name], digits), spread(one, digits), difference(one, digits),
         one.detectable === undefined ? '–' : fixed(one.detectable, digits), judged(one)];
-    }));
+    }), `parameters ${sample.name}`);
   made.classList.add('figures');
   for (const cell of made.querySelectorAll('td:last-child'))
     cell.className = cell.textContent === 'differs' ? 'bad' : '';
@@ -134,7 +134,7 @@ function words() {
     'Ankle angles of a video are rough: differences between them need large numbers of strides.';
   byId('trial-table').append(table(['group', 'recording', 'strides left', 'strides right', 'quality'],
     data.groups.flatMap(({name, trials}) => trials.map((t) => [name, t.folder, `${t.strides.left}`, `${t.strides.right}`,
-      t.failed_checks.length ? `failed: ${t.failed_checks.join('; ')}` : t.status]))));
+      t.failed_checks.length ? `failed: ${t.failed_checks.join('; ')}` : t.status])), 'recordings'));
   byId('colophon').textContent = `Made by walktrack ${data.program}. The same numbers: compare.json, compare_parameters.csv, compare_curves.csv. Drawn with uPlot, which is inside this page.`;
 }
 

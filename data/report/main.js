@@ -7,6 +7,7 @@ verdict();
 keyFigures();
 gaitTables();
 startCycles();
+startMoreAngles();
 startForces();
 startTimes();
 quality();

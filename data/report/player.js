@@ -5,6 +5,8 @@ function startPlayer() {
   const screen = byId('video');
   const video = element('video', {muted: true, playsInline: true, preload: 'auto', tabIndex: -1});
   let playing = false, started = 0, startFrame = 0;
+  // A video that was made as such a window needs none.
+  const following = run.config.overlay?.crop ? null : follower(video, screen);
 
   function source(clip) {
     if (clip.dataset.file) return clip.dataset.file;
@@ -19,6 +21,7 @@ function startPlayer() {
     stop();
     clip.url ??= source(clip);
     video.src = clip.url;
+    following?.choose(clip.dataset.name);
     byId('video-note').textContent =
       clip.dataset.file ? `played from ${clip.dataset.file} beside this page, too large to be inside it` : '';
   }
@@ -62,6 +65,7 @@ function startPlayer() {
       button.onclick = () => choose(clip, button);
       byId('cameras').append(button);
     }
+    if (following) byId('zooms').append(following.button);
     choose(clips[0], byId('cameras').firstChild);
     video.onerror = () => {
       byId('video-note').textContent = 'This browser cannot play the video; it is in the file overlay_' +
@@ -83,6 +87,7 @@ function startPlayer() {
     if (/^(INPUT|SELECT|BUTTON|SUMMARY|TEXTAREA)$/.test(event.target.tagName)) return;
     const step = {ArrowLeft: -1, ArrowRight: 1}[event.key];
     if (event.key === ' ') byId('play').click();
+    else if (event.key === 'z' && byId('zooms').firstChild) byId('zooms').firstChild.click();
     else if (step) { stop(); clock.show(clock.frame + step); }
     else return;
     event.preventDefault();

@@ -3,6 +3,7 @@
 function banded(band, digits, factor = 1) {
   if (!band || band.value === null) return '–';
   const made = element('span', {}, fixed(factor * band.value, digits));
+  made.band = [band.value, band.p05, band.p95].map((value) => value === null ? null : +(factor * value).toPrecision(12));
   if (band.p05 !== null)
     made.append(' ', element('small', {}, `${fixed(factor * band.p05, digits)} to ${fixed(factor * band.p95, digits)}`));
   return made;
@@ -62,11 +63,11 @@ function gaitTables() {
   }
   into.append(element('p', {}, `${plural(summary.steps, 'step')}, ${plural(summary.strides, 'stride')}.`),
     table(['mean', 'both', 'left', 'right', 'asymmetry, %'], summaryRows.map(([column, name, digits]) =>
-      [name, ...['both', 'left', 'right'].map((side) => banded(summary[side][column], digits)), banded(summary.symmetry[symmetryOf[column]], 1)])),
+      [name, ...['both', 'left', 'right'].map((side) => banded(summary[side][column], digits)), banded(summary.symmetry[symmetryOf[column]], 1)]), 'gait'),
     element('h3', {}, 'Contacts'),
     table(['foot', 'strike, s', 'toe-off, s', 'step length, m', 'step width, m', 'step time, s', 'stance, %'],
       contacts.map((c) => [c.side, banded(c.foot_strike_s, 3), banded(c.toe_off_s, 3), banded(c.step_length_m, 3),
-        banded(c.step_width_m, 3), banded(c.step_time_s, 3), banded(c.stance_percent, 1)])),
+        banded(c.step_width_m, 3), banded(c.step_time_s, 3), banded(c.stance_percent, 1)]), 'contacts'),
     element('p', {className: 'note'}, (analysed ? '' : 'Small print: 5–95 % of the filter’s particles. ') + data.gait.notes.join(' ')));
 }
 
@@ -77,7 +78,7 @@ function quality() {
     if (!q.passed) words.append(element('small', {className: 'bad'}, q.advice));
     return [words, `${fixed(q.value, q.digits)}${q.unit ? ' ' + q.unit : ''}`, limit, q.gate === null ? '–' : q.passed ? 'passed' : 'failed'];
   });
-  const made = table(['check', 'value', 'allowed', ''], rows);
+  const made = table(['check', 'value', 'allowed', ''], rows, 'quality');
   for (const cell of made.querySelectorAll('td:last-child'))
     cell.className = {passed: 'good', failed: 'bad'}[cell.textContent] ?? '';
   byId('quality-table').append(made);
@@ -109,8 +110,9 @@ function origin() {
     ['Digest of the result', code(run.digest)],
   ]));
   byId('settings').append(table(['key', 'value', 'set by'],
-    leaves(run.config).map(([key, value]) => [code(key), JSON.stringify(value), run.config_origin[key] ?? 'default'])));
+    leaves(run.config).map(([key, value]) => [code(key), JSON.stringify(value), run.config_origin[key] ?? 'default']), 'settings'));
   byId('run-json').textContent = JSON.stringify(run, null, 2);
+  byId('run-json').before(saveButton('JSON', 'Save run.json', () => save('run.json', new Blob([byId('run-json').textContent + '\n'], {type: 'application/json'}))));
   byId('colophon').textContent = `Made by walktrack ${run.program.version}. The same inputs, settings and seed give the same digest. ` +
     'Drawn with uPlot and OGL, which are inside this page.';
 }

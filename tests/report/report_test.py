@@ -102,6 +102,7 @@ class Report(unittest.TestCase):
         settings = dict(zip(self.texts("#settings tbody th"), self.texts("#settings tbody td:nth-child(2)")))
         self.assertEqual(settings["filter.particles"], "60")
         self.video_and_figure()
+        self.follows(out)
         self.keys()
         self.small_and_on_paper("report", range(2, 9))
         self.check_quiet(out / "report.html")
@@ -132,6 +133,87 @@ class Report(unittest.TestCase):
           return n; })()"""
         self.assertGreater(value(blue), 200)
         self.assertGreater(len(self.texts("#time-charts canvas")), 3)
+
+    def follows(self, out):
+        """With z the video shows a window whose middle is the walker: projected by the calibration, in every second frame."""
+        value = self.browser.value
+        text = (demo / "side.yaml").read_text()
+        number = lambda key: [float(v) for v in re.search(key + r":.*?data: \[(.*?)\]", text, re.S).group(1).split(",")]
+        matrix, turn, place = number("camera_matrix"), number("rotation"), number("translation")
+        with (out / "joints.csv").open() as file:
+            joints = list(csv.DictReader(file))
+        self.assertEqual(value("document.querySelector('#video video').style.transform"), "")
+        self.browser.key("z", "KeyZ", "z")
+        self.assertEqual(self.texts("#zooms button[aria-pressed=true]"), ["Follow"])
+        for frame in (0, 20, 40, 59):
+            value(f"clock.show({frame})")
+            x, y, times = map(float, re.fullmatch(r"translate\((.*)px, (.*)px\) scale\((.*)\)", value(
+                "document.querySelector('#video video').style.transform")).groups())
+            self.assertGreater(times, 1.2)
+            world = [float(joints[frame]["pelvis_" + axis]) for axis in "xyz"]
+            seen = [sum(turn[3 * i + k] * world[k] for k in range(3)) + place[i] for i in range(3)]
+            u, v = (matrix[i] * seen[i // 4] / seen[2] + matrix[2 + 3 * (i // 4)] for i in (0, 4))
+            width, height = value("[byId('video').clientWidth, byId('video').clientHeight]")
+            ratio = min(width / 640, height / 480)
+            at = [x + times * ((width - 640 * ratio) / 2 + u * ratio), y + times * ((height - 480 * ratio) / 2 + v * ratio)]
+            self.assertAlmostEqual(at[0], width / 2, delta=0.15 * width)
+            self.assertAlmostEqual(at[1], height / 2, delta=0.15 * height)
+        self.browser.key("z", "KeyZ", "z")
+        self.assertEqual(value("document.querySelector('#video video').style.transform"), "")
+
+    def saved(self):
+        """Name -> text of every file that the page's buttons save; of pictures their first bytes."""
+        value = self.browser.value
+        value("window.saved = {}; save = (name, content) => { saved[name] = content; }; 0")
+        value("document.querySelectorAll('.save').forEach((button) => button.click())")
+        value("new Promise((done) => setTimeout(done, 500))")
+        return {name: value(f"saved[{json.dumps(name)}].slice(0, {4 if name.endswith('.png') else 10**7}).text()")
+                for name in value("Object.keys(saved)")}
+
+    def saves_what_it_shows(self, out):
+        """Every table and chart, those that are unfolded later, too."""
+        self.browser.value("document.querySelectorAll('details').forEach((each) => each.open = true)")
+        self.browser.value("new Promise((done) => setTimeout(done, 300))")
+        self.assertEqual(len(self.texts("#more-charts canvas")), 8)
+        files = self.saved()
+        pictures = [name for name in files if name.endswith(".png")]
+        self.assertEqual(len(pictures), self.browser.value("document.querySelectorAll('.chart').length"))
+        for name in pictures:
+            self.assertEqual(files[name][1:], "PNG", name)
+        self.assertEqual(json.loads(files["run.json"]), json.loads((out / "run.json").read_text()))
+        rows = lambda name: list(csv.DictReader(files[name].splitlines()))
+        summary = json.loads((out / "gait.json").read_text())["summary"]
+        gait = {row["mean"]: row for row in rows("gait.csv")}
+        self.assertAlmostEqual(float(gait["Walking speed, m/s"]["both"]), summary["both"]["speed_m_s"]["value"], delta=1e-6)
+        self.assertEqual(len(rows("contacts.csv")), len(self.texts("#gait-tables h3 + .scroll tbody tr")))
+        knee = rows("knee.csv")
+        self.assertEqual([row["percent"] for row in knee], [str(k) for k in range(101)])
+        self.assertGreater(max(float(row["left mean"]) for row in knee), 50)
+        for name in ("norm low", "right stride 1", "right mean"):
+            self.assertIn(name, knee[0])
+        for name in ("angle_ranges.csv", "settings.csv", "hip_rotation.csv", "pelvis_obliquity.csv", "vertical_ground_reaction.csv"):
+            self.assertGreater(len(rows(name)), 3, name)
+
+    def takes_own_norms(self):
+        """From files that the reader chooses; what is wrong with one is said, and the others are taken."""
+        value = self.browser.value
+        files = {"broken.csv": "percent,knee_flexion_low\n0,1\n0,2\n",
+                 "lab.csv": "# who: adults of our laboratory\n# 31 people\npercent,knee_flexion_low,knee_flexion_high,hip_adduction_low,hip_adduction_high\n"
+                            "0,0,8\n".replace("0,0,8", "0,0,8,-3,3") + "50,10,20,-3,3\n100,0,8,-3,3\n"}
+        value(f"""(async () => {{ const chosen = new DataTransfer();
+          for (const [name, text] of Object.entries({json.dumps(files)})) chosen.items.add(new File([text], name));
+          byId('norm-files').files = chosen.files; await byId('norm-files').onchange(); }})()""")
+        self.assertEqual(self.texts("#norm-message"), [
+            "broken.csv: row 2 below the header is no row of numbers with a percent that grows from 0 to 100"])
+        self.assertEqual(self.texts("#norm-choice option:checked"), ["adults of our laboratory"])
+        captions = self.texts("#cycle-charts figcaption small")
+        self.assertIn("adults of our laboratory", captions[1])
+        self.assertNotIn("adults", captions[0])  # nothing is said of hips
+        self.assertIn("31 people", self.texts("#normal-note")[0])
+        self.assertEqual(value("normalAt('knee_flexion_low')[25]"), 5)
+        self.assertEqual(len(self.texts("#cycle-charts canvas")), 4)
+        value("byId('norm-choice').value = '0'; byId('norm-choice').onchange()")
+        self.assertIn("4- to 17-year-olds", self.texts("#cycle-charts figcaption")[0])
 
     def keys(self):
         value = self.browser.value
@@ -189,6 +271,8 @@ class Report(unittest.TestCase):
         self.browser.value("clock.show(15)")
         self.assertIn("frame 15  7.50 s", self.texts("#now")[0])
         self.small_and_on_paper("analysed", range(2, 7))
+        self.takes_own_norms()
+        self.saves_what_it_shows(out)
         self.check_quiet(out / "report.html")
 
     def test_batch_overview_leads_to_every_report(self):

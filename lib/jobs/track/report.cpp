@@ -101,6 +101,7 @@ std::filesystem::path write_report(const ResultFolder& folder, const ReportInput
   data["joints"] = motion_json(analysed.motion, input.uncertainty);
   data["contacts"] = contacts_json(gait);
   data["angles"] = cycles_json(angle_signals(folder.path()), gait);
+  data["more_angles"] = cycles_json(more_angle_signals(folder.path()), gait);
   data["loads"] = cycles_json(load_signals(folder, analysed), gait);
   data["normal_csv"] = normal_gait_csv();
   ReportPage page;

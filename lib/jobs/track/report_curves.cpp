@@ -98,6 +98,21 @@ std::vector<Signal> angle_signals(const std::filesystem::path& folder) {
   return out;
 }
 
+std::vector<Signal> more_angle_signals(const std::filesystem::path& folder) {
+  const auto table = folder / "angles.csv";
+  std::vector<Signal> out;
+  for (const Side side : kSides) {
+    const char letter = side == Side::kLeft ? 'l' : 'r';
+    for (const char* name : {"hip_adduction", "hip_rotation"})
+      out.push_back(named(read_signal(table, fmt::format("{}_{}_deg", name, letter)), name, side));
+    for (const char* name : {"pelvis_list", "pelvis_rotation", "lumbar_bending", "lumbar_rotation"})
+      out.push_back(named(read_signal(table, fmt::format("{}_deg", name)), name, side));
+    for (const char* name : {"lumbar_extension", "trunk_tilt"})
+      out.push_back(named(scaled(read_signal(table, fmt::format("{}_deg", name)), -1), name, side));
+  }
+  return out;
+}
+
 std::vector<Signal> load_signals(const ResultFolder& folder, const AnalysedMotion& analysed) {
   const auto table = folder.file("kinetics.csv");
   const double mass = analysed.subject.mass, weight = mass * analysed.gravity.norm();

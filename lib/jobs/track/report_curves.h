@@ -23,6 +23,10 @@ struct Signal {
 // Of angles.csv of a result folder: degrees, forward lean positive.
 std::vector<Signal> angle_signals(const std::filesystem::path& folder);
 
+// The other angles of angles.csv, under its names: degrees, with its signs but for lumbar_extension
+// and trunk_tilt, of which forward is positive here.
+std::vector<Signal> more_angle_signals(const std::filesystem::path& folder);
+
 // Of kinetics.csv: vertical load of each foot in body weights, moments in N m/kg.
 std::vector<Signal> load_signals(const ResultFolder& folder, const AnalysedMotion& analysed);
 
