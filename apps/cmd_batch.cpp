@@ -1,5 +1,6 @@
 // walktrack batch: every sequence below a folder.
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,11 +10,13 @@
 #include "core/parallel_for.h"
 #include "jobs/batch/batch.h"
 #include "jobs/batch/batch_changes.h"
+#include "jobs/batch/sequence_list.h"
 #include "jobs/batch/shard.h"
 #include "terminal.h"
 
 namespace walktrack {
 
+namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
 namespace {
@@ -32,21 +35,48 @@ std::vector<std::string> track_command(const CommonOptions& common, int jobs, bo
 }
 
 int list(const BatchJob& job) {
-  for (const Sequence& sequence : shard_of(sequences_of(job), job.shard, job.shards)) {
-    fmt::print("{}\t{}\n", state_name(result_of(sequence).state), sequence.name);
-  }
+  const SequenceList sequences(job);
+  auto own = sequences.sequences(SequenceList::Share::kOwn);
+  while (const auto sequence = own.next())
+    fmt::print("{}\t{}\n", state_name(result_of(*sequence).state), sequence->name);
   return kDone;
 }
 
 int list_work(const BatchJob& job) {
-  for (const Sequence& sequence : work_of(job).to_do) fmt::print("{}\n", sequence.name);
+  each_to_do(job, SequenceList(job),
+             [](const Sequence& sequence) { fmt::print("{}\n", sequence.name); });
   return kDone;
 }
 
 int exit_code(const BatchOutcome& outcome) {
   if (outcome.interrupted || stop_request()) return kInterrupted;
-  if (outcome.failed + outcome.waiting > 0) return kFailed;
+  // What other workers are at is theirs to answer for.
+  if (outcome.failed + outcome.waiting - outcome.elsewhere > 0) return kFailed;
   return outcome.degraded > 0 ? kDegraded : kDone;
+}
+
+// CPU seconds for a second of video; nothing where no result says it.
+std::optional<double> cost_of(const BatchOutcome& outcome) {
+  return outcome.video_seconds > 0 ? std::optional(outcome.cpu_seconds / outcome.video_seconds)
+                                   : std::nullopt;
+}
+
+nlohmann::ordered_json or_null(const std::optional<double>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
+
+std::string last_words(const BatchJob& job, const BatchOutcome& outcome) {
+  std::string text = fmt::format("{} complete, {} degraded, {} failed, {} left", outcome.complete,
+                                 outcome.degraded, outcome.failed, outcome.waiting);
+  if (outcome.elsewhere > 0)
+    text += fmt::format(" (other workers are at {} of them)", outcome.elsewhere);
+  if (outcome.stolen > 0) text += fmt::format(", {} of other shares done", outcome.stolen);
+  text += reports_at_end(job) ? fmt::format("; see {}", (job.output / "batch.html").string())
+                              : "; --report makes the summary of all shares";
+  if (const auto cost = cost_of(outcome))
+    text += fmt::format("\n{:.1f} CPU seconds per second of video ({:.0f} s for {:.0f} s)", *cost,
+                        outcome.cpu_seconds, outcome.video_seconds);
+  return text;
 }
 
 std::string result_line(const BatchJob& job, const BatchOutcome& outcome, int code) {
@@ -59,61 +89,96 @@ std::string result_line(const BatchJob& job, const BatchOutcome& outcome, int co
                                        {"complete", outcome.complete},
                                        {"degraded", outcome.degraded},
                                        {"failed", outcome.failed},
-                                       {"waiting", outcome.waiting}};
+                                       {"waiting", outcome.waiting},
+                                       {"elsewhere", outcome.elsewhere},
+                                       {"stolen", outcome.stolen},
+                                       {"cpu_seconds", outcome.cpu_seconds},
+                                       {"video_seconds", outcome.video_seconds},
+                                       {"cpu_seconds_per_video_second", or_null(cost_of(outcome))}};
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 // What the whole output folder holds by now, whoever did it.
 int report(const BatchJob& job) {
-  const std::vector<Sequence> all = sequences_of(job);
-  write_batch_reports(all, batch_outputs(job));
-  bool all_well = true;
-  for (const Sequence& sequence : all) {
-    const SequenceState state = result_of(sequence).state;
-    all_well = all_well && state == SequenceState::kComplete;
-  }
-  return all_well ? kDone : kFailed;
+  const SequenceList all(job);
+  const BatchOutcome counts = write_batch_reports(job, all);
+  return counts.complete == static_cast<int>(all.size()) ? kDone : kFailed;
+}
+
+// Where the sequences are, which is said once.
+void check_places(const BatchJob& job, const CommandLine& line) {
+  if (job.folder.empty() && job.manifest.empty())
+    throw UsageError("FOLDER is missing, or --manifest; see 'walktrack batch --help'");
+  if (!job.folder.empty() && !job.manifest.empty())
+    throw UsageError("FOLDER and --manifest exclude each other");
+  if (line.given("manifest") && job.manifest.empty())
+    throw UsageError(describe({"", 0, "--manifest"}, "no name", "a file, or - for standard input"));
+  if (line.given("work") && job.work.empty())
+    throw UsageError(describe({"", 0, "--work"}, "no name", "a folder"));
+  if (job.bids && !job.manifest.empty())
+    throw UsageError("--bids and --manifest exclude each other");
+  if (job.bids && job.scene_template.empty())
+    throw UsageError("--bids needs --scene: the scene of the camera that took the videos");
+  if (job.steal && job.retry_failed)
+    throw UsageError("--steal and --retry-failed exclude each other: what failed is its worker's");
+  if (job.jobs < 1) throw UsageError("--jobs: found less than 1, allowed: from 1");
 }
 
 }  // namespace
 
 int run_batch(const Arguments& arguments) {
   BatchJob job;
-  std::string folder, scene_template, shard = "1/1";
+  std::string folder, scene_template, work, shard = "1/1";
   bool list_only = false, dry_run = false, report_only = false, resume = false;
   bool ignore_checks = false, json_line = false;
   CommandLine line({.name = "batch",
-                    .operands = "FOLDER",
+                    .operands = "[FOLDER]",
                     .about =
-                        "Tracks every scene below FOLDER, each in a process of its own; goes "
-                        "on after failures.\nRun again, it does what is not complete, from where "
-                        "it was killed (--resume,\nthe default); with -y also sequences of other "
-                        "settings or inputs. Several machines\nmay share one output folder.",
+                        "Tracks every scene below FOLDER, or in the list --manifest, each in a "
+                        "process of\nits own; goes on after failures.\nRun again, it does what is "
+                        "not complete, from where it was killed (--resume,\nthe default); with -y "
+                        "also sequences of other settings or inputs. Several machines\nmay share "
+                        "one output folder.",
                     .example = "walktrack batch data -o out/batch --jobs 2"});
-  line.options().add_options()("scene", po::value(&scene_template)->value_name("FILE"),
-                               "take every video below FOLDER in the place of this scene\'s video")(
-      "jobs,j", po::value(&job.jobs)->default_value(1)->value_name("N"),
-      "number of sequences at a time")("shard", po::value(&shard)->value_name("i/n"),
-                                       "do every n-th sequence, from the i-th; auto: as Slurm or "
-                                       "AWS Batch number this worker, auto/n: "
-                                       "as a Kubernetes Indexed Job of n does")(
-      "time-limit", po::value(&job.limits.seconds)->value_name("S"), "time of one sequence")(
-      "memory-limit", po::value(&job.limits.memory_mb)->value_name("MB"), "memory of one sequence")(
-      "resume", po::bool_switch(&resume),
+  auto add = line.options().add_options();
+  add("scene", po::value(&scene_template)->value_name("FILE"),
+      "take every video below FOLDER in the place of this scene\'s video");
+  add("manifest", po::value(&job.manifest)->value_name("FILE"),
+      "in the place of FOLDER, a list of scenes (with --scene, of videos): a path a line, after a "
+      "tab perhaps the name of its result; - is standard input");
+  add("bids", po::bool_switch(&job.bids),
+      "FOLDER is laid out as BIDS: track its sub-<label>/..._video files with --scene, by default "
+      "into FOLDER/derivatives/walktrack, and write Motion-BIDS tables there");
+  add("jobs,j", po::value(&job.jobs)->default_value(1)->value_name("N"),
+      "number of sequences at a time");
+  add("shard", po::value(&shard)->value_name("i/n"),
+      "do every n-th sequence, from the i-th; auto: as Slurm or AWS Batch number this worker, "
+      "auto/n: as a Kubernetes Indexed Job of n does");
+  add("steal", po::bool_switch(&job.steal),
+      "after its own share, do what no worker has begun of the others");
+  add("work", po::value(&work)->value_name("DIR"),
+      "track below this folder, on a disk of this machine; a result is moved to the output when it "
+      "is whole");
+  add("time-limit", po::value(&job.limits.seconds)->value_name("S"), "time of one sequence");
+  add("memory-limit", po::value(&job.limits.memory_mb)->value_name("MB"), "memory of one sequence");
+  add("resume", po::bool_switch(&resume),
       "skip complete sequences and continue from checkpoints; the default, so it only forbids "
-      "--yes")("list", po::bool_switch(&list_only),
-               "print the sequences and their state, do nothing")(
-      "retry-failed", po::bool_switch(&job.retry_failed),
-      "do only the sequences that failed before")(
-      "dry-run", po::bool_switch(&dry_run), "print the sequences that would be done, do nothing")(
-      "ignore-checks", po::bool_switch(&ignore_checks),
-      "track scenes though their checks fail (see walktrack check); their reports say so")(
-      "report", po::bool_switch(&report_only), "write only the summary of the existing results")(
-      "json-line", po::bool_switch(&json_line),
+      "--yes");
+  add("list", po::bool_switch(&list_only), "print the sequences and their state, do nothing");
+  add("retry-failed", po::bool_switch(&job.retry_failed),
+      "do only the sequences that failed before");
+  add("dry-run", po::bool_switch(&dry_run), "print the sequences that would be done, do nothing");
+  add("ignore-checks", po::bool_switch(&ignore_checks),
+      "track scenes though their checks fail (see walktrack check); their reports say so");
+  add("report", po::bool_switch(&report_only), "write only the summary of the existing results");
+  add("json-line", po::bool_switch(&json_line),
       "print the number of sequences by outcome, or the error, as one line of JSON");
-  line.operand("FOLDER", &folder);
+  line.operand("FOLDER", &folder, true);
   if (!line.parse(arguments)) return kDone;
-  if (job.jobs < 1) throw UsageError("--jobs: found less than 1, allowed: from 1");
+  job.folder = folder;
+  job.scene_template = scene_template;
+  job.work = work;
+  check_places(job, line);
   if (resume && line.common().overwrite) {
     throw UsageError(
         "--resume and --yes exclude each other: what has changed is left as it is or done again");
@@ -121,9 +186,9 @@ int run_batch(const Arguments& arguments) {
   const Shard share = shard_from(shard, process_environment());
   job.shard = share.index;
   job.shards = share.count;
-  job.folder = folder;
-  job.scene_template = scene_template;
-  job.output = line.required_output();
+  const bool in_data_set = job.bids && !line.given("output");
+  job.output =
+      in_data_set ? job.folder / "derivatives" / "walktrack" : fs::path(line.required_output());
   job.overwrite = line.common().overwrite;
   if (list_only) return list(job);
   if (report_only) return report(job);
@@ -133,9 +198,7 @@ int run_batch(const Arguments& arguments) {
   Terminal terminal(line.common());
   const JobControl control = terminal.control();
   const BatchOutcome outcome = run_batch(job, control);
-  control.say(fmt::format("{} complete, {} degraded, {} failed, {} left; see {}", outcome.complete,
-                          outcome.degraded, outcome.failed, outcome.waiting,
-                          (job.output / "batch.html").string()));
+  control.say(last_words(job, outcome));
   if (outcome.changed > 0 && !outcome.interrupted) {
     throw UsageError(fmt::format(
         "{} sequences are left as they are, for they are of other settings or inputs; -y does them "

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Tracks every sequence below FOLDER with an array of Slurm tasks that share one output folder, then
 # makes the summary of all. Prints the number of the last job; it ends when everything has.
-#   scripts/cluster/slurm.sh FOLDER OUT WORKERS [OPTIONS of walktrack batch]
-# WALKTRACK names the program where it is not on the PATH, SBATCH_* are Slurm's own (partition, time
-# limit, cpus). Submitted again after a failure it does what is not complete.
+#   scripts/cluster/slurm.sh FOLDER|MANIFEST OUT WORKERS [OPTIONS of walktrack batch]
+# CPUS (1) is how many CPUs each task gets, and how many sequences it does at a time; WALKTRACK names
+# the program where it is not on the PATH; SBATCH_* are Slurm's own (partition, time limit).
+# Submitted again after a failure it does what is not complete.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -13,7 +14,7 @@ workers=$3
 export WALKTRACK=${WALKTRACK:-$(command -v walktrack)}
 mkdir -p "$out"
 
-array=$(sbatch --parsable --array="1-$workers" --output="$out/slurm_%a.log" \
+array=$(sbatch --parsable --array="1-$workers" --cpus-per-task="${CPUS:-1}" --output="$out/slurm_%a.log" \
   "$here/slurm_array.sh" "$folder" "$out" "${@:4}")
 # A worker that failed has left its reasons: the summary is made anyway.
 sbatch --parsable --dependency="afterany:$array" --job-name=walktrack-summary \

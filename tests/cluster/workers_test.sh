@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# workers_test.sh slurm|parallel WALKTRACK SOURCE_DIR
-# Two workers of a scheduler end with the summary and the results of one local batch. Exit code 77,
-# "skipped", where the scheduler is not installed or cannot run.
+# workers_test.sh slurm|parallel|snakemake WALKTRACK SOURCE_DIR [SEQUENCES]
+# Two workers of a scheduler on one machine end with the results of one local batch, each sequence done
+# once. Exit code 77, "skipped", where the scheduler is not installed or cannot run.
 set -euo pipefail
-scheduler=$1 walktrack=$2 source_dir=$3
+scheduler=$1 walktrack=$2 source_dir=$3 sequences=${4:-6}
 work=$(mktemp -d)
 daemons=()
 finish() {
@@ -75,8 +75,8 @@ wait_for_job() {
   while squeue -h -j "$1" 2>/dev/null | grep -q .; do sleep 0.5; done
 }
 
-# The summary without the times.
-summary_of() { cut -d, -f1,2,4- "$1/summary.csv"; }
+# State, digest and reason of the sequences that the local batch has, without times.
+summary_of() { grep -F -f "$work/named" "$1/summary.csv" | cut -d, -f1,2,4,5 | sort; }
 
 make_sequences() {
   cat >"$work/walk.yaml" <<END
@@ -88,29 +88,47 @@ walk: {speed: 1.2, start: [-0.5, 0]}
 cameras: [{name: side, azimuth_deg: -90, distance: 4, size: [96, 72]}]
 END
   "$walktrack" render --options "$work/walk.yaml" -o "$work/walk"
-  for name in "first one" second third fourth fifth broken; do
-    mkdir -p "$work/in"
+  printf '%s\n' "first one" second third fourth fifth broken >"$work/named"
+  seq -f 'more/%g' 1 $((sequences - 6)) | cat "$work/named" - >"$work/names"
+  while IFS= read -r name; do
+    mkdir -p "$(dirname "$work/in/$name")"
     cp -r "$work/walk" "$work/in/$name"
-  done
+    printf 'in/%s/scene.yaml\t%s\n' "$name" "$name" >>"$work/manifest.txt"
+  done <"$work/names"
   echo "no video" >"$work/in/broken/side.mp4"
 }
 
-[ "$scheduler" = parallel ] && { command -v parallel >/dev/null || skip "parallel is not installed"; }
+for program in parallel snakemake; do
+  [ "$scheduler" != "$program" ] || command -v "$program" >/dev/null || skip "$program is not installed"
+done
 [ "$scheduler" = slurm ] && start_slurm
 make_sequences
-options=(--threads 1 --set filter.particles=20 -c "$source_dir/tests/any_quality.yaml")
-"$walktrack" batch "$work/in" -o "$work/local" --quiet "${options[@]}" || [ $? -eq 1 ]
+options=(--set filter.particles=20 -c "$source_dir/tests/any_quality.yaml")
+head -6 "$work/manifest.txt" | (cd "$work" && "$walktrack" batch --manifest - -o local --quiet --threads 1 "${options[@]}") ||
+  [ $? -eq 1 ]
 export WALKTRACK=$walktrack
-if [ "$scheduler" = slurm ]; then
+case $scheduler in
+slurm)
   job=$("$source_dir/scripts/cluster/slurm.sh" "$work/in" "$work/out" 2 "${options[@]}")
   wait_for_job "$job"
-else
-  "$source_dir/scripts/cluster/parallel.sh" "$work/in" "$work/out" 2 "${options[@]}" || [ $? -eq 1 ]
-fi
+  ;;
+parallel)
+  "$source_dir/scripts/cluster/parallel.sh" "$work/manifest.txt" "$work/out" 2 --threads 1 "${options[@]}" || [ $? -eq 1 ]
+  ;;
+snakemake)
+  mkdir "$work/snakemake"
+  ! snakemake -s "$source_dir/scripts/cluster/Snakefile" -d "$work/snakemake" -j 2 --quiet --config folder="$work/in" \
+    out="$work/out" workers=2 walktrack="$walktrack" options="${options[*]} --work $work/local_disk" >"$work/log" 2>&1 ||
+    { echo "snakemake does not say that a sequence failed"; exit 1; }
+  ;;
+esac
 
 diff <(summary_of "$work/local") <(summary_of "$work/out")
-[ "$(grep -c ,complete, "$work/out/summary.csv")" -eq 5 ]
-for name in "first one" second third fourth fifth; do
-  cmp "$work/local/$name/joints.csv" "$work/out/$name/joints.csv"
+[ "$(grep -c ,complete, "$work/out/summary.csv")" -eq $((sequences - 1)) ]
+grep -v broken "$work/names" | while IFS= read -r name; do
+  cmp "$work/local/second/joints.csv" "$work/out/$name/joints.csv"
+  # The CPUs of a task are shared out, not the node's.
+  grep -q '"threads": 1,' "$work/out/$name/run.json"
 done
-echo "two workers of $scheduler: the same summary and results as one local batch"
+[ -z "$(find "$work/out" -name '.walktrack_for*')" ]
+echo "two workers of $scheduler: the results of one local batch, $sequences sequences"

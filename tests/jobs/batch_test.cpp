@@ -14,6 +14,8 @@
 #include "core/errors.h"
 #include "jobs/batch/batch_changes.h"
 #include "jobs/batch/folder_lock.h"
+#include "jobs/batch/sequence_claim.h"
+#include "jobs/batch/sequence_list.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 
@@ -33,7 +35,8 @@ constexpr const char* kScript =
     "  '#ok') echo '{\"summary\": {\"both\": {\"speed_m_s\": {\"value\": 1.25}}}}' > "
     "\"$out/gait.json\"\n"
     "    touch \"$out/report.html\"\n"
-    "    echo '{\"status\": \"tracked\", \"digest\": \"d1\", \"timing\": {\"seconds\": 1.5},"
+    "    echo '{\"status\": \"tracked\", \"digest\": \"d1\", \"timing\": {\"seconds\": 1.5, "
+    "\"cpu_seconds\": 20}, \"numbers\": {\"frame_rate\": 25, \"frames\": 50},"
     " \"quality\": [{\"name\": \"foot_slide_mm\", \"value\": 12}]}' > \"$out/run.json\";;\n"
     "  '#lost') echo '{\"status\": \"below gates\", \"notes\": [\"lost 40 %\"]}' > "
     "\"$out/run.json\"; exit 4;;\n"
@@ -58,6 +61,13 @@ class BatchTest : public testing::Test {
     folder_.write(scene.string(), std::string("cameras: []\n#").append(mode).append("\n"));
   }
   static std::string numbered(int i) { return std::string("s").append(std::to_string(i)); }
+  // The names of what is to be done.
+  std::vector<std::string> to_do() const {
+    std::vector<std::string> names;
+    each_to_do(job_, SequenceList(job_),
+               [&](const Sequence& sequence) { names.push_back(sequence.name); });
+    return names;
+  }
   // How often the script ran for a sequence.
   size_t runs(const std::string& name) const {
     return read_file(job_.output / name / "runs").size() / 2;
@@ -92,14 +102,17 @@ TEST_F(BatchTest, GoesOnAfterFailuresOfEveryKind) {
   EXPECT_EQ(outcome.degraded, 1);
   EXPECT_EQ(outcome.failed, 3);
   EXPECT_EQ(outcome.waiting, 0);
+  EXPECT_EQ(outcome.cpu_seconds, 20);
+  EXPECT_EQ(outcome.video_seconds, 2);
   EXPECT_EQ(read_file(job_.output / "summary.csv"),
             "sequence,state,seconds,digest,reason,lost_percent,speed_m_s,cadence_steps_per_min,"
-            "step_length_m,stance_percent,foot_slide_mm,penetration_mm\n"
-            "crash,failed,,,ended by signal 11 (Segmentation fault),,,,,,,\n"
-            "fail,failed,,,\"exit 3: cam.mp4: found \"\"no\"\" <video>, allowed: one\",,,,,,,\n"
-            "lie,failed,,,exit 0,,,,,,,\n"
-            "lost,degraded,,,below gates: lost 40 %,,,,,,,\n"
-            "ok,complete,1.5,d1,,,1.250000,,,,12.000000,\n");
+            "step_length_m,stance_percent,foot_slide_mm,penetration_mm,"
+            "cpu_seconds_per_video_second\n"
+            "crash,failed,,,ended by signal 11 (Segmentation fault),,,,,,,,\n"
+            "fail,failed,,,\"exit 3: cam.mp4: found \"\"no\"\" <video>, allowed: one\",,,,,,,,\n"
+            "lie,failed,,,exit 0,,,,,,,,\n"
+            "lost,degraded,,,below gates: lost 40 %,,,,,,,,\n"
+            "ok,complete,1.5,d1,,,1.250000,,,,12.000000,,10.00\n");
   EXPECT_THAT(read_file(job_.output / "failures.txt"),
               testing::StartsWith("crash: ended by signal 11 (Segmentation fault)\nfail: exit 3"));
   const std::string page = read_file(job_.output / "batch.html");
@@ -124,7 +137,7 @@ TEST_F(BatchTest, RunAgainItDoesOnlyWhatIsNotComplete) {
   EXPECT_EQ(runs("fail"), 2u);
   EXPECT_EQ(read_file(job_.output / "failures.txt"), "");
   job_.overwrite = true;
-  EXPECT_TRUE(work_of(job_).to_do.empty());
+  EXPECT_THAT(to_do(), testing::IsEmpty());
 }
 
 // A result that was to be made again and could not is done again, beside what there was before.
@@ -149,15 +162,14 @@ TEST_F(BatchTest, RetriesNoneButThoseThatFailed) {
   add("new", "ok");
   add("fail", "ok");  // repaired
   job_.retry_failed = true;
-  ASSERT_EQ(work_of(job_).to_do.size(), 1u);
-  EXPECT_EQ(work_of(job_).to_do[0].name, "fail");
+  EXPECT_THAT(to_do(), ElementsAre("fail"));
   const BatchOutcome outcome = run_batch(job_, {});
   EXPECT_EQ(outcome.complete, 2);
   EXPECT_EQ(outcome.waiting, 1);
   EXPECT_EQ(runs("fail"), 2u);
   EXPECT_EQ(runs("ok"), 1u);
   EXPECT_FALSE(fs::exists(job_.output / "new"));
-  EXPECT_TRUE(work_of(job_).to_do.empty());
+  EXPECT_THAT(to_do(), testing::IsEmpty());
 }
 
 TEST_F(BatchTest, ClearsWhatAWorkerLeftThatWasKilledOverTheSummary) {
@@ -205,7 +217,7 @@ TEST_F(BatchTest, StopsWhenAskedAndLeavesTheRestWaiting) {
   EXPECT_TRUE(outcome.interrupted);
   EXPECT_EQ(outcome.waiting, 2);
   EXPECT_FALSE(fs::exists(job_.output / "a/failure.txt"));
-  EXPECT_FALSE(fs::exists(job_.output / "a" / FolderLock::kFile));
+  EXPECT_FALSE(fs::exists(hidden_folder(job_.output / "a")));
 }
 
 // A worker that begins when another has failed at a sequence already takes that for an earlier try,
@@ -222,26 +234,59 @@ TEST_F(BatchTest, TwoWorkersNeverDoOneSequenceTwice) {
   }
 }
 
+// A worker that has done its share helps: with what nobody has begun, has done or failed at.
+TEST_F(BatchTest, StealsWhatNobodyHasBegunOfOtherShares) {
+  for (int i = 0; i < 9; ++i) add(numbered(i), "ok");
+  add("s1", "fail");
+  job_.shards = 3;
+  job_.shard = 2;  // s1, s4, s7
+  EXPECT_EQ(run_batch(job_, {}).failed, 1);
+  const auto claim = SequenceClaim::try_take(job_.output / "s5");
+  job_.shard = 1;
+  job_.steal = true;
+  const BatchOutcome outcome = run_batch(job_, {});
+  EXPECT_EQ(outcome.complete, 3);  // counts are of its own share
+  EXPECT_EQ(outcome.stolen, 2);    // s2, s8
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(runs(numbered(i)), i == 5 ? 0u : 1u) << i;
+}
+
+// However late the others begin, all is done, and nothing twice.
+TEST_F(BatchTest, WorkersThatStealDoEverySequenceOnce) {
+  for (int i = 0; i < 15; ++i) add(numbered(i), "ok");
+  std::vector<BatchJob> jobs(3, job_);
+  std::vector<std::thread> workers;
+  for (size_t i = 0; i < 3; ++i) {
+    jobs[i].shard = static_cast<int>(i) + 1;
+    jobs[i].shards = 3;
+    jobs[i].steal = true;
+    workers.emplace_back([&jobs, i] { run_batch(jobs[i], {}); });
+  }
+  for (std::thread& worker : workers) worker.join();
+  for (int i = 0; i < 15; ++i) EXPECT_EQ(runs(numbered(i)), 1u) << i;
+}
+
 TEST_F(BatchTest, LeavesClaimedSequencesAlone) {
   add("mine", "ok");
   add("theirs", "ok");
-  fs::create_directories(job_.output / "theirs");
-  const auto claim = FolderLock::try_take(job_.output / "theirs");
+  const auto claim = SequenceClaim::try_take(job_.output / "theirs");
   const BatchOutcome outcome = run_batch(job_, {});
   EXPECT_EQ(outcome.complete, 1);
   EXPECT_EQ(outcome.waiting, 1);
+  EXPECT_EQ(outcome.elsewhere, 1);
+  EXPECT_TRUE(claim->is_held());
 }
 
 TEST_F(BatchTest, ClearsTheClaimOfAWorkerKilledAfterItsLastFile) {
   add("done", "ok");
   run_batch(job_, {});
-  const fs::path claim = job_.output / "done" / FolderLock::kFile;
+  const fs::path claim = hidden_folder(job_.output / "done") / FolderLock::kFile;
+  fs::create_directory(claim.parent_path());
   std::ofstream(claim) << "elsewhere.1";
   EXPECT_EQ(run_batch(job_, {}).complete, 1);
   EXPECT_TRUE(fs::exists(claim));  // it may be alive
   fs::last_write_time(claim, fs::file_time_type::clock::now() - std::chrono::seconds(100));
   EXPECT_EQ(run_batch(job_, {}).complete, 1);
-  EXPECT_FALSE(fs::exists(claim));
+  EXPECT_FALSE(fs::exists(claim.parent_path()));
 }
 
 TEST_F(BatchTest, MakesAScenePerVideoFromATemplate) {
@@ -290,10 +335,17 @@ TEST_F(BatchTest, RefusesTheFolderOfItsScenes) {
   EXPECT_FALSE(fs::exists(job_.folder / "a/log.txt"));
 }
 
-TEST_F(BatchTest, ChangesAreNamedOnce) {
-  const std::string text =
-      changes_text({{"a", "seed 1 -> 2"}, {"b", "x.mp4 has changed"}, {"c", "seed 1 -> 2"}});
-  EXPECT_EQ(text, "\n  seed 1 -> 2: a, c\n  x.mp4 has changed: b");
+TEST(ChangedResults, AreNamedOnceAndNotByTheThousand) {
+  ChangedResults changed;
+  changed.add("a", "seed 1 -> 2");
+  changed.add("b", "x.mp4 has changed");
+  changed.add("c", "seed 1 -> 2");
+  EXPECT_EQ(changed.text(), "\n  seed 1 -> 2: a, c\n  x.mp4 has changed: b");
+  for (int i = 0; i < 1000; ++i) changed.add("more", "seed 1 -> 2");
+  EXPECT_THAT(changed.text(), HasSubstr("more, more and 982 more\n"));
+  for (int i = 0; i < 1000; ++i) changed.add("own", std::to_string(i));
+  EXPECT_THAT(changed.text(), HasSubstr("\n  and 902 for other reasons"));
+  EXPECT_EQ(changed.count(), 2003);
 }
 
 TEST(FolderLock, IsGivenToOneAndBack) {

@@ -106,6 +106,14 @@ TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {
   const nlohmann::json& timing = run.at("timing");
   EXPECT_EQ(timing.at("frames_per_second"), outcome.frames_per_second);
   EXPECT_NEAR(outcome.frames_per_second * timing.at("seconds").get<double>(), outcome.frames, 1e-6);
+  EXPECT_GT(timing.at("cpu_seconds").get<double>(), 0);
+  double stages = 0;
+  for (const auto& [stage, seconds] : timing.at("stage_cpu_seconds").items())
+    stages += seconds.get<double>();
+  EXPECT_GE(timing.at("cpu_seconds").get<double>(), 0.9 * stages);
+  EXPECT_NEAR(run.at("numbers").at("video_seconds").get<double>() *
+                  run.at("numbers").at("frame_rate").get<double>(),
+              outcome.frames, 1e-9);
   EXPECT_EQ(timing.at("stride_frames_per_second"), outcome.stride_frames_per_second.value());
   EXPECT_GT(outcome.stride_frames_per_second, outcome.frames_per_second);
   for (const nlohmann::json& speed : run.at("by_frame").at("speed")) {

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int kRaysAcross = 4;
-constexpr double kGround = 120, kPaper = 235, kInk = 25;
+constexpr double kTable = 120, kPaper = 235, kInk = 25;
 
 // The last point's place, in spacings.
 Vector2d extent(const Board& board) {
@@ -38,7 +38,7 @@ double shade(const Board& board, const Vector2d& at) {
   const Vector2d p = at / board.spacing;
   const Vector2d last = extent(board);
   const double margin = board.kind == BoardKind::kChessboard ? 2.0 : 1.5;
-  if ((p.array() < -margin).any() || ((p - last).array() > margin).any()) return kGround;
+  if ((p.array() < -margin).any() || ((p - last).array() > margin).any()) return kTable;
   if (board.kind == BoardKind::kAsymmetricCircles)
     return in_shifted_circle(board, p) ? kInk : kPaper;
   if (board.kind == BoardKind::kCircles) {
@@ -87,7 +87,7 @@ cv::Mat BoardVideo::picture(const Board& board, const Matrix3d& rotation,
   for (int v = 0; v < height_; ++v) {
     for (int u = 0; u < width_; ++u) {
       const auto centre = on_board(ray(u, v, 0.5, 0.5));
-      double sum = kRaysAcross * kRaysAcross * kGround;
+      double sum = kRaysAcross * kRaysAcross * kTable;
       if (centre && (*centre - middle).norm() < reach) {
         sum = 0;
         for (int i = 0; i < kRaysAcross * kRaysAcross; ++i)

@@ -245,6 +245,11 @@ bool is_complete_result(const fs::path& folder) {
   return fs::is_regular_file(folder / kRunFile, ignored);
 }
 
+void remove_marked(const fs::path& folder, const std::string& command) {
+  remove_earlier({folder, command, {}}, marked(folder, command), {});
+  fs::remove(folder / marker_name(command));
+}
+
 ResultFolder::ResultFolder(const Outputs& outputs, bool overwrite,
                            std::span<const std::string_view> kept)
     : folder_(outputs.folder), files_(names_of(outputs)) {

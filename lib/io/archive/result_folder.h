@@ -18,6 +18,9 @@ namespace walktrack {
 
 inline constexpr const char* kRunFile = "run.json";
 
+// A folder of ours beside another one and for it: this and the other's name.
+inline constexpr const char* kHiddenFolder = ".walktrack_for.";
+
 // What a command is about to do to a folder.
 struct Outputs {
   std::filesystem::path folder;
@@ -42,6 +45,9 @@ void refuse_input(const std::filesystem::path& file,
                   const std::vector<std::filesystem::path>& inputs);
 
 bool is_complete_result(const std::filesystem::path& folder);
+
+// Removes the files that the command's marker lists, and the marker; the last file first.
+void remove_marked(const std::filesystem::path& folder, const std::string& command);
 
 class ResultFolder {
  public:

@@ -118,6 +118,7 @@ std::string run_json(const RunRecord& record) {
                     {"resumed_at_frame", record.resumed_at_frame},
                     {"stage_seconds", object_of(record.stage_seconds)},
                     {"stage_cpu_seconds", object_of(record.stage_cpu_seconds)}};
+  if (record.cpu_seconds) root["timing"]["cpu_seconds"] = *record.cpu_seconds;
   if (record.frames_per_second) {
     const auto& stride = record.stride_frames_per_second;
     root["timing"]["frames_per_second"] = *record.frames_per_second;

@@ -48,7 +48,8 @@ struct RunRecord {
   int threads = 1;  // in fact used
   // In order of the stages: passed on the clock, and worked by all threads together.
   std::vector<std::pair<std::string, double>> stage_seconds, stage_cpu_seconds;
-  double seconds = 0;  // altogether
+  double seconds = 0;                 // altogether
+  std::optional<double> cpu_seconds;  // of all threads, user and system
   // Of the whole command; and of the frames in which somebody who was found is followed, without
   // start and output. Only where there are frames to follow.
   std::optional<double> frames_per_second, stride_frames_per_second;

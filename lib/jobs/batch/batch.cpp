@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
-#include <deque>
 #include <list>
-#include <map>
 #include <optional>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include "core/errors.h"
-#include "io/archive/files.h"
 #include "io/archive/result_folder.h"
-#include "io/scene/scene_template.h"
 #include "jobs/batch/batch_changes.h"
-#include "jobs/batch/folder_lock.h"
+#include "jobs/batch/batch_work.h"
+#include "jobs/batch/sequence_claim.h"
+#include "jobs/batch/sequence_list.h"
+#include "jobs/batch/work_folder.h"
 
 namespace walktrack {
 
@@ -24,229 +22,198 @@ namespace fs = std::filesystem;
 
 namespace {
 
+using Share = SequenceList::Share;
+
 constexpr auto kPollInterval = std::chrono::milliseconds(20);
 constexpr auto kRenewInterval = std::chrono::seconds(10);
-constexpr size_t kMostLogBytes = size_t{1} << 30;
-constexpr const char* kLogFile = "log.txt";
-constexpr int kDegradedExit = 4, kInterruptedExit = 130;  // of the sequence's program
 
-// A sequence that is being done.
-struct Running {
-  Sequence sequence;
-  FolderLock claim;
-  ChildProcess child;
+// What this worker's share asks for, a byte a sequence.
+struct BatchPlan {
+  std::vector<Todo> todo;
+  size_t count = 0;  // that are to be done
+  ChangedResults left;
 };
 
-// The last line that the program said, without its name in front.
-std::string last_words(const fs::path& log) {
-  std::string text = fs::exists(log) ? read_text_file(log, kMostLogBytes) : "";
-  while (text.ends_with('\n')) text.pop_back();
-  text.erase(0, text.rfind('\n') + 1);
-  constexpr std::string_view kProgram = "walktrack: ";
-  if (text.starts_with(kProgram)) text.erase(0, kProgram.size());
-  return text;
-}
-
-std::string failure_reason(const BatchJob& job, const ChildEnd& end, const fs::path& log) {
-  if (end.timed_out) return fmt::format("took longer than {:g} s", job.limits.seconds);
-  const std::string words = last_words(log);
-  if (end.signal) {
-    return fmt::format("ended by signal {} ({}){}{}", end.signal, strsignal(end.signal),
-                       words.empty() ? "" : ": ", words);
+// Looks at every sequence of the share once, before anything is done.
+BatchPlan plan_of(const BatchJob& job, const SequenceList& list) {
+  BatchPlan plan;
+  auto own = list.sequences(Share::kOwn);
+  while (const auto sequence = own.next()) {
+    refuse_place(job, *sequence, Todo::kNothing);
+    const Decision decision = decide(job, *sequence);
+    refuse_place(job, *sequence, decision.todo);
+    if (!decision.changes.empty()) plan.left.add(sequence->name, decision.changes);
+    plan.count += decision.todo != Todo::kNothing;
+    plan.todo.push_back(decision.todo);
   }
-  return fmt::format("exit {}{}{}", end.exit_code, words.empty() ? "" : ": ", words);
+  return plan;
 }
 
-// Results stay below the output folder: what leads elsewhere was not made by a batch.
-void refuse_links(const BatchJob& job, const std::vector<Sequence>& sequences) {
-  for (const Sequence& sequence : sequences) {
-    fs::path folder = job.output;
-    for (const fs::path& part : fs::path(sequence.name)) {
-      folder /= part;
-      if (fs::is_symlink(folder))
-        throw UsageError(
-            describe({folder.string(), 0, ""}, "a link", "a folder of the batch's own"));
+struct Next {
+  Sequence sequence;
+  Todo todo;
+  bool stolen;
+};
+
+// What is to be done, one at a time: first the own share, then what nobody has begun of others'.
+class Queue {
+ public:
+  Queue(const BatchJob& job, const SequenceList& list, const BatchPlan& plan)
+      : job_(job),
+        plan_(plan),
+        own_(list.sequences(Share::kOwn)),
+        others_(list.sequences(Share::kOthers)),
+        steals_(job.steal && job.shards > 1) {}
+
+  std::optional<Next> next() {
+    while (at_ < plan_.todo.size()) {
+      auto sequence = own_.next();
+      const Todo todo = plan_.todo[at_++];
+      if (sequence && todo != Todo::kNothing) return Next{std::move(*sequence), todo, false};
     }
+    while (steals_) {
+      auto sequence = others_.next();
+      if (!sequence) break;
+      if (may_steal(*sequence)) return Next{std::move(*sequence), Todo::kFirst, true};
+    }
+    return std::nullopt;
   }
-}
 
-// What this process writes into the sequence's folder; its own program does the rest.
-Outputs outputs_of(const Sequence& sequence) {
-  if (sequence.video.empty())
-    return {sequence.output, "batch", {kLogFile, kFailureFile}, {sequence.scene}, ""};
-  return {sequence.output, "batch", {kLogFile, kFailureFile, "scene.yaml"}, {sequence.video}, ""};
-}
+ private:
+  // What failed, and what is in the way, is for its own worker to see to and to say.
+  bool may_steal(const Sequence& sequence) const {
+    if (fs::exists(sequence.output / kFailureFile)) return false;
+    if (decide(job_, sequence).todo != Todo::kFirst) return false;
+    try {
+      refuse_place(job_, sequence, Todo::kFirst);
+    } catch (const UsageError&) {
+      return false;
+    }
+    return true;
+  }
 
-// When the file was written; nullopt if there is none.
-std::optional<fs::file_time_type> time_of(const fs::path& file) {
-  std::error_code none;
-  const auto time = fs::last_write_time(file, none);
-  return none ? std::nullopt : std::optional(time);
-}
-
-// When an end of the sequence was noted last, with or without success; nullopt: never.
-struct LastEnd {
-  std::optional<fs::file_time_type> completed, failed;
+  const BatchJob& job_;
+  const BatchPlan& plan_;
+  SequenceList::Cursor own_, others_;
+  bool steals_;
+  size_t at_ = 0;
 };
-
-LastEnd last_end(const Sequence& sequence) {
-  const bool complete = is_complete_result(sequence.output);
-  return {complete ? time_of(sequence.output / "run.json") : std::nullopt,
-          time_of(sequence.output / kFailureFile)};
-}
-
-// A sequence that is to be done, and how it stood when this worker began.
-struct Waiting {
-  Sequence sequence;
-  LastEnd before;
-
-  // Whether another worker has done it since.
-  bool done_by_another() const {
-    const LastEnd now = last_end(sequence);
-    return now.completed > before.completed || now.failed > before.failed;
-  }
-};
-
-// If it is still to be done and nobody else is at it: clears why an earlier try failed, and starts.
-std::optional<Running> start(const BatchJob& job, const Waiting& waiting) {
-  const Sequence& sequence = waiting.sequence;
-  if (waiting.done_by_another()) return std::nullopt;
-  fs::create_directories(sequence.output);
-  std::optional<FolderLock> claim = FolderLock::try_take(sequence.output);
-  // Another worker may have done it between the look and the claim.
-  if (!claim || waiting.done_by_another()) return std::nullopt;
-  const ResultFolder folder(outputs_of(sequence), true);
-  if (!sequence.video.empty())
-    folder.write("scene.yaml", scene_for_video(job.scene_template, sequence.video));
-  std::vector<std::string> words = job.command;
-  words.insert(words.end(),
-               {sequence.scene.string(), "-o", sequence.output.string(), "--resume", "-y"});
-  return Running{sequence, std::move(*claim),
-                 ChildProcess(words, folder.file(kLogFile), job.limits)};
-}
-
-// A worker that was killed after a sequence's last file has left its claim, which a claim taken
-// here gives back at once.
-void clear_dead_locks(const std::vector<Sequence>& sequences) {
-  for (const Sequence& sequence : sequences)
-    if (is_complete_result(sequence.output) && fs::exists(sequence.output / FolderLock::kFile))
-      FolderLock::try_take(sequence.output);
-}
-
-void note_end(const BatchJob& job, const Running& running, const ChildEnd& end, bool stopping) {
-  if (is_complete_result(running.sequence.output)) {
-    if (end.exit_code == 0 || end.exit_code == kDegradedExit) return;
-  }
-  if (stopping && (end.exit_code == kInterruptedExit || end.signal)) return;
-  const fs::path& folder = running.sequence.output;
-  write_file_atomically(folder / kFailureFile, failure_reason(job, end, folder / kLogFile) + "\n");
-}
-
-// How the sequences stand, by name.
-std::map<std::string, LastEnd> last_ends(const std::vector<Sequence>& sequences) {
-  std::map<std::string, LastEnd> out;
-  for (const Sequence& sequence : sequences) out[sequence.name] = last_end(sequence);
-  return out;
-}
 
 class Runner {
  public:
-  // `before`: how the sequences stood, by name, before it was asked which are to be done.
-  Runner(const BatchJob& job, const JobControl& control, const std::vector<Sequence>& sequences,
-         const std::map<std::string, LastEnd>& before)
-      : job_(job), control_(control), total_(sequences.size()) {
-    for (const Sequence& sequence : sequences) {
-      refuse_what_is_not_ours(outputs_of(sequence));
-      waiting_.push_back({sequence, before.at(sequence.name)});
-    }
-  }
+  Runner(const BatchJob& job, const JobControl& control, const SequenceList& list,
+         const BatchPlan& plan, fs::file_time_type began)
+      : job_(job), control_(control), queue_(job, list, plan), total_(plan.count), began_(began) {}
 
   void run() {
-    auto renewed = std::chrono::steady_clock::now();
-    while (!waiting_.empty() || !running_.empty()) {
+    while (fill() || !running_.empty()) {
       if (control_.stopping()) stop();
-      fill();
       collect();
-      control_.progress("sequences", total_ - waiting_.size() - running_.size(), total_);
-      if (std::chrono::steady_clock::now() - renewed > kRenewInterval) {
-        for (const Running& running : running_) running.claim.renew();
-        renewed = std::chrono::steady_clock::now();
-      }
+      control_.progress("sequences", done_, total_);
+      renew();
       if (!running_.empty()) std::this_thread::sleep_for(kPollInterval);
     }
   }
   bool interrupted() const { return stopped_; }
+  int stolen() const { return stolen_; }
 
  private:
   void stop() {
     if (stopped_) return;
     stopped_ = true;
-    waiting_.clear();
-    for (const Running& running : running_) running.child.ask_to_stop();
+    for (const RunningSequence& running : running_)
+      if (running.child) running.child->ask_to_stop();
   }
 
-  void fill() {
-    while (!waiting_.empty() && static_cast<int>(running_.size()) < job_.jobs) {
-      const Waiting next = waiting_.front();
-      waiting_.pop_front();
-      if (auto running = start(job_, next)) running_.push_back(std::move(*running));
+  void renew() {
+    if (std::chrono::steady_clock::now() - renewed_ <= kRenewInterval) return;
+    for (const RunningSequence& running : running_) running.claim.renew();
+    renewed_ = std::chrono::steady_clock::now();
+  }
+
+  // Until all processes are at work; whether there is anything left to begin.
+  bool fill() {
+    while (!stopped_ && static_cast<int>(running_.size()) < job_.jobs) {
+      if (control_.stopping()) stop();
+      const auto next = stopped_ ? std::nullopt : queue_.next();
+      if (!next) return false;
+      auto running = start_sequence(job_, next->sequence, next->todo, began_);
+      if (running && next->stolen) {
+        ++stolen_;
+        ++total_;
+      }
+      if (!running && !next->stolen) ++done_;
+      if (running) running_.push_back(std::move(*running));
+      renew();
     }
+    return !stopped_;
   }
 
   void collect() {
     for (auto running = running_.begin(); running != running_.end();) {
-      const auto end = running->child.poll();
-      if (!end) {
+      std::optional<ChildEnd> end;
+      if (running->child && !(end = running->child->poll())) {
         ++running;
         continue;
       }
-      note_end(job_, *running, *end, stopped_);
+      end_sequence(job_, *running, end, stopped_, [&] { renew(); });
       const SequenceResult result = result_of(running->sequence);
-      if (result.state == SequenceState::kFailed) {
+      if (result.state == SequenceState::kFailed)
         control_.say(fmt::format("{}: {}", running->sequence.name, result.reason));
-      }
       running = running_.erase(running);
+      ++done_;
     }
   }
 
   const BatchJob& job_;
   const JobControl& control_;
-  std::deque<Waiting> waiting_;
-  std::list<Running> running_;
-  size_t total_;
+  Queue queue_;
+  std::list<RunningSequence> running_;
+  size_t total_, done_ = 0;
+  fs::file_time_type began_;
+  std::chrono::steady_clock::time_point renewed_ = std::chrono::steady_clock::now();
   bool stopped_ = false;
+  int stolen_ = 0;
 };
+
+// A worker that was killed after a sequence's last file has left its claim.
+void clear_dead_claims(const SequenceList& list) {
+  auto own = list.sequences(Share::kOwn);
+  while (const auto sequence = own.next())
+    if (is_complete_result(sequence->output)) clear_dead_claim(sequence->output);
+}
 
 }  // namespace
 
+void add_result(const Sequence& sequence, const SequenceResult& result, BatchOutcome& out) {
+  out.complete += result.state == SequenceState::kComplete;
+  out.degraded += result.state == SequenceState::kDegraded;
+  out.failed += result.state == SequenceState::kFailed;
+  if (result.state == SequenceState::kWaiting) {
+    ++out.waiting;
+    out.elsewhere += is_claimed(sequence.output);
+  }
+  out.cpu_seconds += result.cpu_seconds;
+  out.video_seconds += result.video_seconds;
+}
+
 BatchOutcome run_batch(const BatchJob& job, const JobControl& control) {
-  const std::vector<Sequence> all = sequences_of(job);
-  if (all.empty()) {
-    throw UsageError(describe({job.folder.string(), 0, ""}, "no sequence",
-                              job.scene_template.empty()
-                                  ? "scene*.yaml files, or .yaml files that list cameras"
-                                  : "video files"));
-  }
+  refuse_work_in_output(job);
+  const SequenceList list(job);
   refuse_what_is_not_ours(batch_outputs(job));
-  const std::vector<Sequence> own = shard_of(all, job.shard, job.shards);
-  refuse_links(job, own);
-  const std::map<std::string, LastEnd> before = last_ends(own);
-  const BatchWork work = work_of(job);
-  Runner runner(job, control, work.to_do, before);
   fs::create_directories(job.output);
-  clear_dead_locks(own);
+  const fs::file_time_type began = time_of_output(job);
+  const BatchPlan plan = plan_of(job, list);
+  clear_dead_claims(list);
+  Runner runner(job, control, list, plan, began);
   runner.run();
-  write_batch_reports(all, batch_outputs(job));
-  BatchOutcome outcome{.changed = static_cast<int>(work.left.size()),
-                       .changes = changes_text(work.left),
+  if (reports_at_end(job)) write_batch_reports(job, list);
+  BatchOutcome outcome{.stolen = runner.stolen(),
+                       .changed = plan.left.count(),
+                       .changes = plan.left.text(),
                        .interrupted = runner.interrupted()};
-  for (const Sequence& sequence : own) {
-    const SequenceState state = result_of(sequence).state;
-    outcome.complete += state == SequenceState::kComplete;
-    outcome.degraded += state == SequenceState::kDegraded;
-    outcome.failed += state == SequenceState::kFailed;
-    outcome.waiting += state == SequenceState::kWaiting;
-  }
+  auto own = list.sequences(Share::kOwn);
+  while (const auto sequence = own.next()) add_result(*sequence, result_of(*sequence), outcome);
   return outcome;
 }
 

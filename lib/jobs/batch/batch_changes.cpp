@@ -1,7 +1,5 @@
 #include "jobs/batch/batch_changes.h"
 
-#include <map>
-
 #include <fmt/format.h>
 
 #include "core/errors.h"
@@ -19,6 +17,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// A million results that have all changed are a few lines.
+constexpr int kMostNames = 20;
+constexpr size_t kMostKinds = 100;
+
 // A scene that is made of the template is to be the one that the result is of.
 bool template_changed(const BatchJob& job, const Sequence& sequence) {
   return !sequence.video.empty() &&
@@ -27,46 +29,63 @@ bool template_changed(const BatchJob& job, const Sequence& sequence) {
 }
 
 std::string changes_of(const BatchJob& job, const Sequence& sequence) {
-  const bool begun = is_complete_result(sequence.output) ||
-                     fs::exists(sequence.output / std::string(kCheckpointFile));
-  if (!begun) return "";
+  const bool begun =
+      is_complete_result(sequence.output) || fs::exists(sequence.output / kCheckpointFile);
+  if (!begun || !job.config) return "";
   if (template_changed(job, sequence))
     return job.scene_template.filename().string() + " has changed";
+  return changes_in(sequence.output, sequence.scene, *job.config);
+}
+
+}  // namespace
+
+std::string changes_in(const fs::path& folder, const fs::path& scene,
+                       const ConfigWithOrigin& config) {
   try {
-    return changes_since(sequence.output, origin_of_track(read_scene(sequence.scene), *job.config));
+    return changes_since(folder, origin_of_track(read_scene(scene), config));
   } catch (const InputError& error) {
     return error.what();  // it could be read once
   }
 }
 
-}  // namespace
-
-BatchWork work_of(const BatchJob& job) {
-  BatchWork out;
-  for (const Sequence& sequence : shard_of(sequences_of(job), job.shard, job.shards)) {
-    // A failure may stand beside a complete result: then the last try to make it again failed.
-    const bool failed = result_of(sequence).state == SequenceState::kFailed;
-    if (job.retry_failed && !failed) continue;
-    std::string changes = job.config ? changes_of(job, sequence) : "";
-    if (!changes.empty() && !job.overwrite) {
-      out.left.push_back({sequence.name, std::move(changes)});
-      continue;
-    }
-    const bool again = job.retry_failed || (job.overwrite && (failed || !changes.empty()));
-    if (again || !is_complete_result(sequence.output)) out.to_do.push_back(sequence);
-  }
-  return out;
+Decision decide(const BatchJob& job, const Sequence& sequence) {
+  if (!fs::exists(sequence.output))  // which is all there is to say of most of a million
+    return {job.retry_failed ? Todo::kNothing : Todo::kFirst};
+  // A failure may stand beside a complete result: then the last try to make it again failed.
+  const bool failed =
+      (job.retry_failed || job.overwrite) && result_of(sequence).state == SequenceState::kFailed;
+  if (job.retry_failed && !failed) return {};
+  std::string changes = changes_of(job, sequence);
+  if (!changes.empty() && !job.overwrite) return {Todo::kNothing, std::move(changes)};
+  if (!is_complete_result(sequence.output)) return {Todo::kFirst};
+  const bool again = job.retry_failed || (job.overwrite && (failed || !changes.empty()));
+  return {again ? Todo::kAgain : Todo::kNothing};
 }
 
-std::string changes_text(const std::vector<ChangedSequence>& changed) {
-  std::map<std::string, std::string> names;
-  for (const ChangedSequence& each : changed) {
-    std::string& list = names[each.changes];
-    list += (list.empty() ? "" : ", ") + one_line(each.name);
+void each_to_do(const BatchJob& job, const SequenceList& list,
+                const std::function<void(const Sequence&)>& use) {
+  auto own = list.sequences(SequenceList::Share::kOwn);
+  while (const auto sequence = own.next())
+    if (decide(job, *sequence).todo != Todo::kNothing) use(*sequence);
+}
+
+void ChangedResults::add(const std::string& name, const std::string& changes) {
+  ++count_;
+  if (kinds_.size() == kMostKinds && !kinds_.contains(changes)) {
+    ++of_other_kinds_;
+    return;
   }
+  Kind& kind = kinds_[changes];
+  if (++kind.count <= kMostNames) kind.names += (kind.count > 1 ? ", " : "") + one_line(name);
+}
+
+std::string ChangedResults::text() const {
   std::string text;
-  for (const auto& [changes, list] : names)
-    text += fmt::format("\n  {}: {}", one_line(changes), list);
+  for (const auto& [changes, kind] : kinds_) {
+    text += fmt::format("\n  {}: {}", one_line(changes), kind.names);
+    if (kind.count > kMostNames) text += fmt::format(" and {} more", kind.count - kMostNames);
+  }
+  if (of_other_kinds_ > 0) text += fmt::format("\n  and {} for other reasons", of_other_kinds_);
   return text;
 }
 

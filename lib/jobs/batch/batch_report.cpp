@@ -1,14 +1,16 @@
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <thread>
 
 #include <fmt/format.h>
 
+#include "io/archive/files.h"
 #include "io/config/text.h"
 #include "io/drawing/report_page.h"
 #include "jobs/batch/batch.h"
+#include "jobs/batch/bids_report.h"
 #include "jobs/batch/folder_lock.h"
+#include "jobs/batch/sequence_list.h"
 
 namespace walktrack {
 
@@ -18,37 +20,36 @@ std::string number(const std::optional<double>& value, int digits) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "";
 }
 
-std::string summary_csv(const std::vector<Sequence>& sequences,
-                        const std::vector<SequenceResult>& results) {
+// A million rows would be no page.
+constexpr size_t kMostRowsOfPage = 10'000;
+
+std::string summary_heading() {
   std::string text = "sequence,state,seconds,digest,reason";
   for (const BatchFigure& figure : kBatchFigures) text += fmt::format(",{}", figure.column);
-  text += "\n";
-  for (size_t i = 0; i < sequences.size(); ++i) {
-    const SequenceResult& result = results[i];
-    text += fmt::format("{},{},{},{},{}", csv_cell(sequences[i].name), state_name(result.state),
-                        result.seconds > 0 ? fmt::format("{:.1f}", result.seconds) : "",
-                        csv_cell(result.digest), csv_cell(result.reason));
-    for (const auto& figure : result.figures) text += fmt::format(",{}", number(figure, 6));
-    text += "\n";
-  }
-  return text;
+  return text + ",cpu_seconds_per_video_second\n";
 }
 
-std::string failures_txt(const std::vector<Sequence>& sequences,
-                         const std::vector<SequenceResult>& results) {
-  std::string text;
-  for (size_t i = 0; i < sequences.size(); ++i) {
-    if (results[i].state != SequenceState::kFailed) continue;
-    text += fmt::format("{}: {}\n", one_line(sequences[i].name), one_line(results[i].reason));
-  }
-  return text;
+std::optional<double> cost_of(const SequenceResult& result) {
+  return result.video_seconds > 0 ? std::optional(result.cpu_seconds / result.video_seconds)
+                                  : std::nullopt;
+}
+
+std::string summary_row(const Sequence& sequence, const SequenceResult& result) {
+  std::string text =
+      fmt::format("{},{},{},{},{}", csv_cell(sequence.name), state_name(result.state),
+                  result.seconds > 0 ? fmt::format("{:.1f}", result.seconds) : "",
+                  csv_cell(result.digest), csv_cell(result.reason));
+  for (const auto& figure : result.figures) text += fmt::format(",{}", number(figure, 6));
+  return text + fmt::format(",{}\n", number(cost_of(result), 2));
 }
 
 std::string headings_html() {
   std::string row = "<th>sequence</th><th>state</th>";
   for (const BatchFigure& figure : kBatchFigures)
     row += fmt::format("<th class=\"number\">{}</th>", figure.heading);
-  return row + "<th class=\"number\">time, s</th>";
+  return row +
+         "<th class=\"number\">time, s</th>"
+         "<th class=\"number\" title=\"CPU seconds for a second of video\">CPU s/s</th>";
 }
 
 // What to look at: the report, else the folder.
@@ -69,19 +70,21 @@ std::string row_html(const Sequence& sequence, const SequenceResult& result) {
   for (size_t i = 0; i < kBatchFigures.size(); ++i)
     row += fmt::format("<td class=\"number\">{}</td>",
                        number(result.figures[i], kBatchFigures[i].digits));
-  return row + fmt::format("<td class=\"number\">{}</td></tr>\n",
-                           result.seconds > 0 ? fmt::format("{:.1f}", result.seconds) : "");
+  return row + fmt::format("<td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
+                           result.seconds > 0 ? fmt::format("{:.1f}", result.seconds) : "",
+                           number(cost_of(result), 1));
 }
 
-std::string states_html(const std::vector<SequenceResult>& results) {
+std::string states_html(const BatchOutcome& counts) {
   std::string tiles;
-  for (const SequenceState state : {SequenceState::kComplete, SequenceState::kDegraded,
-                                    SequenceState::kFailed, SequenceState::kWaiting}) {
-    const auto count = std::count_if(results.begin(), results.end(),
-                                     [&](const auto& result) { return result.state == state; });
+  const auto add = [&](SequenceState state, int count) {
     tiles +=
         fmt::format("<li><b class=\"{0}\">{1}</b><span>{0}</span></li>", state_name(state), count);
-  }
+  };
+  add(SequenceState::kComplete, counts.complete);
+  add(SequenceState::kDegraded, counts.degraded);
+  add(SequenceState::kFailed, counts.failed);
+  add(SequenceState::kWaiting, counts.waiting);
   return tiles;
 }
 
@@ -97,20 +100,11 @@ std::string filled(std::string_view page,
   return out.append(page);
 }
 
-std::string overview_html(const std::vector<Sequence>& sequences,
-                          const std::vector<SequenceResult>& results) {
-  int complete = 0;
-  std::string rows;
-  for (size_t i = 0; i < sequences.size(); ++i) {
-    complete += results[i].state == SequenceState::kComplete;
-    rows += row_html(sequences[i], results[i]);
-  }
-  return filled(
-      batch_template(),
-      {{"<!--HEADLINE-->", fmt::format("{} of {} sequences complete", complete, sequences.size())},
-       {"<!--STATES-->", states_html(results)},
-       {"<!--HEADINGS-->", headings_html()},
-       {"<!--ROWS-->\n", rows}});
+std::string headline(const BatchOutcome& counts, size_t sequences) {
+  std::string text = fmt::format("{} of {} sequences complete", counts.complete, sequences);
+  if (sequences > kMostRowsOfPage)
+    text += fmt::format("; the first {} of summary.csv are here", kMostRowsOfPage);
+  return text;
 }
 
 // One writer at a time: whoever holds the folder may clear what one that was killed has left.
@@ -127,19 +121,43 @@ constexpr std::array<std::string_view, 3> kReports{"summary.csv", "failures.txt"
 
 Outputs batch_outputs(const BatchJob& job) {
   // Scenes are found below their folder: as the output folder it would hold them.
-  return {job.output, "batch", {kReports.begin(), kReports.end()}, {job.folder}, ""};
+  Outputs out{job.output, "batch", {kReports.begin(), kReports.end()}, {}, ""};
+  if (job.manifest.empty()) out.inputs.push_back(job.folder);
+  if (job.bids) out.files.emplace_back(kBidsDescription);
+  if (!job.manifest.empty() && job.manifest != "-") out.inputs.emplace_back(job.manifest);
+  return out;
 }
 
-void write_batch_reports(const std::vector<Sequence>& sequences, const Outputs& outputs) {
+BatchOutcome write_batch_reports(const BatchJob& job, const SequenceList& list) {
+  const Outputs outputs = batch_outputs(job);
   refuse_what_is_not_ours(outputs);
   const FolderLock claim = lock_of(outputs.folder);
   // Others may read the reports: they are replaced, never missing.
-  const ResultFolder folder(outputs, true, kReports);
-  std::vector<SequenceResult> results;
-  for (const Sequence& sequence : sequences) results.push_back(result_of(sequence));
-  folder.write("summary.csv", summary_csv(sequences, results));
-  folder.write("failures.txt", failures_txt(sequences, results));
-  folder.write("batch.html", overview_html(sequences, results));
+  const std::vector<std::string_view> kept(outputs.files.begin(), outputs.files.end());
+  const ResultFolder folder(outputs, true, kept);
+  AtomicFile summary(folder.file("summary.csv")), failures(folder.file("failures.txt"));
+  summary.write(summary_heading());
+  BatchOutcome counts;
+  std::string rows;
+  size_t shown = 0;
+  auto all = list.sequences(SequenceList::Share::kAll);
+  while (const auto sequence = all.next()) {
+    const SequenceResult result = result_of(*sequence);
+    add_result(*sequence, result, counts);
+    summary.write(summary_row(*sequence, result));
+    if (result.state == SequenceState::kFailed)
+      failures.write(fmt::format("{}: {}\n", one_line(sequence->name), one_line(result.reason)));
+    if (shown++ < kMostRowsOfPage) rows += row_html(*sequence, result);
+  }
+  summary.commit();
+  failures.commit();
+  folder.write("batch.html",
+               filled(batch_template(), {{"<!--HEADLINE-->", headline(counts, list.size())},
+                                         {"<!--STATES-->", states_html(counts)},
+                                         {"<!--HEADINGS-->", headings_html()},
+                                         {"<!--ROWS-->\n", rows}}));
+  if (job.bids) write_bids(job, list, folder);
+  return counts;
 }
 
 }  // namespace walktrack

@@ -31,13 +31,6 @@ bool is_scene(const fs::path& path) {
   return cameras && text.find("video:") != std::string::npos;  // what to render has cameras too
 }
 
-// "a/b/scene.yaml" is "a/b", other files keep their stem.
-std::string sequence_name(const fs::path& relative) {
-  const fs::path folder = relative.parent_path();
-  if (relative.stem() == "scene" && !folder.empty()) return folder.generic_string();
-  return (folder / relative.stem()).generic_string();
-}
-
 // Regular files that `wanted` takes, not inside `output`. Links to folders are not followed.
 template <typename Wanted>
 std::vector<fs::path> files_below(const fs::path& folder, const fs::path& output, Wanted wanted) {
@@ -67,6 +60,24 @@ std::string text_or(const nlohmann::json& json, const char* key, const std::stri
   return found != json.end() && found->is_string() ? found->get<std::string>() : otherwise;
 }
 
+double number_at(const nlohmann::json& json, const char* block, const char* key) {
+  const auto found = json.find(block);
+  if (found == json.end() || !found->is_object()) return 0;
+  const auto value = found->find(key);
+  return value != found->end() && value->is_number() ? value->get<double>() : 0;
+}
+
+// CPU time, and the video that it went into: of a track that was resumed, what came after that.
+void add_cost(const nlohmann::json& run, SequenceResult& out) {
+  const double rate = number_at(run, "numbers", "frame_rate"),
+               cpu = number_at(run, "timing", "cpu_seconds"),
+               frames = number_at(run, "numbers", "frames") -
+                        number_at(run, "timing", "resumed_at_frame");
+  if (rate <= 0 || cpu <= 0 || frames <= 0) return;
+  out.cpu_seconds = cpu;
+  out.video_seconds = frames / rate;
+}
+
 SequenceResult complete_result(const fs::path& file) {
   const auto json = nlohmann::json::parse(read_text_file(file, kMostRecordBytes), nullptr, false);
   SequenceResult result{.state = SequenceState::kComplete};
@@ -83,15 +94,19 @@ SequenceResult complete_result(const fs::path& file) {
     }
   }
   result.digest = text_or(json, "digest", "");
-  const auto timing = json.find("timing");
-  if (timing != json.end() && timing->is_object()) {
-    result.seconds = timing->value("seconds", 0.0);
-  }
+  result.seconds = number_at(json, "timing", "seconds");
+  add_cost(json, result);
   result.figures = figures_of(json, file.parent_path());
   return result;
 }
 
 }  // namespace
+
+std::string sequence_name(const fs::path& relative) {
+  const fs::path folder = relative.parent_path();
+  if (relative.stem() == "scene" && !folder.empty()) return folder.generic_string();
+  return (folder / relative.stem()).generic_string();
+}
 
 std::vector<Sequence> find_sequences(const fs::path& folder, const fs::path& output) {
   std::vector<Sequence> found;
@@ -102,8 +117,12 @@ std::vector<Sequence> find_sequences(const fs::path& folder, const fs::path& out
   return in_natural_order(std::move(found));
 }
 
+std::vector<fs::path> videos_below(const fs::path& folder, const fs::path& output) {
+  return files_below(folder, output, is_video_file);
+}
+
 std::vector<Sequence> find_videos(const fs::path& folder, const fs::path& output) {
-  const std::vector<fs::path> files = files_below(folder, output, is_video_file);
+  const std::vector<fs::path> files = videos_below(folder, output);
   std::map<std::string, int> stems;
   const auto stem = [&](const fs::path& file) {
     return file.lexically_relative(folder).replace_extension().generic_string();
@@ -117,21 +136,6 @@ std::vector<Sequence> find_videos(const fs::path& folder, const fs::path& output
     found.push_back({name, output / name / "scene.yaml", output / name, fs::absolute(file)});
   }
   return in_natural_order(std::move(found));
-}
-
-std::vector<Sequence> sequences_of(const BatchJob& job) {
-  return job.scene_template.empty() ? find_sequences(job.folder, job.output)
-                                    : find_videos(job.folder, job.output);
-}
-
-std::vector<Sequence> shard_of(const std::vector<Sequence>& sequences, int shard, int shards) {
-  std::vector<Sequence> own;
-  for (size_t i = 0; i < sequences.size(); ++i) {
-    if (i % static_cast<size_t>(shards) == static_cast<size_t>(shard - 1)) {
-      own.push_back(sequences[i]);
-    }
-  }
-  return own;
 }
 
 SequenceResult result_of(const Sequence& sequence) {

@@ -80,7 +80,8 @@ bool write_name(const fs::path& file, int flags) {
   const int descriptor =
       ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | flags, 0666);
   if (descriptor < 0) {
-    if (errno == EEXIST) return false;
+    // ENOENT: who held the folder has just removed it.
+    if (errno == EEXIST || errno == ENOENT) return false;
     fail(file, errno);
   }
   const std::string name = worker_name();
@@ -94,7 +95,7 @@ bool write_name(const fs::path& file, int flags) {
 bool create_exclusively(const fs::path& file) {
   const fs::path own =
       file.parent_path() / fmt::format("{}{}.{}.new", kProbe, worker_name(), ::gettid());
-  write_name(own, O_TRUNC);
+  if (!write_name(own, O_TRUNC)) return false;
   struct stat facts {};
   const bool linked = ::link(own.c_str(), file.c_str()) == 0;
   const int error = linked ? 0 : errno;
@@ -126,7 +127,7 @@ std::optional<FolderLock> FolderLock::try_take(const fs::path& folder, double st
   const fs::path file = folder / kFile;
   if (!create_exclusively(file)) {
     const auto judged = identity(file);
-    if (!holder_is_dead(file) && age_seconds(file) <= stale_seconds) return std::nullopt;
+    if (!is_dead(folder, stale_seconds)) return std::nullopt;
     // Of several workers that find it stale, the rename succeeds for one.
     const fs::path stale = folder / fmt::format("{}{}", kStale, worker_name());
     std::error_code lost;
@@ -142,9 +143,20 @@ std::optional<FolderLock> FolderLock::try_take(const fs::path& folder, double st
   return FolderLock(file);
 }
 
+bool FolderLock::is_dead(const fs::path& folder, double stale_seconds) {
+  return holder_is_dead(folder / kFile) || age_seconds(folder / kFile) > stale_seconds;
+}
+
 FolderLock::~FolderLock() {
   std::error_code ignored;
-  if (!file_.empty()) fs::remove(file_, ignored);
+  if (!file_.empty() && is_held()) fs::remove(file_, ignored);
+}
+
+bool FolderLock::is_held() const {
+  std::ifstream stream(file_);
+  std::string holder;
+  std::getline(stream, holder);
+  return holder == worker_name();
 }
 
 FolderLock::FolderLock(FolderLock&& other) noexcept : file_(std::exchange(other.file_, {})) {}

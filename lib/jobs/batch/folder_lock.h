@@ -25,6 +25,12 @@ class FolderLock {
 
   // To be called more often than every kStaleSeconds.
   void renew() const;
+  // Whether the claim is still this worker's; not after others thought it dead.
+  bool is_held() const;
+  bool given_away() const { return file_.empty(); }
+
+  // Whether the claim on the folder belongs to a dead worker.
+  static bool is_dead(const std::filesystem::path& folder, double stale_seconds = kStaleSeconds);
 
  private:
   explicit FolderLock(std::filesystem::path file) : file_(std::move(file)) {}

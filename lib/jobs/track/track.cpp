@@ -132,7 +132,7 @@ std::string size_note(const Stature& stature) {
 
 RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& run,
                     const TrackedFrames& frames, const TrackOutcome& outcome,
-                    const Quality& quality, const WrittenTables& tables, double seconds) {
+                    const Quality& quality, const WrittenTables& tables, const Elapsed& spent) {
   const Counts counts = count(frames);
   RunRecord out;
   out.command = "track";
@@ -148,6 +148,8 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
   if (run.stature()) out.notes.push_back(size_note(*run.stature()));
   for (const std::string& note : run.notes()) out.notes.push_back(note);
   out.numbers = {{"frames", double(frames.records.size())},
+                 {"frame_rate", frames.frame_rate},
+                 {"video_seconds", double(frames.records.size()) / frames.frame_rate},
                  {"tracked_frames", double(counts.tracked)},
                  {"first_tracked_frame", double(counts.first)},
                  {"lost_frames", double(counts.lost)},
@@ -199,7 +201,8 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
   out.resumed_at_frame = run.first_frame();
   out.stage_seconds = run.watch().stages();
   out.stage_cpu_seconds = run.watch().cpu_stages();
-  out.seconds = seconds;
+  out.seconds = spent.seconds;
+  out.cpu_seconds = spent.cpu;
   out.frames_per_second = outcome.frames_per_second;
   out.stride_frames_per_second = outcome.stride_frames_per_second;
   return out;
@@ -338,7 +341,7 @@ std::string_view status_word(TrackStatus status) {
 }
 
 TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
-  const auto start = Clock::now();
+  const TimePoint start;
   TrackJob job = given;
   const std::string no_network = missing_network_note(job.scene, job.config.values);
   job.config.values.observation = decided_terms(job.scene, job.config.values);
@@ -401,10 +404,10 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   if (job.overlay && outcome.frames > 0)
     clips = write_overlays(job, frames, folder, run.threads(), control);
   run.watch().add("output", elapsed_since(writing));
-  const double seconds = seconds_since(start);
-  outcome.frames_per_second = (outcome.frames - run.first_frame()) / seconds;
+  const Elapsed spent = elapsed_since(start);
+  outcome.frames_per_second = (outcome.frames - run.first_frame()) / spent.seconds;
   const std::string record =
-      run_json(record_of(job, inputs, run, frames, outcome, quality, tables, seconds));
+      run_json(record_of(job, inputs, run, frames, outcome, quality, tables, spent));
   outcome.open_first = write_report(
       folder, {job.scene.file, analysed, uncertainty, job.scene.cameras, record, clips});
   const bool partial =

@@ -1,0 +1,74 @@
+// A list of sequences in a file: what `batch --manifest` does in the place of those below a folder.
+//
+// One path a line, from the manifest's folder (of standard input, from the working directory) and,
+// where wanted, after a tab the name of its result folder below the output. Without it the name is
+// the path's, as find_sequences() makes it: "a/b/scene.yaml" is "a/b", "/data/a/one.yaml" is
+// "data/a/one", from the manifest's folder where it lies below. Empty lines and those that begin
+// with '#' are passed over. Whether a file is there is the matter of its own sequence.
+//
+// A manifest may have millions of lines: it is read anew each time that it is gone through, and
+// eight bytes a line are held while it is looked at for the first time.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace walktrack {
+
+struct ManifestRow {
+  std::filesystem::path file;  // absolute, lexically normal
+  std::string name;            // "/" between its parts
+};
+
+class Manifest {
+ public:
+  // `path`: "-" is standard input, which is copied to a file without a name, as pipes are.
+  // `videos`: rows are videos, whose names lose their ending. InputError "file:line: ..." for a row
+  // that has more than two columns, whose name is no path below the output, or is another row's.
+  Manifest(const std::string& path, bool videos);
+  ~Manifest();
+  Manifest(Manifest&& other) noexcept;
+  Manifest& operator=(Manifest&&) = delete;
+
+  size_t size() const { return size_; }  // rows
+
+  class Reader {
+   public:
+    explicit Reader(const Manifest& manifest) : manifest_(&manifest) {}
+    // To the next row; false at the end.
+    bool advance();
+    // That row; InputError as above.
+    ManifestRow row() const { return manifest_->row_of(line_, number_); }
+    int line_number() const { return number_; }
+
+   private:
+    bool next_line();
+    bool fill();
+
+    const Manifest* manifest_;
+    std::string block_;
+    size_t at_ = 0;          // in the block
+    uint64_t offset_ = 0;    // of what comes after the block, in the file
+    int number_ = 0;         // of the line, from 1
+    std::string_view line_;  // in the block
+  };
+
+ private:
+  ManifestRow row_of(std::string_view line, int number) const;
+  std::string name_of(std::string_view path, int number) const;
+  [[noreturn]] void fail(int number, const std::string& found, const std::string& allowed) const;
+  void look_through();
+  void refuse_doubles(const std::vector<uint64_t>& seen) const;
+
+  std::string file_;              // what messages call it
+  std::filesystem::path folder_;  // that paths are relative to
+  bool videos_;
+  int fd_ = -1;
+  size_t size_ = 0;
+};
+
+}  // namespace walktrack
