@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-DOCUMENTS = ["README.md", "apps/guide/README.md", "apps/guide/speed.md", "apps/guide/quality.md", "apps/guide/programs.md", "apps/guide/formats.md", "scripts/cluster/README.md", "lib/synth/README.md"]
+DOCUMENTS = ["README.md", "apps/guide/README.md", "apps/guide/speed.md", "apps/guide/quality.md", "apps/guide/programs.md", "apps/guide/formats.md", "apps/guide/features.md", "scripts/cluster/README.md", "lib/synth/README.md"]
 # These build the program and run the tests, this one included.
 RUN_BY_OTHERS = ("scripts/demo.sh", "scripts/test.sh")
 SLOW_EXAMPLES = {"batch", "evaluate", "prior", "render", "selftest", "sweep", "track"}

@@ -10,6 +10,7 @@ namespace walktrack {
 namespace {
 
 constexpr double kPenetrates = 0.005;  // m; less is the noise of any measurement
+constexpr size_t kFewestTimes = 3;     // of steps, that have a usual one
 constexpr double kRegular = 0.01;      // relative; rows further from equal steps are a gap
 
 // Largest distance on the ground between two places of the foot in the flat part; < 0 if the foot
@@ -108,6 +109,22 @@ void add_steps(const Motion& motion, const Gait& gait, Plausibility& out) {
   out.steps_off_way = way > 0 ? std::abs(steps / way - 1) : 1;
 }
 
+// Legs that change places while somebody walks on make a step that takes no time, or one foot
+// strike twice running.
+double quickest_step(const Gait& gait) {
+  std::vector<double> times;
+  const GaitEvent* last = nullptr;
+  for (const GaitEvent& event : gait.events) {
+    if (event.kind != GaitEventKind::kFootStrike) continue;
+    if (last) times.push_back((event.time - last->time) / (event.side == last->side ? 2 : 1));
+    last = &event;
+  }
+  if (times.size() < kFewestTimes) return 1;
+  std::sort(times.begin(), times.end());
+  const double median = times[times.size() / 2];
+  return median > 0 ? times[0] / median : 1;
+}
+
 double fastest_half_second(const Motion& motion) {
   constexpr double kSpan = 0.5;  // s
   double fastest = 0;
@@ -131,6 +148,7 @@ Plausibility plausibility(const Motion& motion, const Gait& gait) {
   add_penetration(motion, out);
   out.jitter = mean_jerk(motion);
   add_steps(motion, gait, out);
+  out.quickest_step = quickest_step(gait);
   out.fastest = fastest_half_second(motion);
   return out;
 }

@@ -20,6 +20,9 @@ struct Plausibility {
   double jitter = 0;
   // Along the way, m; 0 without steps.
   double longest_step = 0, shortest_step = 0;
+  // The shortest time from one strike to the next, as a share of the median one; from one to the
+  // next of the same foot counts as two. 1 with less than three times.
+  double quickest_step = 1;
   // |sum of the steps' lengths / way of the pelvis between the same strikes - 1|: 0 where the feet
   // go as far as the body, and without steps.
   double steps_off_way = 0;

@@ -104,6 +104,18 @@ TEST(ConfigPreset, DoesNotHideAFile) {
   EXPECT_EQ(config.origin.size(), 1u);
 }
 
+// A folder of results may be called after the preset.
+TEST(ConfigPreset, IsNotHiddenByAFolder) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "fast");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  ConfigWithOrigin config;
+  apply_config_file(config, "fast");
+  fs::current_path(before);
+  EXPECT_FALSE(config.origin.empty());
+}
+
 TEST(Config, YamlRoundTripsEveryParameter) {
   const TemporaryFolder folder;
   ConfigWithOrigin config;

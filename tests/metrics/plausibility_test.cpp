@@ -53,6 +53,27 @@ TEST(Plausibility, StepsGoAsFarAsTheBody) {
   EXPECT_NEAR(p.fastest, walk.speed, 1e-6);
 }
 
+// From the middle of a walk on, the legs have each other's names.
+TEST(Plausibility, FindsLegsThatChangePlaces) {
+  const TestWalk walk;
+  const Motion right = walk_motion(walk);
+  EXPECT_NEAR(of(right).quickest_step, 1, 0.05);
+  const auto swapped_from = [&](double time) {
+    return changed(right, [&](JointPositions& joints, size_t i) {
+      if (right.time[i] < time) return;
+      std::swap(joints[Joint::kLeftHip], joints[Joint::kRightHip]);
+      std::swap(joints[Joint::kLeftKnee], joints[Joint::kRightKnee]);
+      std::swap(joints[Joint::kLeftAnkle], joints[Joint::kRightAnkle]);
+      std::swap(joints[Joint::kLeftToe], joints[Joint::kRightToe]);
+    });
+  };
+  for (const double share : {0.2, 0.4, 0.6, 0.8}) {
+    const double middle = right.time[right.time.size() / 2];
+    EXPECT_LT(of(swapped_from(middle + share * walk.step_time)).quickest_step, 0.6) << share;
+  }
+  EXPECT_EQ(of({}).quickest_step, 1);
+}
+
 TEST(Plausibility, FindsABodyThatLeavesItsFeetBehind) {
   const TestWalk walk;
   const Motion hasty = changed(walk_motion(walk), [&](JointPositions& joints, size_t i) {

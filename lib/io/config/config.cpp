@@ -97,14 +97,16 @@ void apply_map(ConfigWithOrigin& config, const YamlValue& map) {
 
 // A file, or without one the preset of that name. A bare word that is neither gets both named.
 YamlValue file_or_preset(const std::string& path) {
-  if (std::filesystem::exists(path)) return YamlValue::from_file(path);
+  // A folder may have a preset's name: that of results, say.
+  const bool there = std::filesystem::exists(path);
+  if (there && !std::filesystem::is_directory(path)) return YamlValue::from_file(path);
   std::vector<std::string_view> names;
   for (const Preset& preset : presets()) {
     if (preset.name == path)
       return YamlValue::from_text(std::string(preset.yaml), "preset " + path);
     names.push_back(preset.name);
   }
-  if (path.find_first_of("/.") != std::string::npos) return YamlValue::from_file(path);
+  if (there || path.find_first_of("/.") != std::string::npos) return YamlValue::from_file(path);
   throw UsageError(describe({path, 0, ""}, "no such file",
                             fmt::format("a file, or a preset: {}", fmt::join(names, ", "))));
 }

@@ -35,6 +35,7 @@ struct QualityConfig {
   double steps_off_way = 0.2;  // of the pelvis' way, by which the steps miss it
   double longest_step = 1.2;   // leg lengths
   double shortest_step = 0;    // m along the way; below 0 a foot ends behind the other
+  double quickest_step = 0.5;  // of the usual time of a step
   double fastest = 2.5;        // m/s over half a second
   double foot_slide = 0.08;    // m, mean over stances, before feet are planted
   double penetration = 0.1;    // m

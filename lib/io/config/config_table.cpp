@@ -210,6 +210,8 @@ void add_track(ParameterTable& table) {
   g.number("longest_step", &G::longest_step, 0, 1000, "longest step, leg lengths");
   g.number("shortest_step", &G::shortest_step, -1000, 1000,
            "shortest step along the walk, m; below 0 a foot ends behind the other one");
+  g.number("quickest_step", &G::quickest_step, 0, 1,
+           "shortest time of a step, as a share of the usual one");
   g.number("fastest", &G::fastest, 0, 1000, "highest speed over half a second, m/s");
   g.number("foot_slide", &G::foot_slide, 0, 10,
            "largest slide of a stance foot before it is held in place, mean over stances, m");

@@ -63,6 +63,11 @@ constexpr QualityWords kWords[] = {
      "Less than nothing is a step that ends behind the other foot.",
      "Left and right are likely to be swapped there, or the subject turns or steps back: look at "
      "that step in the overlay video."},
+    {"quickest_step_percent", "Quickest step, of the usual time", "%", 0,
+     "People's steps take about as long as each other. One that takes no time, or a foot that "
+     "strikes twice running, is left and right being swapped in the middle of the walk.",
+     "Look at that step in the overlay video. A second camera from another side tells legs apart; "
+     "so do more particles (filter.particles) and other seeds."},
     {"fastest_m_s", "Fastest half second", "m/s", 2,
      "Speed of the pelvis over the ground; nobody walks faster than 2.5 m/s.",
      "The figure jumped to another place: look at the speed over time. Is the frame rate right?"},

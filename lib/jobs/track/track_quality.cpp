@@ -79,6 +79,7 @@ Quality quality_of_motion(const Motion& motion, double rate, double leg) {
           quality_measure("steps_off_way_percent", 100 * p.steps_off_way),
           quality_measure("longest_step_leg_lengths", p.longest_step / leg),
           quality_measure("shortest_step_m", p.shortest_step),
+          quality_measure("quickest_step_percent", 100 * p.quickest_step),
           quality_measure("fastest_m_s", p.fastest),
           quality_measure("foot_slide_mm", 1000 * p.mean_foot_slide),
           quality_measure("worst_foot_slide_mm", 1000 * p.worst_foot_slide),
@@ -108,6 +109,8 @@ Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
   for (QualityMeasure& m : quality_of_motion(motion_of(frames), frames.frame_rate, leg)) {
     if (const auto limit = most.find(m.name); limit != most.end()) m.limit = limit->second;
     if (m.name == "shortest_step_m") m = at_least(m.name, m.value, limits.shortest_step);
+    if (m.name == "quickest_step_percent")
+      m = at_least(m.name, m.value, 100 * limits.quickest_step);
     out.push_back(std::move(m));
   }
   for (QualityMeasure& m : quality_before(moving, limits)) out.push_back(std::move(m));
