@@ -1,6 +1,7 @@
 // Headings sort their column; a second time the other way round. Empty cells come last.
-const body = document.querySelector('#sequences tbody');
-document.querySelectorAll('#sequences thead th').forEach((heading, column) => {
+document.querySelectorAll('thead th').forEach((heading) => {
+  const body = heading.closest('table').tBodies[0];
+  const column = heading.cellIndex;
   const button = document.createElement('button');
   button.type = 'button';
   button.append(...heading.childNodes);

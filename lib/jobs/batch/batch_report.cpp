@@ -11,6 +11,7 @@
 #include "jobs/batch/bids_report.h"
 #include "jobs/batch/folder_lock.h"
 #include "jobs/batch/sequence_list.h"
+#include "jobs/batch/subject_table.h"
 
 namespace walktrack {
 
@@ -139,11 +140,13 @@ BatchOutcome write_batch_reports(const BatchJob& job, const SequenceList& list) 
   summary.write(summary_heading());
   BatchOutcome counts;
   std::string rows;
+  SubjectSums subjects;
   size_t shown = 0;
   auto all = list.sequences(SequenceList::Share::kAll);
   while (const auto sequence = all.next()) {
     const SequenceResult result = result_of(*sequence);
     add_result(*sequence, result, counts);
+    add_to_subject(sequence->name, result, subjects);
     summary.write(summary_row(*sequence, result));
     if (result.state == SequenceState::kFailed)
       failures.write(fmt::format("{}: {}\n", one_line(sequence->name), one_line(result.reason)));
@@ -154,6 +157,7 @@ BatchOutcome write_batch_reports(const BatchJob& job, const SequenceList& list) 
   folder.write("batch.html",
                filled(batch_template(), {{"<!--HEADLINE-->", headline(counts, list.size())},
                                          {"<!--STATES-->", states_html(counts)},
+                                         {"<!--SUBJECTS-->", subjects_html(subjects)},
                                          {"<!--HEADINGS-->", headings_html()},
                                          {"<!--ROWS-->\n", rows}}));
   if (job.bids) write_bids(job, list, folder);

@@ -1,0 +1,31 @@
+// What the sequences of each subject come to, for the batch's page.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+
+#include "jobs/batch/batch.h"
+
+namespace walktrack {
+
+// Of a sequence's name: its label of BIDS ("sub-01" of "results/sub-01_task-walk_run-1"), else its
+// first folder ("anna" of "anna/monday/trial1"); "" for a name without either.
+std::string subject_of(const std::string& name);
+
+struct SubjectSum {
+  int sequences = 0, complete = 0;
+  // Of the complete sequences that have the figure.
+  std::array<double, kBatchFigures.size()> sums{};
+  std::array<int, kBatchFigures.size()> counts{};
+};
+using SubjectSums = std::map<std::string, SubjectSum>;
+
+// One more sequence. Beyond the first 10,000 subjects no others are added.
+void add_to_subject(const std::string& name, const SequenceResult& result, SubjectSums& sums);
+
+// A table with a row for each, means over its complete sequences; "" where no subject has two
+// sequences.
+std::string subjects_html(const SubjectSums& sums);
+
+}  // namespace walktrack
