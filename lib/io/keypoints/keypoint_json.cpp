@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -89,8 +90,9 @@ std::map<int, fs::path> openpose_files(const fs::path& folder) {
     if (!frame) continue;
     const auto [place, is_new] = out.emplace(*frame, entry.path());
     if (is_new) continue;
-    const auto [first, second] =
-        std::minmax(place->second.filename().string(), entry.path().filename().string());
+    std::string first = place->second.filename().string(),
+                second = entry.path().filename().string();
+    if (second < first) std::swap(first, second);
     throw InputError(describe({folder.string(), 0, ""},
                               fmt::format("frame {} twice, in {} and {}", *frame, first, second),
                               "the files of one video"));
