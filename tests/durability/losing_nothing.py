@@ -96,6 +96,7 @@ class Trials:
 
     def reference(self, name):
         out = str(self.folder / f"sound_{name}")
+        shutil.rmtree(out, ignore_errors=True)  # of an earlier kind of trial
         start = time.monotonic()
         run = self.run(self.command(name, out))
         if run.returncode != 0:
