@@ -24,11 +24,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::string corpus(const std::string& name) {
-  return read_text_file(
-      std::string(WALKTRACK_SOURCE_DIR) + "/tests/fuzz/corpus/calibration_" + name, 1u << 20);
-}
-
 Eigen::Matrix3d turned() {
   Eigen::Matrix3d out;
   out << 0, 1, 0, 0, 0, -1, -1, 0, 0;
@@ -38,7 +33,7 @@ Eigen::Matrix3d turned() {
 TEST(OpencapCalibration, IsReadInEveryProtocol) {
   for (const char* name : {"protocol2", "protocol4", "protocol5", "columns_first"}) {
     const Camera camera =
-        camera_from_opencap(corpus("opencap/" + std::string(name) + ".pickle"), name);
+        camera_from_opencap(calibration_corpus("opencap/" + std::string(name) + ".pickle"), name);
     EXPECT_EQ(camera.width_px, 720) << name;
     EXPECT_EQ(camera.height_px, 1280) << name;
     EXPECT_EQ(camera.focal_px, Vector2d(856.5, 857.5)) << name;
@@ -51,14 +46,15 @@ TEST(OpencapCalibration, IsReadInEveryProtocol) {
 }
 
 TEST(OpencapCalibration, NeverCallsAnything) {
-  const std::string message =
-      message_of([] { camera_from_opencap(corpus("opencap/calls_a_program.pickle"), "c.pickle"); });
+  const std::string message = message_of([] {
+    camera_from_opencap(calibration_corpus("opencap/calls_a_program.pickle"), "c.pickle");
+  });
   EXPECT_THAT(message, AllOf(HasSubstr("c.pickle"), HasSubstr("'posix.system'"),
                              HasSubstr("allowed: a dictionary of numpy arrays")));
 }
 
 TEST(OpencapCalibration, NamesWhatIsWrong) {
-  const std::string sound = corpus("opencap/protocol4.pickle");
+  const std::string sound = calibration_corpus("opencap/protocol4.pickle");
   const auto message = [&](const std::string& from, const std::string& to) {
     return message_of([&] { camera_from_opencap(replaced(sound, from, to), "c.pickle"); });
   };
@@ -72,7 +68,7 @@ TEST(OpencapCalibration, NamesWhatIsWrong) {
 }
 
 TEST(OpencapCalibration, RefusesEveryPieceOfAFile) {
-  const std::string sound = corpus("opencap/protocol4.pickle");
+  const std::string sound = calibration_corpus("opencap/protocol4.pickle");
   for (size_t length = 0; length < sound.size(); ++length)
     EXPECT_THROW(camera_from_opencap(sound.substr(0, length), "c.pickle"), InputError) << length;
 }
@@ -98,7 +94,7 @@ TEST(Pickle, DoesNotMultiplyWhatAFileHolds) {
 }
 
 TEST(QualisysCalibration, IsInPixelsMetresAndOurAxes) {
-  const std::string text = corpus("qualisys/two.xml");
+  const std::string text = calibration_corpus("qualisys/two.xml");
   EXPECT_THAT(qualisys_names(text, "c"), ElementsAre("21001", "21002"));
   const Camera camera = camera_from_qualisys(text, "c", "21001");
   EXPECT_EQ(camera.width_px, 1920);
@@ -115,7 +111,7 @@ TEST(QualisysCalibration, IsInPixelsMetresAndOurAxes) {
 }
 
 TEST(QualisysCalibration, TakesTheVideosWindow) {
-  const Camera camera = camera_from_qualisys(corpus("qualisys/two.xml"), "c", "21002");
+  const Camera camera = camera_from_qualisys(calibration_corpus("qualisys/two.xml"), "c", "21002");
   EXPECT_EQ(camera.width_px, 1720);
   EXPECT_EQ(camera.height_px, 980);
   EXPECT_EQ(camera.centre_px, Vector2d(860, 490));
@@ -123,7 +119,7 @@ TEST(QualisysCalibration, TakesTheVideosWindow) {
 }
 
 TEST(QualisysCalibration, NamesWhatIsWrong) {
-  const std::string sound = corpus("qualisys/two.xml");
+  const std::string sound = calibration_corpus("qualisys/two.xml");
   const auto message = [&](const std::string& from, const std::string& to) {
     return message_of(
         [&] { camera_from_qualisys(replaced(sound, from, to), "c.qca.txt", "21001"); });
@@ -172,7 +168,7 @@ class EasymocapCalibration : public testing::Test {
 };
 
 TEST_F(EasymocapCalibration, IsReadFromItsTwoFiles) {
-  write(corpus("easymocap/pair.yml"));
+  write(calibration_corpus("easymocap/pair.yml"));
   EXPECT_THAT(calibration_names(file_), ElementsAre("01", "02"));
   const Camera first = read_calibration(file_, "01");
   EXPECT_EQ(first.width_px, 1920);
@@ -188,7 +184,7 @@ TEST_F(EasymocapCalibration, IsReadFromItsTwoFiles) {
 }
 
 TEST_F(EasymocapCalibration, NamesWhatIsWrong) {
-  const std::string sound = corpus("easymocap/pair.yml");
+  const std::string sound = calibration_corpus("easymocap/pair.yml");
   const auto message = [&](const std::string& name) {
     return message_of([&] { read_calibration(file_, name); });
   };
@@ -204,8 +200,8 @@ TEST_F(EasymocapCalibration, NamesWhatIsWrong) {
 
 TEST(ImportedCalibration, IsTakenByAScene) {
   const TemporaryFolder folder;
-  folder.write("rig.qca.txt", corpus("qualisys/two.xml"));
-  folder.write("phone.pickle", corpus("opencap/protocol4.pickle"));
+  folder.write("rig.qca.txt", calibration_corpus("qualisys/two.xml"));
+  folder.write("phone.pickle", calibration_corpus("opencap/protocol4.pickle"));
   folder.write("video.mp4", "");
   const Scene scene =
       read_scene(folder.write("scene.yaml",

@@ -22,13 +22,8 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::string sample(const std::string& name) {
-  return read_text_file(
-      std::string(WALKTRACK_SOURCE_DIR) + "/tests/fuzz/corpus/calibration_" + name, 1u << 20);
-}
-
 TEST(ViconCalibration, NamesVideoCamerasThatAreCalibrated) {
-  const std::string text = sample("vicon/rig.xcp");
+  const std::string text = calibration_corpus("vicon/rig.xcp");
   EXPECT_THAT(vicon_names(text, "c"), ElementsAre("2111001"));
   std::string marker_cameras = replaced(text, "DISPLAY_TYPE=\"Vue\"", "DISPLAY_TYPE=\"T10\"");
   marker_cameras = replaced(marker_cameras, "TYPE=\"BonitaVideo\"", "TYPE=\"DxCore\"");
@@ -38,7 +33,7 @@ TEST(ViconCalibration, NamesVideoCamerasThatAreCalibrated) {
 }
 
 TEST(ViconCalibration, IsInMetresAndOurAxes) {
-  const Camera camera = camera_from_vicon(sample("vicon/rig.xcp"), "c", "2111001");
+  const Camera camera = camera_from_vicon(calibration_corpus("vicon/rig.xcp"), "c", "2111001");
   EXPECT_EQ(camera.width_px, 1920);
   EXPECT_EQ(camera.height_px, 1080);
   EXPECT_EQ(camera.focal_px, Vector2d(1650.5, 1650.5));
@@ -50,7 +45,7 @@ TEST(ViconCalibration, IsInMetresAndOurAxes) {
   EXPECT_LT(project(camera, Vector3d(0.5, 0, 2.0))->y(), 400);
   EXPECT_GT(project(camera, Vector3d(1.0, 0, 1.5))->x(), 1100);
   // A marker camera looks along x.
-  const Camera marker = camera_from_vicon(sample("vicon/rig.xcp"), "c", "2108001");
+  const Camera marker = camera_from_vicon(calibration_corpus("vicon/rig.xcp"), "c", "2108001");
   EXPECT_TRUE(camera_centre(marker).isApprox(Vector3d(-3, 0, 2.5), 1e-12));
   EXPECT_LT((*project(marker, Vector3d(2, 0, 2.5)) - Vector2d(1170, 860)).norm(), 0.5);
   EXPECT_GT(project(marker, Vector3d(2, -1, 2.5))->x(), 1400);
@@ -59,7 +54,7 @@ TEST(ViconCalibration, IsInMetresAndOurAxes) {
 // Vicon puts pixels right; our lens bends rays. Both say the same of every part of the picture.
 TEST(ViconCalibration, LensesAreTurnedRound) {
   for (const char* name : {"2111001", "2108001"}) {
-    const Camera camera = camera_from_vicon(sample("vicon/rig.xcp"), "c", name);
+    const Camera camera = camera_from_vicon(calibration_corpus("vicon/rig.xcp"), "c", name);
     const bool three = std::string(name) == "2111001";
     const Vector2d centre = three ? Vector2d(962, 538) : camera.centre_px;
     const double k1 = three ? 6e-8 : 2e-8, k2 = three ? 2e-15 : 1e-15;
@@ -81,7 +76,7 @@ TEST(ViconCalibration, LensesAreTurnedRound) {
 }
 
 TEST(ViconCalibration, NamesWhatIsWrong) {
-  const std::string sound = sample("vicon/rig.xcp");
+  const std::string sound = calibration_corpus("vicon/rig.xcp");
   const auto message = [&](const std::string& from, const std::string& to) {
     return message_of([&] { camera_from_vicon(replaced(sound, from, to), "c.xcp", "2111001"); });
   };
@@ -113,7 +108,7 @@ TEST(ViconCalibration, NamesWhatIsWrong) {
 }
 
 TEST(HumanevaCalibration, IsReadWithAStatedSize) {
-  const std::string text = sample("humaneva/c1.cal");
+  const std::string text = calibration_corpus("humaneva/c1.cal");
   const Camera camera = camera_from_humaneva(text, "c1.cal", ImageSize{640, 480});
   EXPECT_EQ(camera.width_px, 640);
   EXPECT_EQ(camera.focal_px, Vector2d(765.11614, 764.304443));
@@ -128,7 +123,7 @@ TEST(HumanevaCalibration, IsReadWithAStatedSize) {
 }
 
 TEST(HumanevaCalibration, NamesWhatIsWrong) {
-  const std::string sound = sample("humaneva/c1.cal");
+  const std::string sound = calibration_corpus("humaneva/c1.cal");
   const auto message = [&](const std::string& from, const std::string& to) {
     return message_of([&] {
       camera_from_humaneva(replaced(sound, from, to), "c1.cal", ImageSize{640, 480});
@@ -145,8 +140,8 @@ TEST(HumanevaCalibration, NamesWhatIsWrong) {
 
 TEST(LaboratoryCalibration, IsTakenByASceneAsItsEndingSays) {
   const TemporaryFolder folder;
-  folder.write("rig.xcp", sample("vicon/rig.xcp"));
-  folder.write("c1.CAL", sample("humaneva/c1.cal"));
+  folder.write("rig.xcp", calibration_corpus("vicon/rig.xcp"));
+  folder.write("c1.CAL", calibration_corpus("humaneva/c1.cal"));
   folder.write("video.mp4", "");
   const Scene scene = read_scene(folder.write(
       "scene.yaml", "cameras:\n  - {name: '2111001', video: video.mp4, calibration: rig.xcp}\n"));

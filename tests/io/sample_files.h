@@ -28,6 +28,11 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text.replace(at, from.size(), to);
 }
 
+// A calibration of another tool, "qualisys/two.xml": what the fuzzers begin with.
+inline std::string calibration_corpus(const std::string& name) {
+  return read_file(std::string(WALKTRACK_SOURCE_DIR) + "/tests/fuzz/corpus/calibration_" + name);
+}
+
 inline std::string shared_data(const std::string& path) {
   return std::string(WALKTRACK_SOURCE_DIR) + "/../shared/data/" + path;
 }
