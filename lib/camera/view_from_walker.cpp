@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
+#include "core/dense.h"
 #include "core/errors.h"
 
 namespace walktrack {
@@ -15,25 +17,37 @@ namespace walktrack {
 namespace {
 
 using Eigen::Vector3d;
+using Eigen::VectorXd;
 
-// height (m), tilt, roll (rad)
-using Place = Vector3d;
+// height (m), tilt, roll (rad), logarithms of the focal length's and the stature's shares of what
+// was assumed
+enum Unknown : Eigen::Index { kHeight, kTilt, kRoll, kLogFocal, kLogStature, kUnknowns };
+using Place = Eigen::Matrix<double, kUnknowns, 1>;
 
-Camera camera_at(const Place& place, double focal_px, const ViewAssumptions& given) {
+// Of what cannot be seen, a residual that no place wants, standard deviations.
+constexpr double kImpossible = 1e9;
+// What is certain is as good as this, share.
+constexpr double kCertain = 1e-6;
+
+double focal_of(const Place& place, const ViewAssumptions& given) {
+  return given.focal_px * std::exp(place[kLogFocal]);
+}
+
+Camera camera_at(const Place& place, const ViewAssumptions& given) {
   Camera camera;
   camera.width_px = given.width_px;
   camera.height_px = given.height_px;
-  camera.focal_px = {focal_px, focal_px};
+  camera.focal_px.setConstant(focal_of(place, given));
   camera.centre_px = {0.5 * (given.width_px - 1), 0.5 * (given.height_px - 1)};
-  const double c = std::cos(place[1]), s = std::sin(place[1]);
+  const double c = std::cos(place[kTilt]), s = std::sin(place[kTilt]);
   Eigen::Matrix3d level;
   // clang-format off
   level << 1,  0,  0,
            0, -s, -c,
            0,  c, -s;
   // clang-format on
-  camera.rotation = Eigen::AngleAxisd(place[2], Vector3d::UnitZ()).toRotationMatrix() * level;
-  camera.translation = -camera.rotation * Vector3d(0, 0, place[0]);
+  camera.rotation = Eigen::AngleAxisd(place[kRoll], Vector3d::UnitZ()).toRotationMatrix() * level;
+  camera.translation = -camera.rotation * Vector3d(0, 0, place[kHeight]);
   return camera;
 }
 
@@ -47,96 +61,81 @@ std::optional<double> head_row(const Camera& camera, const SeenStature& seen, do
 
 double size_px(const SeenStature& seen) { return seen.bottom_px - seen.top_px; }
 
-// Misses of the rows and of what was assumed, in standard deviations.
-struct Misses {
-  Eigen::VectorXd of;
-  bool possible = true;
-};
-
-Misses misses(const Place& place, std::span<const SeenStature> positions, double focal_px,
-              double stature, const ViewAssumptions& given) {
-  const auto n = static_cast<Eigen::Index>(positions.size());
-  Misses out{Eigen::VectorXd(n + 2)};
-  const Camera camera = camera_at(place, focal_px, given);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const SeenStature& seen = positions[static_cast<size_t>(i)];
-    const auto row = head_row(camera, seen, stature);
-    if (!row || place[0] <= 0) return {{}, false};
-    out.of[i] = (seen.top_px - *row) / (given.row_sd * size_px(seen));
-  }
-  out.of[n] = (place[1] - given.tilt) / given.tilt_sd;
-  out.of[n + 1] = place[2] / given.roll_sd;
-  return out;
+// How much longer the floor's length is than it should be, m; nothing above the horizon.
+std::optional<double> excess(const Camera& camera, const FloorLength& length) {
+  const auto from = ground_point(camera, length.from_px), to = ground_point(camera, length.to_px);
+  if (!from || !to) return std::nullopt;
+  return (*to - *from).norm() - length.metres;
 }
+
+// Misses of rows and lengths and of what was assumed, in standard deviations.
+struct Misses {
+  std::span<const SeenStature> positions;
+  const ViewAssumptions& given;
+
+  VectorXd at(const Place& place) const {
+    const auto rows = static_cast<Eigen::Index>(positions.size()),
+               lengths = static_cast<Eigen::Index>(given.floor.size());
+    VectorXd out(rows + lengths + 4);
+    const double stature = given.stature * std::exp(place[kLogStature]);
+    const Camera camera = camera_at(place, given);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const SeenStature& seen = positions[static_cast<size_t>(i)];
+      const auto row = place[kHeight] > 0 ? head_row(camera, seen, stature) : std::nullopt;
+      out[i] = row ? (seen.top_px - *row) / (given.row_sd * size_px(seen)) : kImpossible;
+    }
+    for (Eigen::Index i = 0; i < lengths; ++i) {
+      const FloorLength& length = given.floor[static_cast<size_t>(i)];
+      const auto longer = excess(camera, length);
+      // Two points, each off by as much, along the line between them.
+      const double sd = std::numbers::sqrt2 * given.point_sd_px * length.metres /
+                        (length.to_px - length.from_px).norm();
+      out[rows + i] = longer ? *longer / sd : kImpossible;
+    }
+    out.tail<4>() << (place[kTilt] - given.tilt) / given.tilt_sd, place[kRoll] / given.roll_sd,
+        place[kLogFocal] / std::max(kCertain, given.focal_sd / given.focal_px),
+        place[kLogStature] / std::max(kCertain, given.stature_sd / given.stature);
+    return out;
+  }
+  bool possible(const Place& place) const { return at(place).maxCoeff() < kImpossible; }
+};
 
 struct Fit {
   Place place;
-  Eigen::Matrix3d covariance;
+  Eigen::Matrix<double, kUnknowns, kUnknowns> covariance;
   double residual = 0;
 };
 
-Eigen::MatrixXd slopes(const Place& place, const auto& missed) {
-  constexpr double kStep = 1e-6;
-  const Misses here = missed(place);
-  Eigen::MatrixXd out(here.of.size(), 3);
-  for (int k = 0; k < 3; ++k) {
-    Place moved = place;
-    moved[k] += kStep;
-    const Misses there = missed(moved);
-    out.col(k) = there.possible ? Eigen::VectorXd((there.of - here.of) / kStep)
-                                : Eigen::VectorXd::Zero(here.of.size());
-  }
-  return out;
-}
-
-// Levenberg-Marquardt from a level camera.
-std::optional<Fit> fit(std::span<const SeenStature> positions, double focal_px, double stature,
-                       const ViewAssumptions& given) {
-  const auto missed = [&](const Place& place) {
-    return misses(place, positions, focal_px, stature, given);
-  };
+// From a level camera.
+std::optional<Fit> fit(std::span<const SeenStature> positions, const ViewAssumptions& given) {
+  const Misses misses{positions, given};
   const SeenStature& middle = positions[positions.size() / 2];
-  const double horizon = 0.5 * (given.height_px - 1) - focal_px * std::tan(given.tilt);
-  Place place(stature * std::max(0.05, (middle.bottom_px - horizon) / size_px(middle)), given.tilt,
-              0);
+  const double horizon = 0.5 * (given.height_px - 1) - given.focal_px * std::tan(given.tilt);
+  Place place = Place::Zero();
+  place[kHeight] = given.stature * std::max(0.05, (middle.bottom_px - horizon) / size_px(middle));
+  place[kTilt] = given.tilt;
   // Feet above the assumed horizon: the camera looks further down than was thought.
-  for (double down = 0; !missed(place).possible && down < 3; down += 0.5)
-    place[1] = given.tilt + down * given.tilt_sd;
-  if (!missed(place).possible) return std::nullopt;
-  double damping = 1e-3;
-  for (int iteration = 0; iteration < 100; ++iteration) {
-    const Misses here = missed(place);
-    const Eigen::MatrixXd slope = slopes(place, missed);
-    const Eigen::Matrix3d normal = slope.transpose() * slope;
-    Eigen::Matrix3d damped = normal;
-    damped.diagonal() *= 1 + damping;
-    const Place step = -damped.ldlt().solve(slope.transpose() * here.of);
-    const Misses there = missed(place + step);
-    if (there.possible && there.of.squaredNorm() <= here.of.squaredNorm()) {
-      place += step;
-      damping = std::max(damping / 4, 1e-12);
-      if (step.norm() < 1e-10) break;
-    } else if ((damping *= 8) > 1e9) {
-      break;
-    }
-  }
-  const Eigen::MatrixXd slope = slopes(place, missed);
-  const Misses last = missed(place);
+  for (double down = 0; !misses.possible(place) && down < 3; down += 0.5)
+    place[kTilt] = given.tilt + down * given.tilt_sd;
+  if (!misses.possible(place)) return std::nullopt;
+  const LeastSquaresFit found =
+      minimise_squares([&](const VectorXd& x) { return misses.at(x); }, place);
   const auto n = static_cast<Eigen::Index>(positions.size());
-  return Fit{place, (slope.transpose() * slope).inverse(),
-             given.row_sd * std::sqrt(last.of.head(n).squaredNorm() / static_cast<double>(n))};
+  return Fit{
+      found.x, found.covariance(),
+      given.row_sd * std::sqrt(found.residuals.head(n).squaredNorm() / static_cast<double>(n))};
 }
 
-// height, tilt, roll, distance, metres per pixel
-using Numbers = Eigen::Matrix<double, 5, 1>;
+// focal length, height, tilt, roll, distance, metres per pixel
+using Numbers = Eigen::Matrix<double, 6, 1>;
 
-Numbers numbers_of(const Place& place, double focal_px, const SeenStature& middle,
-                   const ViewAssumptions& given) {
-  const Camera camera = camera_at(place, focal_px, given);
+Numbers numbers_of(const Place& place, const SeenStature& middle, const ViewAssumptions& given) {
+  const Camera camera = camera_at(place, given);
   const Vector3d foot =
       ground_point(camera, {middle.u_px, middle.bottom_px}).value_or(Vector3d::Zero());
   Numbers out;
-  out << place, foot.head<2>().norm(), camera_point(camera, foot).z() / focal_px;
+  out << focal_of(place, given), place.head<3>(), foot.head<2>().norm(),
+      camera_point(camera, foot).z() / focal_of(place, given);
   return out;
 }
 
@@ -144,39 +143,58 @@ Measured measured(const Numbers& values, const Numbers& variances, int k) {
   return {values[k], std::sqrt(variances[k])};
 }
 
+double floor_rms(const Camera& camera, const std::vector<FloorLength>& floor) {
+  double sum = 0;
+  for (const FloorLength& length : floor) sum += std::pow(excess(camera, length).value_or(0), 2);
+  return floor.empty() ? 0 : std::sqrt(sum / static_cast<double>(floor.size()));
+}
+
+// A length that is not below the horizon of a camera as assumed cannot be on the floor.
+void check_floor(const ViewAssumptions& given) {
+  Place place = Place::Zero();
+  place[kHeight] = 1;
+  place[kTilt] = given.tilt + 3 * given.tilt_sd;
+  const Camera camera = camera_at(place, given);
+  for (const FloorLength& length : given.floor)
+    for (const Eigen::Vector2d& point : {length.from_px, length.to_px})
+      if (!ground_point(camera, point))
+        throw InputError(
+            fmt::format("the floor's point in column {:.0f}, row {:.0f} is above the horizon",
+                        point.x(), point.y()));
+}
+
 }  // namespace
 
 WalkerView view_from_walker(std::span<const SeenStature> positions, const ViewAssumptions& given) {
+  check_floor(given);
   const SeenStature& middle = positions[positions.size() / 2];
-  const auto best = fit(positions, given.focal_px, given.stature, given);
+  const auto best = fit(positions, given);
   if (!best)
     throw InputError(fmt::format(
         "the feet in row {:.0f} are above the horizon of a camera that is nearly level (row "
         "{:.0f}); "
         "state how far it looks down (negative: up) with --tilt-deg",
         middle.bottom_px, 0.5 * (given.height_px - 1) - given.focal_px * std::tan(given.tilt)));
-  const Numbers values = numbers_of(best->place, given.focal_px, middle, given);
+  const Numbers values = numbers_of(best->place, middle, given);
   Numbers variances = Numbers::Zero();
-  // What the rows leave open, along the axes of its covariance, and what was assumed.
-  const auto add = [&](const Place& place, double focal_px) {
-    variances += (numbers_of(place, focal_px, middle, given) - values).cwiseAbs2();
-  };
-  const Eigen::Matrix3d root = best->covariance.llt().matrixL();
-  for (int k = 0; k < 3; ++k) add(best->place + 0.1 * root.col(k), given.focal_px);
-  variances *= 100;  // of a tenth of it, for which all is linear
-  if (const auto other = fit(positions, given.focal_px + given.focal_sd, given.stature, given))
-    add(other->place, given.focal_px + given.focal_sd);
-  if (const auto other = fit(positions, given.focal_px, given.stature + given.stature_sd, given))
-    add(other->place, given.focal_px);
+  // What rows and lengths leave open, along the axes of its covariance.
+  constexpr double kSmall = 0.1;  // of a deviation, for which all is linear
+  const Eigen::MatrixXd root = best->covariance.llt().matrixL();
+  for (int k = 0; k < kUnknowns; ++k)
+    variances +=
+        (numbers_of(best->place + kSmall * root.col(k), middle, given) - values).cwiseAbs2() /
+        (kSmall * kSmall);
   WalkerView out;
-  out.camera = camera_at(best->place, given.focal_px, given);
+  out.camera = camera_at(best->place, given);
   const auto foot = ground_point(out.camera, {middle.u_px, middle.bottom_px});
+  out.floor_rms = floor_rms(out.camera, given.floor);
   out.camera.translation += out.camera.rotation * Vector3d(foot->x(), foot->y(), 0);
-  out.height = measured(values, variances, 0);
-  out.tilt = measured(values, variances, 1);
-  out.roll = measured(values, variances, 2);
-  out.distance = measured(values, variances, 3);
-  out.metres_per_px = measured(values, variances, 4);
+  out.focal_px = measured(values, variances, 0);
+  out.height = measured(values, variances, 1);
+  out.tilt = measured(values, variances, 2);
+  out.roll = measured(values, variances, 3);
+  out.distance = measured(values, variances, 4);
+  out.metres_per_px = measured(values, variances, 5);
   out.residual = best->residual;
   return out;
 }

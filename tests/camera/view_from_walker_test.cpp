@@ -1,5 +1,6 @@
 #include "camera/view_from_walker.h"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -97,6 +98,61 @@ TEST(ViewFromWalker, ScaleDoesNotNeedTheFocalLength) {
   EXPECT_NEAR(view.metres_per_px.value, 6.0 / 1000, 6e-6);
   EXPECT_NEAR(view.distance.value, 7.2, 0.05);
   EXPECT_NEAR(view.distance.sd, 0.72, 0.1);
+}
+
+// The sides and diagonals of a tile, seen by the camera.
+std::vector<FloorLength> tile(const Camera& camera, Eigen::Vector2d at, double side) {
+  const std::array<Eigen::Vector2d, 4> corners{at, at + Eigen::Vector2d(side, 0),
+                                               at + Eigen::Vector2d(side, side),
+                                               at + Eigen::Vector2d(0, side)};
+  std::vector<FloorLength> out;
+  for (size_t i = 0; i < 4; ++i)
+    for (size_t k = i + 1; k < 4; ++k) {
+      const auto pixel = [&](size_t n) {
+        return *project(camera, {corners[n].x(), corners[n].y(), 0});
+      };
+      out.push_back({pixel(i), pixel(k), (corners[k] - corners[i]).norm()});
+    }
+  return out;
+}
+
+// A tile on the floor tells what a walk straight across leaves open: tilt, focal length, distance.
+TEST(ViewFromWalker, ATileTellsTiltAndLens) {
+  const Camera truth = made_camera(1000, 1.3, rad_from_deg(3), rad_from_deg(0.5));
+  ViewAssumptions given = usual(1150);
+  given.focal_sd = 140;
+  given.row_sd = 1e-3;
+  const auto seen = seen_along(truth, {-2, 6}, {2, 6}, 1.7);
+  const WalkerView without = view_from_walker(seen, given);
+  EXPECT_GT(without.distance.sd, 0.5);
+  given.floor = tile(truth, {-0.5, 4}, 1);
+  given.point_sd_px = 0.1;
+  const WalkerView with = view_from_walker(seen, given);
+  EXPECT_NEAR(with.focal_px.value, 1000, 2);
+  EXPECT_NEAR(deg_from_rad(with.tilt.value), 3, 0.05);
+  EXPECT_NEAR(with.height.value, 1.3, 0.005);
+  EXPECT_NEAR(with.distance.value, 6, 0.02);
+  EXPECT_LT(with.distance.sd, 0.1);
+  EXPECT_LT(with.floor_rms, 1e-3);
+}
+
+TEST(ViewFromWalker, TwoPointsOnTheFloorTellTheScaleWhereTheStatureIsWrong) {
+  const Camera truth = made_camera(1000, 1.3, 0, 0);
+  ViewAssumptions given = usual(1000);
+  given.tilt_sd = rad_from_deg(0.1);
+  const auto seen = seen_along(truth, {-2, 6}, {2, 6}, 1.7);
+  given.row_sd = 0.05;  // the stature is a guess
+  given.floor = {{*project(truth, {-1, 5, 0}), *project(truth, {1, 5, 0}), 2}};
+  given.stature = 1.7 * 1.04;
+  const WalkerView view = view_from_walker(seen, given);
+  EXPECT_NEAR(view.metres_per_px.value / (6.0 / 1000), 1, 0.01);
+}
+
+TEST(ViewFromWalker, SaysWhenAPointOfTheFloorIsInTheSky) {
+  const Camera truth = made_camera(1000, 1.3, 0, 0);
+  ViewAssumptions given = usual(1000);
+  given.floor = {{{600, 10}, {700, 500}, 1}};
+  EXPECT_THROW(view_from_walker(seen_along(truth, {-2, 6}, {2, 6}, 1.7), given), InputError);
 }
 
 // Drawn from what is assumed, truth lies within two standard deviations as often as they say.

@@ -43,5 +43,25 @@ TEST(Eigenvalues, AreInOrder) {
   EXPECT_EQ(eigenvalues(MatrixXd()).size(), 0);
 }
 
+// Rosenbrock's valley, whose only minimum is at (1, 1).
+TEST(MinimiseSquares, FollowsAValley) {
+  const LeastSquaresFit fit = minimise_squares(
+      [](const VectorXd& x) {
+        return VectorXd(Eigen::Vector2d(10 * (x[1] - x[0] * x[0]), 1 - x[0]));
+      },
+      Eigen::Vector2d(-1.2, 1));
+  EXPECT_LT((fit.x - Eigen::Vector2d(1, 1)).norm(), 1e-8);
+  EXPECT_LT(fit.residuals.norm(), 1e-8);
+}
+
+// The mean of numbers, each of standard deviation 1, is known to 1 / sqrt(n).
+TEST(MinimiseSquares, KnowsHowWell) {
+  const Eigen::Vector4d numbers(1, 2, 4, 9);
+  const LeastSquaresFit fit = minimise_squares(
+      [&](const VectorXd& x) { return VectorXd(numbers.array() - x[0]); }, VectorXd::Zero(1));
+  EXPECT_NEAR(fit.x[0], 4, 1e-9);
+  EXPECT_NEAR(fit.covariance()(0, 0), 0.25, 1e-9);
+}
+
 }  // namespace
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "io/calibration/calibration.h"
+#include "jobs/init/init_pair.h"
 #include "jobs/init/seen_walker.h"
 #include "observation/pose_net/pose_net.h"
 #include "tests/data_folders.h"
@@ -73,6 +74,25 @@ TEST_F(Init, KnowsHeightAndDistanceWhereLensAndTiltAreStated) {
   EXPECT_LT(found.view.height.sd, 0.06);
 }
 
+// A square metre on the floor tells what the walk leaves open.
+TEST_F(Init, KnowsDistanceWhereATileIsStated) {
+  const Camera truth = read_calibration(kDemo / "side.yaml", "side");
+  InitJob stated = job(kDemo / "side.mp4", 1.75, kDemo / "side_background.mp4");
+  const std::array<Eigen::Vector3d, 4> corners{
+      {{-0.5, -1.5, 0}, {0.5, -1.5, 0}, {0.5, -0.5, 0}, {-0.5, -0.5, 0}}};
+  for (size_t i = 0; i < 4; ++i)
+    for (size_t k = i + 1; k < 4; ++k)
+      stated.floor.push_back({*project(truth, corners[i]), *project(truth, corners[k]),
+                              (corners[k] - corners[i]).norm()});
+  const InitOutcome found = init_scene(stated, {});
+  EXPECT_NEAR(found.view.distance.value, -camera_centre(truth).y(), 2 * found.view.distance.sd);
+  EXPECT_NEAR(found.view.height.value, camera_centre(truth).z(), 2 * found.view.height.sd);
+  const InitOutcome without =
+      init_scene(job(kDemo / "side.mp4", 1.75, kDemo / "side_background.mp4"), {});
+  EXPECT_LT(found.view.distance.sd, 0.5 * without.view.distance.sd);
+  EXPECT_LT(found.view.height.sd, 0.5 * without.view.height.sd);
+}
+
 // Two walks of one person by an independent renderer; kSeenShare was fitted on them and others.
 TEST_F(Init, ScaleOfIndependentRendersIsRight) {
   for (const char* name : {"cmu_02_01", "cmu_02_02"}) {
@@ -101,6 +121,64 @@ TEST_F(Init, OfTheRealSideViewIsTheGivenCalibration) {
               0.03);
 }
 
+InitPairJob pair_job(const fs::path& folder, const std::array<const char*, 2>& names, double height,
+                     const fs::path& output) {
+  InitPairJob out;
+  out.videos = {folder / names[0], folder / names[1]};
+  out.height = height;
+  out.output = output;
+  out.overwrite = true;
+  return out;
+}
+
+// Of two telephones whose lenses nobody states. How far points are off the rays was taken from this
+// very video; nothing else. The cameras are 1.46 m apart, turned to each other by 37 degrees.
+TEST_F(Init, OfTwoRealTelephonesStandAsTheyDo) {
+  const fs::path folder = kSharedData / "opencap_two_phones";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  if (!has_pose_net()) GTEST_SKIP() << "without the pose network";
+  const InitPairOutcome found =
+      init_pair(pair_job(folder, {"cam0.mp4", "cam1.mp4"}, 1.80, place_ / "two"), {});
+  const std::array given{read_calibration(folder / "cam0.yaml", "cam0"),
+                         read_calibration(folder / "cam1.yaml", "cam1")};
+  const auto holds = [](const Measured& is, double value) {
+    return std::abs(is.value - value) < 2 * is.sd;
+  };
+  const double apart = (camera_centre(given[0]) - camera_centre(given[1])).norm();
+  EXPECT_TRUE(holds(found.views.apart, apart)) << found.views.apart.value;
+  EXPECT_NEAR(found.views.apart.value / apart, 1, 0.08);
+  for (size_t c = 0; c < 2; ++c) {
+    EXPECT_TRUE(holds(found.views.focal_px[c], given[c].focal_px.x()));
+    EXPECT_TRUE(holds(found.views.height[c], camera_centre(given[c]).z()));
+  }
+  const Eigen::Matrix3d found_turn = found.views.cameras[1].rotation *
+                                     found.views.cameras[0].rotation.transpose(),
+                        given_turn = given[1].rotation * given[0].rotation.transpose(),
+                        off = found_turn * given_turn.transpose();
+  EXPECT_LT(std::acos(0.5 * (off.trace() - 1)) * 180 / M_PI, 5);
+  EXPECT_EQ(found.start_frame, 0);
+  EXPECT_FALSE(found.check.failed());
+  EXPECT_EQ(read_scene(found.scene).cameras.size(), 2u);
+  EXPECT_GT(fs::file_size(found.picture), 10000u);
+}
+
+TEST_F(Init, OfTwoVideosWantsAWalk) {
+  if (!has_pose_net()) GTEST_SKIP() << "without the pose network";
+  EXPECT_THAT(message_of([&] {
+                init_pair(pair_job(kDemo, {"side_background.mp4", "side_background.mp4"}, 1.75,
+                                   place_ / "two"),
+                          {});
+              }),
+              HasSubstr("found nobody whom the pose network sees"));
+  const fs::path folder = kSharedData / "opencap_squats";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  EXPECT_THAT(message_of([&] {
+                init_pair(pair_job(folder, {"cam0.mp4", "cam1.mp4"}, 1.80, place_ / "two"), {});
+              }),
+              HasSubstr("somebody who stays in one place"));
+  EXPECT_FALSE(fs::exists(place_ / "two"));
+}
+
 TEST_F(Init, SaysWhenNobodyWalksThroughThePicture) {
   EXPECT_THAT(
       message_of([&] { init_scene(job(kDemo / "side_background.mp4", 1.75), {}); }),
@@ -115,7 +193,7 @@ TEST(StridePositions, AreMeansOfWholeFigures) {
   std::vector<SeenFigure> figures;
   for (int i = 0; i < 22; ++i) {
     const double bob = i % 5 == 0 ? 2 : -0.5;  // a head goes up and down
-    figures.push_back({0.1 * i, 3 * i, 100.0 + 10 * i, 50 + bob, 250});
+    figures.push_back({0.1 * i, 3 * i, 0, 100.0 + 10 * i, 50 + bob, 250});
   }
   figures[4].bottom_px = 180;  // half hidden
   const auto positions = stride_positions(figures, 10);

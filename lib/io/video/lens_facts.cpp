@@ -4,6 +4,8 @@ extern "C" {
 #include <libavformat/avformat.h>
 }
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 
 #include "core/errors.h"
@@ -15,10 +17,31 @@ namespace walktrack {
 namespace {
 
 constexpr const char* kAppleKey = "com.apple.quicktime.camera.focal_length.35mm_equivalent";
+constexpr std::array<const char*, 3> kModelKeys{"com.apple.quicktime.model", "com.android.model",
+                                                "model"};
 constexpr size_t kExifBytes = 1 << 17;  // EXIF has at most 64 KiB and comes first
-// TIFF's (EXIF 2.3, 4.6): the pointer to the EXIF fields, and the field itself, a 16-bit number.
-constexpr unsigned kExifPointer = 0x8769, kFocalLength35mm = 0xA405;
-constexpr size_t kFieldBytes = 12;
+// TIFF's (EXIF 2.3, 4.6): the name of the camera, the pointer to the EXIF fields, and the focal
+// length among those, a 16-bit number.
+constexpr unsigned kModel = 0x0110, kExifPointer = 0x8769, kFocalLength35mm = 0xA405;
+constexpr size_t kFieldBytes = 12, kInPlaceBytes = 4;
+
+// Main cameras by how names in recordings begin, the longer name first; mm of 35 mm film, of the
+// makers' data sheets.
+struct Telephone {
+  std::string_view name;
+  double focal_mm;
+};
+constexpr std::array kTelephones{
+    Telephone{"iPhone 16 Pro", 24}, Telephone{"iPhone 16", 26},     Telephone{"iPhone 15 Pro", 24},
+    Telephone{"iPhone 15", 26},     Telephone{"iPhone 14 Pro", 24}, Telephone{"iPhone 14", 26},
+    Telephone{"iPhone 13", 26},     Telephone{"iPhone 12", 26},     Telephone{"iPhone 11", 26},
+    Telephone{"iPhone XR", 26},     Telephone{"iPhone XS", 26},     Telephone{"iPhone X", 28},
+    Telephone{"iPhone SE (", 28},   Telephone{"iPhone SE", 29},     Telephone{"iPhone 8", 28},
+    Telephone{"iPhone 7", 28},      Telephone{"iPhone 6", 29},      Telephone{"Pixel 8", 25},
+    Telephone{"Pixel 7", 25},       Telephone{"Pixel 6a", 27},      Telephone{"Pixel 6", 25},
+    Telephone{"Pixel 5", 27},       Telephone{"Pixel 4", 27},       Telephone{"SM-S921", 24},
+    Telephone{"SM-S911", 24},       Telephone{"SM-S901", 23},       Telephone{"SM-G991", 26},
+    Telephone{"SM-G98", 26},        Telephone{"SM-G973", 26}};
 
 std::optional<double> lens(double focal_mm) {
   return focal_mm >= 4 && focal_mm <= 2000 ? std::optional(focal_mm) : std::nullopt;
@@ -49,57 +72,104 @@ struct Tiff {
   }
 };
 
-std::optional<double> from_tiff(std::string_view bytes) {
-  if (bytes.size() < 8) return std::nullopt;
-  const Tiff tiff{bytes, bytes.starts_with("MM")};
+std::optional<double> focal_length(const Tiff& tiff) {
   const auto pointer = tiff.field(tiff.number(4, 4), kExifPointer);
   if (!pointer) return std::nullopt;
   const auto field = tiff.field(tiff.number(*pointer, 4), kFocalLength35mm);
   return field ? lens(tiff.number(*field, 2)) : std::nullopt;
 }
 
-std::optional<double> of_video(const std::filesystem::path& video) {
+// Text of a name: without what ends it.
+std::string name_of(std::string_view text) {
+  const auto end = text.find_first_of(std::string_view("\0\n", 2));
+  text = text.substr(0, std::min(end, text.size()));
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  return std::string(text);
+}
+
+std::string model(const Tiff& tiff) {
+  const auto field = tiff.field(tiff.number(4, 4), kModel);
+  if (!field) return {};
+  const size_t bytes = tiff.number(*field - 4, 4);
+  const size_t at = bytes > kInPlaceBytes ? tiff.number(*field, 4) : *field;
+  return at < tiff.bytes.size() ? name_of(tiff.bytes.substr(at, bytes)) : std::string();
+}
+
+// The EXIF block of a JPEG; empty without.
+Tiff exif_of(std::string_view jpeg) {
+  const Tiff whole{jpeg, true};
+  if (whole.number(0, 2) != 0xFFD8) return {};
+  // Segments: FF, kind, length with its own two bytes. The picture begins with FFDA.
+  for (size_t at = 2; whole.number(at, 1) == 0xFF && whole.number(at, 2) != 0xFFDA;) {
+    const size_t length = whole.number(at + 2, 2);
+    if (length < 2 || at + 2 + length > jpeg.size()) return {};
+    const std::string_view content = jpeg.substr(at + 4, length - 2);
+    if (whole.number(at, 2) == 0xFFE1 && content.starts_with(std::string_view("Exif\0\0", 6)))
+      return {content.substr(6), content.substr(6).starts_with("MM")};
+    at += 2 + length;
+  }
+  return {};
+}
+
+// What a video's file or one of its streams says under the key.
+template <size_t count>
+std::string said_of(const std::filesystem::path& video,
+                    const std::array<const char*, count>& keys) {
   AVFormatContext* file = nullptr;
-  if (avformat_open_input(&file, video.c_str(), nullptr, nullptr) < 0) return std::nullopt;
-  const AVDictionaryEntry* entry = av_dict_get(file->metadata, kAppleKey, nullptr, 0);
-  for (unsigned i = 0; !entry && i < file->nb_streams; ++i)
-    entry = av_dict_get(file->streams[i]->metadata, kAppleKey, nullptr, 0);
-  const auto number = entry ? number_from_text(entry->value) : std::nullopt;
+  if (avformat_open_input(&file, video.c_str(), nullptr, nullptr) < 0) return {};
+  const AVDictionaryEntry* entry = nullptr;
+  for (const char* key : keys) {
+    if (!entry) entry = av_dict_get(file->metadata, key, nullptr, 0);
+    for (unsigned i = 0; !entry && i < file->nb_streams; ++i)
+      entry = av_dict_get(file->streams[i]->metadata, key, nullptr, 0);
+  }
+  const std::string said = entry ? entry->value : "";
   avformat_close_input(&file);
-  return number ? lens(*number) : std::nullopt;
+  return said;
+}
+
+// The beginning of the first image's file; "" of a video.
+std::string first_image(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> images;
+  try {
+    images = image_files(path);
+  } catch (const InputError&) {
+    return {};
+  }
+  if (images.empty()) return {};
+  std::ifstream file(images.front(), std::ios::binary);
+  std::string bytes(kExifBytes, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<size_t>(file.gcount()));
+  return bytes;
 }
 
 }  // namespace
 
 std::optional<double> exif_focal_length_35mm(std::string_view jpeg) {
-  const Tiff whole{jpeg, true};
-  if (whole.number(0, 2) != 0xFFD8) return std::nullopt;
-  // Segments: FF, kind, length with its own two bytes. The picture begins with FFDA.
-  for (size_t at = 2; whole.number(at, 1) == 0xFF && whole.number(at, 2) != 0xFFDA;) {
-    const size_t length = whole.number(at + 2, 2);
-    if (length < 2 || at + 2 + length > jpeg.size()) return std::nullopt;
-    const std::string_view content = jpeg.substr(at + 4, length - 2);
-    if (whole.number(at, 2) == 0xFFE1 && content.starts_with(std::string_view("Exif\0\0", 6)))
-      return from_tiff(content.substr(6));
-    at += 2 + length;
-  }
-  return std::nullopt;
+  return focal_length(exif_of(jpeg));
 }
+
+std::string exif_model(std::string_view jpeg) { return model(exif_of(jpeg)); }
 
 std::optional<double> focal_length_35mm(const std::filesystem::path& path) {
   if (std::filesystem::is_regular_file(path))
-    if (const auto found = of_video(path)) return found;
-  std::vector<std::filesystem::path> images;
-  try {
-    images = image_files(path);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-  if (images.empty()) return std::nullopt;  // of a video
-  std::ifstream file(images.front(), std::ios::binary);
-  std::string bytes(kExifBytes, '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  return exif_focal_length_35mm({bytes.data(), static_cast<size_t>(file.gcount())});
+    if (const auto number = number_from_text(said_of(path, std::array{kAppleKey})))
+      if (const auto found = lens(*number)) return found;
+  return exif_focal_length_35mm(first_image(path));
+}
+
+std::string camera_model(const std::filesystem::path& path) {
+  std::string said;
+  if (std::filesystem::is_regular_file(path)) said = name_of(said_of(path, kModelKeys));
+  return said.empty() ? exif_model(first_image(path)) : said;
+}
+
+std::optional<double> telephone_focal_length_35mm(std::string_view model) {
+  const auto* const found =
+      std::find_if(kTelephones.begin(), kTelephones.end(),
+                   [&](const Telephone& telephone) { return model.starts_with(telephone.name); });
+  return found != kTelephones.end() ? std::optional(found->focal_mm) : std::nullopt;
 }
 
 }  // namespace walktrack

@@ -16,8 +16,9 @@
 #include "io/calibration/calibration.h"
 #include "io/drawing/overlay.h"
 #include "io/tables/table_notes.h"
-#include "io/video/lens_facts.h"
 #include "io/video/video.h"
+#include "jobs/init/init_files.h"
+#include "jobs/init/lens_guess.h"
 #include "jobs/init/seen_walker.h"
 
 namespace walktrack {
@@ -26,8 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char *kScene = "scene.yaml", *kCalibrationFile = "camera.yaml",
-                     *kPicture = "init.png", *kRecord = "init.json";
+constexpr const char* kCalibrationFile = "camera.yaml";
 
 // A walker between floor and top of the head, mean over a stride, as a share of their height: knees
 // are bent, shoes and hair add, the floor in the picture is that of the nearer edge of the feet.
@@ -38,42 +38,8 @@ constexpr double kSeenShare = 0.975, kSeenShareSd = 0.018;
 // How far people are from level with a camera that they take for level.
 constexpr double kTiltSd_deg = 3, kStatedTiltSd_deg = 0.3, kRollSd_deg = 1;
 
-// Along the longer side. The main cameras of telephones have 24 to 28 mm (of 35 mm film); steadying
-// a video costs up to a tenth of the picture.
-constexpr double kUsualFov_deg = 64, kUsualFovSd_deg = 8, kStatedFovSd_deg = 1;
-constexpr double kFilmDiagonal_mm = 43.27, kSensorAspect = 0.8;  // the longer side of 4:3
-constexpr double kSteadying = 1.05, kSteadyingSd = 0.05;
-
 // How far, in their heights, somebody has to walk to be a walker.
 constexpr double kLeastWay = 0.5;
-
-struct LensGuess {
-  double focal_px, focal_sd;
-  double fov_deg, fov_sd_deg;
-  std::string from;
-};
-
-double focal_of(double side_px, double fov_deg) {
-  return 0.5 * side_px / std::tan(0.5 * rad_from_deg(fov_deg));
-}
-
-LensGuess guess_of(double side_px, double fov_deg, double sd_deg, std::string from) {
-  const double focal = focal_of(side_px, fov_deg);
-  return {focal, std::abs(focal_of(side_px, fov_deg - sd_deg) - focal), fov_deg, sd_deg,
-          std::move(from)};
-}
-
-LensGuess lens_of(const InitJob& job, double side_px) {
-  if (job.fov_deg) return guess_of(side_px, *job.fov_deg, kStatedFovSd_deg, "as stated");
-  const auto film_mm = focal_length_35mm(job.video);
-  if (!film_mm)
-    return guess_of(side_px, kUsualFov_deg, kUsualFovSd_deg,
-                    "a usual telephone's; state yours with --fov-deg");
-  const double focal = side_px * *film_mm / (kSensorAspect * kFilmDiagonal_mm) * kSteadying;
-  const auto fov = [&](double f) { return 2 * deg_from_rad(std::atan(0.5 * side_px / f)); };
-  return {focal, focal * kSteadyingSd, fov(focal), fov(focal) - fov(focal * (1 + kSteadyingSd)),
-          fmt::format("of the file, {:g} mm (35 mm film)", *film_mm)};
-}
 
 ViewAssumptions assumptions(const InitJob& job, const SeenWalk& walk, const LensGuess& lens) {
   ViewAssumptions out;
@@ -86,6 +52,7 @@ ViewAssumptions assumptions(const InitJob& job, const SeenWalk& walk, const Lens
   out.tilt = rad_from_deg(job.tilt_deg.value_or(0));
   out.tilt_sd = rad_from_deg(job.tilt_deg ? kStatedTiltSd_deg : kTiltSd_deg);
   out.roll_sd = rad_from_deg(kRollSd_deg);
+  out.floor = job.floor;
   return out;
 }
 
@@ -116,21 +83,10 @@ double distance_of(const Camera& camera, const SeenStature& seen) {
   return foot ? (foot->head<2>() - camera_centre(camera).head<2>()).norm() : 0;
 }
 
-std::string band(const Measured& of, double factor, int digits) {
-  return fmt::format("{:.{}f} (± {:.{}f})", factor * of.value, digits, 2 * factor * of.sd, digits);
-}
-
 // What may be said of a share, in per cent of two standard deviations.
 double percent(const Measured& of) { return 200 * of.sd / of.value; }
 
 std::string scene_yaml(const InitJob& job, const InitOutcome& out) {
-  const auto beside = [&](const fs::path& file) {
-    return nlohmann::json(fs::absolute(file)
-                              .lexically_normal()
-                              .lexically_relative(fs::absolute(job.output).lexically_normal())
-                              .generic_string())
-        .dump();
-  };
   std::string text = fmt::format(
       "# Made by walktrack init of a video and a height, without a calibration: init.json has the "
       "bands.\n"
@@ -138,17 +94,12 @@ std::string scene_yaml(const InitJob& job, const InitOutcome& out) {
       "width and\n"
       "# what turns out of the picture are not to be used.\n"
       "cameras:\n  - {{name: camera, video: {}, calibration: {}",
-      percent(out.view.metres_per_px), beside(job.video), kCalibrationFile);
-  if (!job.background.empty()) text += fmt::format(", background: {}", beside(job.background));
+      percent(out.view.metres_per_px), path_beside(job.video, job.output), kCalibrationFile);
+  if (!job.background.empty())
+    text += fmt::format(", background: {}", path_beside(job.background, job.output));
   text += "}\n";
   if (job.frame_rate) text += fmt::format("frame_rate: {:g}\n", *job.frame_rate);
-  text += fmt::format("subject: {{height: {:g}", job.height);
-  if (job.mass) text += fmt::format(", mass: {:g}", *job.mass);
-  return text + "}\n";
-}
-
-nlohmann::ordered_json measured_json(const Measured& of, double factor = 1) {
-  return {{"value", json_number(factor * of.value)}, {"sd", json_number(factor * of.sd)}};
+  return text + subject_line(job.height, job.mass);
 }
 
 std::string record_json(const InitJob& job, const InitOutcome& out, const SeenWalk& walk) {
@@ -166,6 +117,7 @@ std::string record_json(const InitJob& job, const InitOutcome& out, const SeenWa
   root["fov_deg"] = measured_json({out.fov_deg, out.fov_sd_deg});
   root["fov_from"] = out.fov_from;
   root["rows_missed_percent"] = json_number(100 * out.view.residual);
+  if (!job.floor.empty()) root["floor_lengths_missed_m"] = json_number(out.view.floor_rms);
   for (const WalkerPosition& position : stride_positions(walk.figures, walk.looks_hz))
     root["positions"].push_back({{"time_s", json_number(position.time)},
                                  {"u_px", json_number(position.seen.u_px)},
@@ -200,6 +152,10 @@ std::string picture_png(const InitJob& job, const InitOutcome& out,
       cv::line(frame, pixel(seen.u_px - 6 * thick, row), pixel(seen.u_px + 6 * thick, row),
                trunk_colour(), thick);
   }
+  for (const FloorLength& length : job.floor) {
+    const auto from = ground_point(camera, length.from_px), to = ground_point(camera, length.to_px);
+    if (from && to) draw_line(frame, camera, *from, *to, left_colour(), 2 * thick);
+  }
   draw_caption(
       frame, fmt::format("camera {:.2f} m high, {:.1f} m away; lines are {:.2f} m; 1 m grid",
                          out.view.height.value, out.view.distance.value, kSeenShare * job.height));
@@ -209,8 +165,11 @@ std::string picture_png(const InitJob& job, const InitOutcome& out,
 }
 
 Outputs outputs_of(const InitJob& job) {
-  Outputs outputs{
-      job.output, "init", {kScene, kCalibrationFile, kPicture, kRecord}, {job.video}, kRecord};
+  Outputs outputs{job.output,
+                  "init",
+                  {kInitScene, kCalibrationFile, kInitPicture, kInitRecord},
+                  {job.video},
+                  kInitRecord};
   if (!job.background.empty()) outputs.inputs.push_back(job.background);
   return outputs;
 }
@@ -223,11 +182,13 @@ InitOutcome init_scene(const InitJob& job, const JobControl& control) {
   cv::setNumThreads(1);
   const SeenWalk walk = seen_walk(job, control);
   const std::vector<SeenStature> positions = checked_positions(job, walk);
-  const LensGuess lens = lens_of(job, std::max(walk.width_px, walk.height_px));
+  const double side_px = std::max(walk.width_px, walk.height_px);
+  const LensGuess lens = lens_guess(job.video, side_px, job.fov_deg);
   InitOutcome out;
   out.view = view_from_walker(positions, assumptions(job, walk, lens));
-  out.fov_deg = lens.fov_deg;
-  out.fov_sd_deg = lens.fov_sd_deg;
+  const Measured& focal = out.view.focal_px;
+  out.fov_deg = fov_deg_of(side_px, focal.value);
+  out.fov_sd_deg = std::abs(fov_deg_of(side_px, focal.value + focal.sd) - out.fov_deg);
   out.fov_from = lens.from;
   out.positions = positions.size();
   out.nearest = out.farthest = out.view.distance.value;
@@ -237,12 +198,12 @@ InitOutcome init_scene(const InitJob& job, const JobControl& control) {
   }
   const ResultFolder folder(outputs_of(job), job.overwrite);
   folder.write(kCalibrationFile, opencv_from_camera(out.view.camera));
-  folder.write(kPicture,
+  folder.write(kInitPicture,
                picture_png(job, out, positions, walk.figures[walk.figures.size() / 2].frame));
-  folder.write(kScene, scene_yaml(job, out));
-  out.scene = folder.file(kScene);
-  out.picture = folder.file(kPicture);
-  folder.write(kRecord, record_json(job, out, walk));
+  folder.write(kInitScene, scene_yaml(job, out));
+  out.scene = folder.file(kInitScene);
+  out.picture = folder.file(kInitPicture);
+  folder.write(kInitRecord, record_json(job, out, walk));
   out.check = check_scene({out.scene, {}}, control);
   return out;
 }
@@ -254,19 +215,21 @@ std::string init_text(const InitOutcome& out) {
       "  camera         {} m above the floor, looking down {}°, turned {}°\n"
       "  distance       {:.1f} to {:.1f} m, ± {:.0f} %\n"
       "  field of view  {:.0f} (± {:.0f})° along the longer side, {}\n"
-      "  seen at        {} of the walk; rows missed by {:.1f} % of the height\n"
+      "  seen at        {} of the walk; rows missed by {:.1f} % of the height{}\n"
       "Good for: speed, cadence, step length and time, angles in the plane of the picture; lengths "
       "± {:.0f} %.\n"
       "Not for: distance from the camera, step width, anything across the walk; heights above the "
       "floor only roughly.\n"
       "Bands are two standard deviations. Better: --fov-deg of your lens, --tilt-deg by a level, "
-      "or 'walktrack calibrate'.\n"
+      "--floor of a tile, a second camera, or 'walktrack calibrate'.\n"
       "Look at {}: do the lines end at feet and head, and does the grid lie on the floor?\n",
       1000 * view.metres_per_px.value, percent(view.metres_per_px), band(view.height, 1, 2),
       band(view.tilt, deg_from_rad(1), 1), band(view.roll, deg_from_rad(1), 1), out.nearest,
       out.farthest, percent(view.distance), out.fov_deg, 2 * out.fov_sd_deg, out.fov_from,
       out.positions == 1 ? "one place" : fmt::format("{} places", out.positions),
-      100 * view.residual, percent(view.metres_per_px), out.picture.string());
+      100 * view.residual,
+      view.floor_rms > 0 ? fmt::format(", floor's lengths by {:.3f} m", view.floor_rms) : "",
+      percent(view.metres_per_px), out.picture.string());
   return text + check_text(out.check);
 }
 

@@ -3,9 +3,12 @@
 //
 // The camera stands still and nearly level, and sees the walk from the side. Scale and floor come
 // from where head and feet are over the walk (camera/view_from_walker.h), the focal length from a
-// stated field of view, else from what the file says of its lens, else from a usual one. Speeds and
-// steps across the picture need the scale alone; distance from the camera and everything across the
-// walk are as uncertain as the focal length, and are not to be used.
+// stated field of view, else from what the file says of its lens or its telephone, else from a
+// usual one. Speeds and steps across the picture need the scale alone; distance from the camera and
+// everything across the walk are as uncertain as the focal length, and are not to be used, unless
+// lengths on the floor are known: the sides and diagonals of a tile.
+//
+// Of two videos of one walk, from cameras that stand still: jobs/init/init_pair.h.
 #pragma once
 
 #include <filesystem>
@@ -26,6 +29,7 @@ struct InitJob {
   std::optional<double> mass;        // kg
   std::optional<double> fov_deg;     // along the longer side of the picture
   std::optional<double> tilt_deg;    // how far the camera looks down, where that was measured
+  std::vector<FloorLength> floor;    // lengths on the floor that are known
   std::optional<double> frame_rate;  // Hz, of images
   int threads = 0;                   // 0 = as many as there are
   std::filesystem::path output;

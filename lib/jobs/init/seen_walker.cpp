@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <opencv2/imgproc.hpp>
 
@@ -10,6 +9,7 @@
 #include "core/parallel_for.h"
 #include "io/archive/files.h"
 #include "io/video/video.h"
+#include "jobs/init/figure_tracks.h"
 #include "jobs/track/person_finder.h"
 #include "jobs/track/pose_model.h"
 #include "observation/background_sampler.h"
@@ -31,8 +31,6 @@ constexpr double kAboveHead = 0.17, kBelowAnkle = 0.10, kBeside = 0.2;
 // it a whole person fills.
 constexpr double kLeastPiece = 0.04, kLeastCovered = 0.72;
 constexpr float kSeenEnough = 0.25F;
-// Between two looks at the same person: a gap, and how far they get in it, in their heights.
-constexpr double kLongestGap_s = 0.6, kFarthestSideways = 0.6, kFarthestUpwards = 0.2;
 // A stride of ordinary walking, and how unequal in height its frames may be.
 constexpr double kStride_s = 1.1, kUnequal = 0.08;
 
@@ -105,14 +103,6 @@ class Foreground {
   CameraEvidence evidence_;
 };
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double size_of(const SeenFigure& figure) { return figure.bottom_px - figure.top_px; }
-
 // A connected part of the foreground, px of the shrunk image.
 struct Part {
   cv::Rect box;
@@ -172,7 +162,11 @@ std::optional<SeenFigure> ends_of(const cv::Mat& part, const cv::Rect& box, int 
   const cv::Moments moments = cv::moments(part.rowRange(top, (top + bottom) / 2 + 1), true);
   // Edges lie between pixels.
   const auto enlarged = [&](double edge) { return shrink * edge - 0.5; };
-  return SeenFigure{0, 0, enlarged(box.x + moments.m10 / moments.m00 + 0.5), enlarged(box.y + top),
+  return SeenFigure{0,
+                    0,
+                    0,
+                    enlarged(box.x + moments.m10 / moments.m00 + 0.5),
+                    enlarged(box.y + top),
                     enlarged(box.y + bottom + 1)};
 }
 
@@ -234,50 +228,9 @@ class FigureFinder {
   std::optional<PersonFinder> people_;
 };
 
-// One person's figures through the frames.
-using Track = std::vector<SeenFigure>;
-
-// Adds the figure to the track of whoever was last seen where it is now, else begins one.
-void link(const SeenFigure& figure, std::vector<Track>& tracks) {
-  const auto apart = [&](const Track& track) {
-    const SeenFigure& last = track.back();
-    const double sideways = std::abs(figure.u_px - last.u_px),
-                 upwards = std::abs(figure.bottom_px - last.bottom_px);
-    const bool near = last.time < figure.time && figure.time - last.time < kLongestGap_s &&
-                      sideways < kFarthestSideways * size_of(last) &&
-                      upwards < kFarthestUpwards * size_of(last);
-    return near ? sideways : std::numeric_limits<double>::infinity();
-  };
-  Track* nearest = nullptr;
-  for (Track& track : tracks)
-    if (std::isfinite(apart(track)) && (!nearest || apart(track) < apart(*nearest)))
-      nearest = &track;
-  if (!nearest) nearest = &tracks.emplace_back();
-  nearest->push_back(figure);
-}
-
-// How far somebody goes, in their heights.
-double way_of(const Track& track) {
-  const auto [left, right] = std::minmax_element(
-      track.begin(), track.end(), [](const auto& a, const auto& b) { return a.u_px < b.u_px; });
-  std::vector<double> sizes;
-  for (const SeenFigure& figure : track) sizes.push_back(size_of(figure));
-  return (right->u_px - left->u_px) / median_of(sizes);
-}
-
-// Who goes farthest: others stand about.
-Track walker_of(const std::vector<Track>& tracks) {
-  const auto most =
-      std::max_element(tracks.begin(), tracks.end(),
-                       [](const Track& a, const Track& b) { return way_of(a) < way_of(b); });
-  return most == tracks.end() ? Track{} : *most;
-}
-
 std::optional<WalkerPosition> mean_of(std::span<const SeenFigure> figures, size_t least) {
   if (figures.size() < least) return std::nullopt;
-  std::vector<double> sizes;
-  for (const SeenFigure& figure : figures) sizes.push_back(size_of(figure));
-  const double usual = median_of(sizes);
+  const double usual = median_size({figures.begin(), figures.end()});
   SeenStature sum{0, 0, 0};
   double count = 0, time = 0;
   for (const SeenFigure& figure : figures) {
@@ -310,7 +263,7 @@ SeenWalk seen_walk(const InitJob& job, const JobControl& control) {
   const int every = std::max(1, static_cast<int>(std::lround(out.frame_rate / kLooks_hz)));
   out.looks_hz = out.frame_rate / every;
   cv::Mat frame;
-  std::vector<Track> tracks;
+  std::vector<FigureTrack> tracks;
   size_t looked = 0;
   for (int n = 0; looked < kMostFrames && !control.stopping() && source.read(frame); ++n) {
     control.progress("looking for the subject", static_cast<size_t>(n),
@@ -324,7 +277,7 @@ SeenWalk seen_walk(const InitJob& job, const JobControl& control) {
       link(figure, tracks);
     }
   }
-  out.figures = walker_of(tracks);
+  out.figures = walker_of(tracks, way_across);
   return out;
 }
 

@@ -11,16 +11,10 @@
 
 #include "camera/view_from_walker.h"
 #include "core/job_control.h"
+#include "jobs/init/figure_tracks.h"
 #include "jobs/init/init.h"
 
 namespace walktrack {
-
-// Somebody in one frame, px of the video.
-struct SeenFigure {
-  double time;  // s
-  int frame;    // of the video
-  double u_px, top_px, bottom_px;
-};
 
 struct SeenWalk {
   int width_px = 0, height_px = 0;

@@ -1,0 +1,51 @@
+// `walktrack init` of two videos: from one walk that two cameras saw at the same time, and the
+// subject's height, to a scene that can be tracked.
+//
+// Both cameras stand still. The pose network sees the subject's joints in both; where their rays
+// meet tells how the cameras stand to each other, how long their lenses are and by how much one
+// clock is behind the other (observation/two_views/two_views.h). Metric in all directions, as good
+// as the height and the lenses are known.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/job_control.h"
+#include "jobs/check/check.h"
+#include "observation/two_views/two_views.h"
+
+namespace walktrack {
+
+struct InitPairJob {
+  std::array<std::filesystem::path, 2> videos;
+  double height = 0;                               // of the subject, m
+  std::vector<std::filesystem::path> backgrounds;  // of both, frames of the empty scene; or none
+  std::optional<double> mass;                      // kg
+  std::array<std::optional<double>, 2> fov_deg;    // along the longer side of the picture
+  std::optional<double> frame_rate;                // Hz, of images
+  std::filesystem::path output;
+  bool overwrite = false;
+  std::vector<std::string> command_line;
+};
+
+struct InitPairOutcome {
+  TwoViews views;
+  std::array<Measured, 2> fov_deg;
+  std::array<std::string, 2> fov_from;  // in words
+  size_t moments = 0;                   // of the walk that both saw
+  int start_frame = 0;                  // of the camera that began earlier; 0 = not apart
+  size_t early = 0;                     // that camera
+  CheckReport check;
+  std::filesystem::path scene, picture;
+};
+
+// Errors of seen_person.h and two_views.h.
+InitPairOutcome init_pair(const InitPairJob& job, const JobControl& control);
+
+// For people: what came of it, with bands, and what it may be used for.
+std::string init_pair_text(const InitPairOutcome& outcome);
+
+}  // namespace walktrack

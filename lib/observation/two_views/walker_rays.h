@@ -1,0 +1,91 @@
+// Two cameras' pose to each other by bundle adjustment over one walker's keypoints (two_views.h):
+// every point is where its two rays are nearest, and bones do not change their length.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/dense.h"
+#include "observation/two_views/two_views.h"
+
+namespace walktrack {
+
+inline constexpr size_t kSharedPoints = 17;  // those of COCO
+
+// The joints of one moment, in the first camera's axes; the cameras are 1 apart.
+using BodyPoints = std::array<Eigen::Vector3d, kSharedPoints>;
+
+inline const Eigen::Vector3d& point_of(const BodyPoints& body, KeypointName name) {
+  return body[static_cast<size_t>(name)];
+}
+
+// A person at one moment as both cameras see them.
+struct SharedMoment {
+  double time;
+  size_t second;  // moment of the second video, nearest without a lag
+  std::array<Eigen::Vector2d, kSharedPoints> first;
+  std::array<bool, kSharedPoints> seen;  // by both
+  std::array<double, 2> size_px;         // of the person in each picture
+};
+
+std::vector<SharedMoment> shared_moments(std::span<const SeenMoment> first,
+                                         std::span<const SeenMoment> second);
+
+// Evenly from all of them.
+std::vector<SharedMoment> thinned(const std::vector<SharedMoment>& moments, size_t most);
+
+// The pose of the cameras to each other, the distance between them being 1.
+struct CameraPair {
+  std::array<double, 2> focal_px;
+  Eigen::Matrix3d second_from_first;
+  Eigen::Vector3d translation;
+  double lag;  // s
+};
+
+// All that both cameras saw. What it was made from has to outlive it.
+class WalkerRays {
+ public:
+  // At least one moment.
+  WalkerRays(std::vector<SharedMoment> moments, std::span<const SeenMoment> second,
+             const TwoViewAssumptions& given);
+
+  // The unknowns of two level cameras turned to each other by `turn` (rad): the person is as far
+  // from each as their size says, in the middle of where each sees them.
+  Eigen::VectorXd start(double turn) const;
+  // The unknowns near `start` at which rays meet best.
+  LeastSquaresFit adjusted(const Eigen::VectorXd& start) const;
+
+  CameraPair pair(const Eigen::VectorXd& unknowns) const;
+  std::vector<BodyPoints> bodies(const CameraPair& pair) const;
+  // Share of the points that are ahead of both cameras.
+  double ahead(const CameraPair& pair) const;
+  // Rms of what points miss in the pictures, share of the person's height; misses of more than ten
+  // deviations count as that.
+  double rms(const CameraPair& pair) const;
+
+  // How much a moment counts among the others, for what is nearly at the same time says the same.
+  double weight() const { return weight_; }
+
+ private:
+  struct Meeting;
+  Eigen::VectorXd residuals(const Eigen::VectorXd& unknowns) const;
+  void add_point(size_t point, const CameraPair& pair, Eigen::VectorXd& out,
+                 Eigen::Index& at) const;
+  Eigen::Vector2d second_at(const SharedMoment& moment, size_t point, double lag) const;
+  Meeting meeting(const SharedMoment& moment, size_t point, const CameraPair& pair) const;
+  double miss(const SharedMoment& moment, size_t point, const CameraPair& pair) const;
+  std::vector<double> bone_misses(const std::vector<BodyPoints>& bodies, KeypointName from,
+                                  KeypointName to) const;
+  Eigen::Vector3d mean_place(size_t camera) const;
+
+  std::vector<SharedMoment> moments_;
+  std::span<const SeenMoment> second_;
+  const TwoViewAssumptions& given_;
+  double weight_;
+};
+
+}  // namespace walktrack
