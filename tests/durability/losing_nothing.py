@@ -126,6 +126,8 @@ class Trials:
         wrong += [f"afterwards other: {f}" for f in sorted(set(found) | set(sound)) if found.get(f) != sound.get(f)
                   and not (half_removed and "/.walktrack_" in f"/{f}")]
         self.lost += [f"{trial}, {name}: {w}" for w in wrong]
+        for w in wrong:
+            print(f"  {trial}, {name}: {w}", flush=True)
         shutil.rmtree(out, ignore_errors=True)
         return not wrong
 

@@ -1,6 +1,8 @@
 // The batch with a small script in the place of `walktrack track`.
 #include "jobs/batch/batch.h"
 
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -366,6 +368,27 @@ TEST(FolderLock, OfADeadWorkerIsTakenOver) {
   fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::seconds(100));
   EXPECT_FALSE(FolderLock::try_take(folder.path(), 200));
   EXPECT_TRUE(FolderLock::try_take(folder.path(), 60));
+}
+
+// A disk that is full is not another worker, for which a batch would wait.
+TEST(FolderLock, ThatCannotBeWrittenIsAnError) {
+  const TemporaryFolder folder;
+  const pid_t worker = ::fork();
+  if (worker == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit none{0, 0};
+    ::setrlimit(RLIMIT_FSIZE, &none);
+    try {
+      FolderLock::try_take(folder.path());
+    } catch (const std::exception& error) {
+      _exit(std::string_view(error.what()).ends_with("File too large") ? 0 : 1);
+    }
+    _exit(2);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(worker, &status, 0), worker);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST(FolderLock, OfAKilledProcessOfThisMachineIsTakenOverAtOnce) {

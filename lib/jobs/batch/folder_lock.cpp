@@ -75,7 +75,8 @@ void remove_leftovers(const fs::path& folder) {
       fmt::format("{}: {}", file.string(), std::generic_category().message(error)));
 }
 
-// False where the file exists and O_EXCL is among the flags.
+// False where the file exists and O_EXCL is among the flags. Throws where nothing can be written
+// there: a claim that could not be made is not another worker's.
 bool write_name(const fs::path& file, int flags) {
   const int descriptor =
       ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | flags, 0666);
@@ -85,9 +86,12 @@ bool write_name(const fs::path& file, int flags) {
     fail(file, errno);
   }
   const std::string name = worker_name();
-  const bool written = ::write(descriptor, name.data(), name.size()) >= 0;
+  const ssize_t written = ::write(descriptor, name.data(), name.size());
+  const int error = written < 0 ? errno : ENOSPC;
   ::close(descriptor);
-  return written;
+  if (written == static_cast<ssize_t>(name.size())) return true;
+  ::unlink(file.c_str());
+  fail(file, error);
 }
 
 // The file appears with its holder's name or not at all, so that a worker killed here leaves no
