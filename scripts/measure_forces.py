@@ -89,6 +89,7 @@ def late(plates, reaction, first):
 
 
 def measure(walktrack, out, motion, plates, first):
+    """The subject's mass and the table's rows."""
     folder = out / motion.stem
     run(walktrack, "analyse", motion, "-o", folder / "captured", "-y", "--mass", 70)
     numbers = json.loads((folder / "captured/run.json").read_text())["numbers"]
@@ -100,12 +101,14 @@ def measure(walktrack, out, motion, plates, first):
         run(walktrack, "render", motion, "--options", folder / "options.yaml", "-o", folder / "scene", "-y", "--threads", 1)
     if not (folder / "tracked/run.json").exists():
         run(walktrack, "track", folder / "scene/scene.yaml", "-o", folder / "tracked", "-y", "--no-overlay", "--threads", 1, allowed=(0, 4))
+    rows = []
     for name, result in (("motion capture", "captured"), ("tracked video", "tracked")):
         reaction, weight = storage(folder / result / "ground_reaction.mot"), mass * GRAVITY
         whole = list(pairs(plates, reaction, first))
         feet = [rmse(pairs(plates, reaction, first, foot), weight) for foot in ("r", "l")]
-        print(f"| {motion.stem}, {name} | {rmse(whole, weight):.1f} | {feet[0]:.1f}, {feet[1]:.1f} | {late(plates, reaction, first)} "
+        rows.append(f"| {motion.stem}, {name} | {rmse(whole, weight):.1f} | {feet[0]:.1f}, {feet[1]:.1f} | {late(plates, reaction, first)} "
               f"| {len(whole)} of {sum(t >= first for t in plates['time'])} |")
+    return mass, rows
 
 
 def main():
@@ -119,7 +122,7 @@ def main():
     print("|---|---|---|---|---|")
     for motion, plates in zip(arguments.trials[::2], arguments.trials[1::2]):
         (arguments.out / motion.stem).mkdir(parents=True, exist_ok=True)
-        measure(arguments.walktrack.resolve(), arguments.out, motion, storage(plates), arguments.first)
+        print(*measure(arguments.walktrack.resolve(), arguments.out, motion, storage(plates), arguments.first)[1], sep="\n")
 
 
 if __name__ == "__main__":

@@ -55,6 +55,16 @@ def mixed_sets(fit):
             yield f"{fit['quoted_in']}: '{row[0]}' says '{row[-1]}', and {fit['constants']} were fitted on {fit['videos']}"
 
 
+def wrong_quotes(quote):
+    text = " ".join((ROOT / quote["text"]).read_text().split())
+    kept = (FOLDER / f"{quote['table']}.md").read_text()
+    for phrase in quote["phrases"]:
+        if phrase not in text:
+            yield f"{quote['text']}: does not say '{phrase}', as figures.toml has it"
+        if phrase not in kept:
+            yield f"{quote['text']}: '{phrase}' is not what {quote['table']}.md has measured"
+
+
 def figures_without_source(text):
     text = re.sub(r"<!-- figures: .*?<!-- end of figures -->", "", text, flags=re.DOTALL)
     text = re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)
@@ -67,6 +77,7 @@ def main():
     spec = tomllib.loads((FOLDER / "figures.toml").read_text())
     wrong = [fault for table in spec["table"] for fault in faults_of(table, spec["most_commits"])]
     wrong += [fault for fit in spec["fit"] for fault in mixed_sets(fit)]
+    wrong += [fault for quote in spec["quote"] for fault in wrong_quotes(quote)]
     wrong += figures_without_source((ROOT / "README.md").read_text())
     print("\n".join(wrong) or f"{len(spec['table'])} tables are as they were measured")
     return 1 if wrong else 0
