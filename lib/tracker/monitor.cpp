@@ -67,12 +67,12 @@ void see(const FrameEstimate& estimate, uint32_t frame, double dt, MonitorState&
   state.last_seen = {pose.root.head<2>(), kept * before + (1 - kept) * now, frame};
 }
 
-bool is_within_reach(const MonitorConfig& config, const MonitorState& state,
+bool is_within_reach(const MonitorConfig& config, const std::optional<LastSeen>& last_seen,
                      const Eigen::Vector2d& place, uint32_t frame, double dt) {
-  if (!state.last_seen) return true;
-  const double elapsed = dt * (frame - state.last_seen->frame);
+  if (!last_seen) return true;
+  const double elapsed = dt * (frame - last_seen->frame);
   if (elapsed > config.reacquire_within) return true;
-  const Eigen::Vector2d expected = state.last_seen->position + elapsed * state.last_seen->velocity;
+  const Eigen::Vector2d expected = last_seen->position + elapsed * last_seen->velocity;
   return (place - expected).norm() < kNear + kTurnsAside * elapsed;
 }
 

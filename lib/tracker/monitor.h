@@ -54,7 +54,7 @@ bool is_off_people(const MonitorConfig& config, double dt, std::optional<bool> o
 void see(const FrameEstimate& estimate, uint32_t frame, double dt, MonitorState& state);
 
 // Whether a walker who was lost can be at a place: not far from where they were going.
-bool is_within_reach(const MonitorConfig& config, const MonitorState& state,
+bool is_within_reach(const MonitorConfig& config, const std::optional<LastSeen>& last_seen,
                      const Eigen::Vector2d& place, uint32_t frame, double dt);
 
 }  // namespace walktrack

@@ -1,54 +1,17 @@
 #include "tracker/tracker.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "core/conventions.h"
-#include "core/log_weights.h"
-#include "tracker/frame_likelihood.h"
-#include "tracker/leg_label_evidence.h"
-#include "tracker/moves/mirror_legs.h"
+#include "tracker/trial.h"
 
 namespace walktrack {
 
 namespace {
 
-// What is left of a video is searched from so many seconds on: as long as start
-// hypotheses compete.
+// What is left of a video is searched from so many seconds on: as long as start hypotheses compete.
 constexpr double kShortestWindow = 0.5;
 
-// Whether a figure lies on somebody whose keypoints are seen in any camera; nullopt where nobody's
-// are.
-std::optional<bool> on_somebody(const TrackerScene& scene, const SceneEvidence& evidence,
-                                const PosedBody& figure) {
-  std::optional<bool> out;
-  for (size_t c = 0; c < evidence.size(); ++c) {
-    const auto found =
-        KeypointTerm::on_somebody(scene.observation, evidence[c], scene.cameras[c], figure);
-    if (found) out = out.value_or(false) || *found;
-  }
-  return out;
-}
-
-const WalkerParticle& best_particle(const ParticleSet<WalkerParticle>& set) {
-  const auto best = std::max_element(set.log_weights.begin(), set.log_weights.end());
-  return set.states[static_cast<size_t>(best - set.log_weights.begin())];
-}
-
 }  // namespace
-
-SubjectModel::SubjectModel(const BodyModel& model, const GaitPrior& prior,
-                           const MotionConfig& config, double dt)
-    : motion(to_scale(config, model.body.subject.height)),
-      moves(make_motion_model(motion.model, model, prior)),
-      frame_scale(noise_scale(*moves, motion, model, dt)),
-      markov(markov_steps(*moves, motion, dt)),
-      figures(model, prior) {
-  // Other models do without a walker, or have none that could rest.
-  if (motion.standing && motion.model == MotionKind::kKneed)
-    standing = standing_process(*moves, motion, dt);
-}
 
 Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig& config,
                  uint64_t seed, int threads)
@@ -57,201 +20,155 @@ Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig
       config_(config),
       seed_(seed),
       threads_(threads),
-      kit_(scene_.model, prior, config.motion, scene_.dt),
-      filter_(config.filter, seed, threads) {}
+      subject_(scene_.model, prior, config.motion, scene_.dt),
+      mode_(Searching{WalkerFilter(config.filter, seed, threads), {}}) {}
 
 std::vector<FrameRecord> Tracker::push(const SceneEvidence& evidence) {
-  std::vector<FrameRecord> out;
+  Records out;
   consume(evidence, out);
   return out;
 }
 
 std::vector<FrameRecord> Tracker::finish() {
-  std::vector<FrameRecord> out;
-  if (scene_.initial && window_.size() > 1) start_as_given(out);
+  Records out;
+  const auto left = [this] { return static_cast<int>(search_.window().size()); };
+  if (scene_.initial && left() > 1) start_as_given(out);
   // The window is what is left, and less and less of it.
-  while (mode_ == Mode::kSearching && !scene_.initial &&
-         static_cast<int>(window_.size()) >= frames_in(kShortestWindow, scene_.dt)) {
-    config_.detector.window = scene_.dt * double(window_.size());
-    const SceneEvidence newest = std::move(window_.back());
-    window_.pop_back();
-    candidates_.pop_back();
-    search(newest, out);
+  while (is_searching(mode_) && !scene_.initial &&
+         left() >= frames_in(kShortestWindow, scene_.dt)) {
+    config_.detector.window = scene_.dt * left();
+    look_for_walk(out);
   }
-  if (mode_ == Mode::kStarting) settle(out);
-  out.resize(out.size() + waiting_.size() + window_.size());
-  waiting_.clear();
-  window_.clear();
+  if (std::holds_alternative<Starting>(mode_)) report(settle(mode_), {}, out);
+  out.resize(out.size() + search_.waiting() + search_.window().size());
+  search_.take();
   return out;
 }
 
+void Tracker::consume(const SceneEvidence& evidence, Records& out) {
+  if (is_searching(mode_)) return search(evidence, out);
+  const bool tracked = tracking();
+  if (!tracked) starting_.push_back(evidence);
+  Records records = follow(context(), evidence, frame_++, mode_);
+  if (tracked && !tracking()) ++losses_;
+  report(std::move(records), evidence, out);
+}
+
+// Frames of a start are reported when it has been decided who walks there, and which leg is which.
+void Tracker::report(Records records, const SceneEvidence& newest, Records& out) {
+  for (FrameRecord& record : records) {
+    judge(context(), starting_.empty() ? newest : starting_.front(), record);
+    if (!starting_.empty()) starting_.pop_front();
+    out.push_back(std::move(record));
+  }
+}
+
+void Tracker::search(const SceneEvidence& evidence, Records& out) {
+  if (scene_.initial && frame_ < static_cast<uint32_t>(scene_.initial_frame)) {
+    ++frame_;
+    out.emplace_back();
+    return;
+  }
+  if (scene_.initial && !wants_size()) {
+    mode_ = started(*std::exchange(scene_.initial, std::nullopt), scene_.initial_phase);
+    return consume(evidence, out);
+  }
+  search_.push(evidence);
+  const int wanted = frames_in(config_.detector.window, scene_.dt);
+  if (static_cast<int>(search_.window().size()) < wanted) return;
+  scene_.initial ? start_as_given(out) : look_for_walk(out);
+}
+
+void Tracker::look_for_walk(Records& out) {
+  const std::optional<DetectedWalk> walk = search_.find(context(), moment());
+  if (walk && (wants_size() ? start_unsized(*walk, out)
+                            : start_standing(*walk, out) || start_at(*walk, out)))
+    return;
+  ++frame_;
+  if (search_.slide(context())) out.emplace_back();
+}
+
+Starting Tracker::started(const DetectedWalk& walk, std::optional<double> stride_phase) {
+  return start_around(context(), walk, stride_phase, ++starts_, std::get<Searching>(mode_));
+}
+
+// Tracks the window's frames from a walk on; false, and nothing has happened, if that fails.
+bool Tracker::start_at(const DetectedWalk& walk, Records& out) {
+  const size_t frames = search_.window().size();
+  Trial trial = try_start(context(), search_.window(), frame_, started(walk, std::nullopt),
+                          walk.score * static_cast<double>(frames));
+  mode_ = std::move(trial.mode);
+  if (is_searching(mode_)) return false;
+  out.resize(out.size() + search_.waiting());  // of those before nobody was followed
+  frame_ += static_cast<uint32_t>(frames);
+  starting_ = search_.take();
+  report(std::move(trial.records), {}, out);
+  return true;
+}
+
+// Tracks from where somebody stands before the walk, if anybody does.
+bool Tracker::start_standing(const DetectedWalk& walk, Records& out) {
+  const std::optional<StandingStart> lead = search_.standing_lead(context(), walk);
+  if (!lead) return false;
+  const auto frames = static_cast<uint32_t>(lead->frames);
+  search_.reach_back(frames);
+  frame_ -= frames;
+  if (start_at(lead->detected, out)) return true;
+  search_.let_go(frames);
+  frame_ += frames;
+  return false;
+}
+
+// Tracks the walk of somebody of unknown height.
+bool Tracker::start_unsized(const DetectedWalk& walk, Records& out) {
+  const double height_before = body().subject.height;
+  const SizedWalk sized = search_.with_size(context(), moment(), walk);
+  stature_ = sized.stature;
+  set_height(sized.stature.height);
+  if (start_at(sized.walk, out)) return true;
+  stature_.reset();
+  set_height(height_before);
+  return false;
+}
+
+// Starts where the scene says, the window's first frame, and tracks the window's frames.
+void Tracker::start_as_given(Records& out) {
+  const DetectedWalk given = *std::exchange(scene_.initial, std::nullopt);
+  stature_ = search_.with_size_along(context(), moment(), given).stature;
+  set_height(stature_->height);
+  mode_ = started(given, scene_.initial_phase);
+  for (const SceneEvidence& each : search_.take()) consume(each, out);
+}
+
+void Tracker::set_height(double height) {
+  scene_.model = with_height(scene_.model, height);
+  subject_ = SubjectModel(scene_.model, prior_, config_.motion, scene_.dt);
+  search_.forget_places();
+}
+
 TrackerState Tracker::state() const {
-  return {frame_, starts_, filter_.state(), monitor_, losses_, p_legs_swapped_, stature_};
+  const Tracking& now = tracked();
+  return {frame_, starts_, now.filter.state(), now.monitor, losses_, now.p_legs_swapped, stature_};
 }
 
 void Tracker::resume(TrackerState state) {
-  mode_ = Mode::kTracking;
+  Tracking now{WalkerFilter(config_.filter, seed_, threads_),
+               std::move(state.monitor),
+               state.p_legs_swapped,
+               {}};
+  now.filter.resume(std::move(state.filter));
+  mode_ = std::move(now);
   scene_.initial.reset();  // used up
   frame_ = state.frame;
   starts_ = state.starts;
-  filter_.resume(std::move(state.filter));
-  monitor_ = std::move(state.monitor);
   losses_ = state.losses;
-  p_legs_swapped_ = state.p_legs_swapped;
   stature_ = state.stature;
   if (stature_) set_height(stature_->height);
 }
 
-Eigen::Vector2d Tracker::mean_place() const {
-  const auto& set = filter_.particles();
-  const std::vector<double> weights = normalised_weights(set.log_weights);
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (size_t i = 0; i < weights.size(); ++i) sum += weights[i] * set.states[i].pose.root.head<2>();
-  return sum;
-}
-
 void Tracker::use_particles(int count) {
   config_.filter.particles = count;
-  const auto& set = filter_.particles();
-  if (mode_ != Mode::kTracking || set.states.size() == static_cast<size_t>(count)) return;
-  std::vector<uint32_t> chosen(static_cast<size_t>(count));
-  systematic_resample(set.log_weights, 0.5, chosen);
-  std::vector<WalkerParticle> states;
-  for (const uint32_t i : chosen) states.push_back(set.states[i]);
-  filter_.start(std::move(states));
-}
-
-void Tracker::consume(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
-  switch (mode_) {
-    case Mode::kSearching:
-      return search(evidence, out);
-    case Mode::kStarting:
-      return compete(evidence, out);
-    case Mode::kTracking:
-      return track(evidence, out);
-  }
-}
-
-WalkerFilterContext Tracker::context(bool first) const {
-  MotionConfig motion = kit_.motion;
-  const NoiseScale scale =
-      first ? start_scale(config_.start, *kit_.moves, motion, kit_.frame_scale) : kit_.frame_scale;
-  if (first && start_is_given_) motion.start_position_sd = motion.given_position_sd;
-  return {scene_,
-          {scene_.model, prior_, *kit_.moves, motion, scale, kit_.markov, scene_.dt,
-           kit_.standing ? &*kit_.standing : nullptr},
-          config_.samples,
-          threads_,
-          config_.model_error};
-}
-
-void Tracker::begin(const DetectedWalk& detected, std::optional<double> stride_phase) {
-  const uint64_t seed = seed_ + 0xD1B54A32D192ED03u * ++starts_;  // streams of its own
-  start_is_given_ = detected.given;
-  hypotheses_.emplace(context(true).motion, config_.start, config_.filter, detected, stride_phase,
-                      seed, threads_);
-  mode_ = Mode::kStarting;
-}
-
-void Tracker::compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
-  const bool explained = hypotheses_->step(context(hypotheses_->frames() == 0), evidence, frame_);
-  if (window_.empty()) hypotheses_frames_.push_back(evidence);
-  ++frame_;
-  if (!explained) {
-    hypotheses_frames_.clear();
-    out.resize(out.size() + static_cast<size_t>(hypotheses_->frames()));  // frames stay untracked
-    hypotheses_.reset();
-    mode_ = Mode::kSearching;
-    return;
-  }
-  if (hypotheses_->decided()) settle(out);
-}
-
-// What is left of the start hypotheses becomes one set of particles.
-void Tracker::settle(std::vector<FrameRecord>& out) {
-  filter_.start(hypotheses_->resampled());
-  std::deque<double> log_likelihoods;
-  for (const FrameRecord& record : hypotheses_->records()) {
-    log_likelihoods.push_back(record.mean_log_likelihood);
-    out.push_back(record);
-    if (hypotheses_frames_.empty()) continue;
-    refine(hypotheses_frames_.front(), out.back());
-    hypotheses_frames_.pop_front();
-  }
-  p_legs_swapped_ = hypotheses_->records().back().modes.p_legs_swapped;
-  mean_pose_ = hypotheses_->records().back().estimate.pose;
-  hypotheses_.reset();
-  mode_ = Mode::kTracking;
-  begin_watch(std::move(log_likelihoods), monitor_);
-}
-
-// Whether a set that takes one leg for the other goes unnoticed: several cameras see it, and only
-// the kneed walker reads poses anew (tracker/moves/phase_jump.h).
-bool Tracker::labels_may_switch() const {
-  return scene_.cameras.size() == 1 && config_.motion.model == MotionKind::kKneed;
-}
-
-// Takes the particles through a frame. Where left and right have switched, legs are mirrored back.
-FrameRecord Tracker::follow(const SceneEvidence& evidence) {
-  const WalkerFilterContext now = context(false);
-  std::optional<double> expected;  // place in the stride
-  if (labels_may_switch()) {
-    const auto& set = filter_.particles();
-    expected = phase_ahead(set.states, normalised_weights(set.log_weights), scene_.dt);
-  }
-  FrameRecord record = advance(now, evidence, frame_, seed_, false, filter_);
-  if (expected && record.tracked && record.modes.standing < 0.5 &&
-      label_switched(*expected, record.modes.phase)) {
-    mirror_legs(now.motion, filter_);
-    mirror_legs(body(), record);
-  }
-  return record;
-}
-
-// While a window of frames is tried, what is tried is what the particles say: the window is refined
-// when it has been decided who walks there, and which leg is which. What comes of it is then judged
-// by its frame's evidence, which is gone when frames are smoothed.
-void Tracker::refine(const SceneEvidence& evidence, FrameRecord& record) const {
-  if (!window_.empty() || !record.tracked) return;
-  if (config_.estimate == EstimateKind::kMap) walktrack::refine(scene_, evidence, threads_, record);
-  record.fit = figure_fit(scene_, evidence, record.estimate.pose);
-  record.names = names_in_frame(scene_, evidence, record.estimate.pose);
-}
-
-void Tracker::track(const SceneEvidence& evidence, std::vector<FrameRecord>& out) {
-  FrameRecord record = follow(evidence);
-  ++frame_;
-  // A hypothesis that lost the start is not followed any more, so its evidence is unknown now.
-  record.modes.p_legs_swapped += p_legs_swapped_ * (1 - 2 * record.modes.p_legs_swapped);
-  if (is_lost(evidence, record)) {
-    record.tracked = false;
-    ++losses_;
-    mode_ = Mode::kSearching;
-  }
-  if (mode_ == Mode::kTracking && monitor_.frames_below == 0)
-    see(record.estimate, frame_, scene_.dt, monitor_);
-  mean_pose_ = record.estimate.pose;
-  if (record.tracked)
-    record.evidence =
-        FrameLikelihood(scene_, evidence, true).by_term(best_particle(filter_.particles()));
-  refine(evidence, record);
-  out.push_back(std::move(record));
-}
-
-// Whether a walker who was lost can be at a place.
-bool Tracker::within_reach(const Eigen::Vector2d& place, uint32_t frame) const {
-  return is_within_reach(config_.monitor, monitor_, place, frame, scene_.dt);
-}
-
-// What the monitor says of a frame; it takes in all that there is to say, lost or not.
-bool Tracker::is_lost(const SceneEvidence& evidence, const FrameRecord& record) {
-  if (record.filter.all_dead) return true;
-  const double figure = figure_score(evidence, record.estimate);
-  if (is_fading(config_.monitor, config_.detector.least_score, scene_.dt,
-                record.mean_log_likelihood, figure, monitor_))
-    return true;
-  const PosedBody posed(body(), record.estimate.pose);
-  return is_off_people(config_.monitor, scene_.dt, on_somebody(scene_, evidence, posed), monitor_);
+  if (tracking()) walktrack::use_particles(count, std::get<Tracking>(mode_));
 }
 
 }  // namespace walktrack

@@ -1,44 +1,26 @@
 // The tracker: frames of evidence in, poses with their uncertainty out.
 //
-//   searching: look for a walk in a sliding window of frames         (tracker/detect/detector.h); a
-//   start
-//              that explains the window worse than the straight walk it came from has failed. A
-//              person of unknown size is sized up by the same window  (tracker/detect/stature.h),
-//              once
-//   starting:  hypotheses over phase and side compete for a while    (tracker/start_hypotheses.h)
-//   tracking:  for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h)
-//   lost:      the monitor says so (tracker/monitor.h); search again, for a while only where the
-//              walker can be
+//   searching  for a walk in a sliding window of frames (tracker/detect/walk_search.h)
+//              which is tried out on the window (tracker/trial.h). A person of unknown size is
+//              sized up by the same window (tracker/detect/stature.h), once.
+//   starting   hypotheses over phase and side compete for a while     (tracker/start_hypotheses.h)
+//   tracking   for every frame: propagate, weigh, resample, estimate  (tracker/walker_filter.h)
+//   lost       the monitor says so (tracker/monitor.h); searching again, for a while only where the
+//              subject can be
 //
-// Frames before the walk was found, and while it was lost, are reported as not tracked. Searching
-// looks a window ahead, so records come out late at first and one for one afterwards.
+// Modes are values (tracker/track_mode.h). Frames before the walk was found, and while it was lost,
+// are reported as not tracked. Searching looks a window ahead, so records come out late at first
+// and one for one afterwards.
 #pragma once
 
 #include <deque>
-#include <memory>
 #include <optional>
 #include <vector>
 
-#include "tracker/detect/standing_start.h"
-#include "tracker/detect/stature.h"
-#include "tracker/monitor.h"
-#include "tracker/motion/standing.h"
-#include "tracker/smooth/refinement.h"
-#include "tracker/start_hypotheses.h"
-#include "tracker/walker_filter.h"
+#include "tracker/detect/walk_search.h"
+#include "tracker/track_mode.h"
 
 namespace walktrack {
-
-struct TrackerConfig {
-  MotionConfig motion;
-  FilterConfig filter;
-  DetectorConfig detector;
-  StartConfig start;
-  MonitorConfig monitor;
-  int samples = 20;        // particles kept of every frame to show the spread
-  double model_error = 1;  // multiplies what bands hold beyond the particles' spread
-  EstimateKind estimate = EstimateKind::kMap;
-};
 
 // All that the next frame of a tracker in its tracking mode depends on.
 struct TrackerState {
@@ -48,19 +30,6 @@ struct TrackerState {
   int losses = 0;
   double p_legs_swapped = 0;
   std::optional<Stature> stature;
-};
-
-// What follows from the body that is tracked.
-struct SubjectModel {
-  SubjectModel(const BodyModel& model, const GaitPrior& prior, const MotionConfig& config,
-               double dt);
-
-  MotionConfig motion;  // to the body's scale
-  std::unique_ptr<const MotionModel> moves;
-  NoiseScale frame_scale;
-  MarkovSteps markov;
-  std::optional<StandingProcess> standing;
-  PoseTemplates figures;
 };
 
 class Tracker {
@@ -80,15 +49,17 @@ class Tracker {
   // Whether the next frame's evidence is to hold its picture: a walk that is looked for in front of
   // one camera has its legs told apart by it.
   bool wants_picture() const {
-    return mode_ == Mode::kSearching && !scene_.initial && scene_.cameras.size() == 1;
+    return is_searching(mode_) && !scene_.initial && scene_.cameras.size() == 1;
   }
   // Whether the newest frame has been tracked, so that its particles say where the person is.
-  bool tracking() const { return mode_ == Mode::kTracking; }
-  const ParticleSet<WalkerParticle>& particles() const { return filter_.particles(); }
-  // Their mean in the newest frame, whatever is reported of it; after push() while tracking().
-  const Pose& mean_pose() const { return mean_pose_; }
+  bool tracking() const { return is_tracking(mode_); }
+  // While tracking():
+  const ParticleSet<WalkerParticle>& particles() const { return tracked().filter.particles(); }
+  // Their mean in the newest frame, whatever is reported of it; after push().
+  const Pose& mean_pose() const { return tracked().mean_pose; }
   // Where that is over the ground; after resume(), too.
-  Eigen::Vector2d mean_place() const;
+  Eigen::Vector2d mean_place() const { return walktrack::mean_place(tracked()); }
+
   // Times that the track was lost after it had been found.
   int losses() const { return losses_; }
   // Who is tracked: the scene's model until they have been sized up, if it does not know their
@@ -104,71 +75,36 @@ class Tracker {
   void resume(TrackerState state);
 
  private:
-  enum class Mode { kSearching, kStarting, kTracking };
-  void consume(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
-  void search(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
-  std::vector<Place> places_in_frame(size_t index, const Body& body,
-                                     const PoseTemplates& figures) const;
-  const std::vector<Place>& candidates(size_t index);
-  bool wants_size() const { return !scene_.size_known && !stature_; }
-  WindowScore window_score(const Body& body, const PoseTemplates& figures) const;
-  std::vector<DetectedWalk> lines_by_keypoints() const;
-  bool walks_clearly(const DetectedWalk& walk);
-  std::optional<StandingStart> standing_lead(const DetectedWalk& walk) const;
-  bool attempt_standing(const DetectedWalk& walk, std::vector<FrameRecord>& out);
-  bool attempt_found(const DetectedWalk& walk, std::vector<FrameRecord>& out);
-  void slide(std::vector<FrameRecord>& out);
-  std::optional<DetectedWalk> look_for_walk(const BodyModel& model) const;
-  Eigen::Vector2d camera_position() const;
-  SizedWalk sized_up(const DetectedWalk& walk, double height) const;
-  SizedWalk best_size(const DetectedWalk& found) const;
-  bool attempt_unsized(const DetectedWalk& found, std::vector<FrameRecord>& out);
-  void take_size(const Stature& stature);
+  using Records = std::vector<FrameRecord>;
+  void consume(const SceneEvidence& evidence, Records& out);
+  void search(const SceneEvidence& evidence, Records& out);
+  void look_for_walk(Records& out);
+  bool start_at(const DetectedWalk& walk, Records& out);
+  bool start_standing(const DetectedWalk& walk, Records& out);
+  bool start_unsized(const DetectedWalk& walk, Records& out);
+  void start_as_given(Records& out);
+  Starting started(const DetectedWalk& walk, std::optional<double> stride_phase);
+  void report(Records records, const SceneEvidence& newest, Records& out);
   void set_height(double height);
-  void start_as_given(std::vector<FrameRecord>& out);
-  bool attempt(const DetectedWalk& detected, std::vector<FrameRecord>& out);
-  struct Trial;
-  void follow_rest(Trial& trial);
-  Trial with_mirrored_legs(const Trial& trial);
-  Trial with_legs_named(Trial first);
-  void begin(const DetectedWalk& detected, std::optional<double> stride_phase);
-  void compete(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
-  void settle(std::vector<FrameRecord>& out);
-  void track(const SceneEvidence& evidence, std::vector<FrameRecord>& out);
-  bool labels_may_switch() const;
-  FrameRecord follow(const SceneEvidence& evidence);
-  void refine(const SceneEvidence& evidence, FrameRecord& record) const;
-  WalkerFilterContext context(bool first) const;
-  bool within_reach(const Eigen::Vector2d& place, uint32_t frame) const;
-  double figure_score(const SceneEvidence& evidence, const FrameEstimate& estimate) const;
-  bool is_lost(const SceneEvidence& evidence, const FrameRecord& record);
+
+  const Tracking& tracked() const { return std::get<Tracking>(mode_); }
+  bool wants_size() const { return !scene_.size_known && !stature_; }
+  TrackContext context() const { return {scene_, prior_, config_, subject_, seed_, threads_}; }
+  SearchMoment moment() const { return {frame_, std::get<Searching>(mode_).last_seen}; }
 
   TrackerScene scene_;
   const GaitPrior& prior_;
   TrackerConfig config_;
   uint64_t seed_;
   int threads_;
-  SubjectModel kit_;
+  SubjectModel subject_;
 
-  Mode mode_ = Mode::kSearching;
-  uint32_t frame_ = 0;  // of the next evidence to be worked on
-  std::vector<Eigen::Vector2d> places_;
-  std::deque<SceneEvidence> window_;
-  // Frames before the window in which somebody may have stood who walks now; their records have
-  // not come out.
-  std::deque<SceneEvidence> waiting_;
-  size_t slight_walks_ = 0;  // windows in a row that show somebody who may as well stand
-  std::deque<std::optional<std::vector<Place>>> candidates_;  // of frames that were asked
-  std::optional<StartHypotheses> hypotheses_;
-  // Frames of the start hypotheses that are not in the window, to refine what it says of them.
-  std::deque<SceneEvidence> hypotheses_frames_;
-  uint32_t starts_ = 0;          // how often a search has ended: keys the random streams
-  bool start_is_given_ = false;  // the last one
-  WalkerFilter filter_;
-  Pose mean_pose_;
-  MonitorState monitor_;
+  TrackMode mode_;
+  WalkSearch search_;
+  std::deque<SceneEvidence> starting_;  // frames of the start hypotheses
+  uint32_t frame_ = 0;                  // the next to be tracked
+  uint32_t starts_ = 0;                 // tried
   int losses_ = 0;
-  double p_legs_swapped_ = 0;  // probability that the start has chosen the wrong leg
   std::optional<Stature> stature_;
 };
 

@@ -73,18 +73,20 @@ TEST(Monitor, OffAllPeopleForAWhileIsLost) {
 TEST(Monitor, LooksWhereTheWalkerCanBe) {
   const MonitorConfig config;
   MonitorState state;
-  EXPECT_TRUE(is_within_reach(config, state, {50, 50}, 0, kDt)) << "never seen";
+  EXPECT_TRUE(is_within_reach(config, state.last_seen, {50, 50}, 0, kDt)) << "never seen";
   FrameEstimate estimate;
   estimate.pose.root = {1, 2, 0.9};
   estimate.speed = 1.2;  // along x
   for (uint32_t frame = 0; frame < 60; ++frame) see(estimate, frame, kDt, state);
   EXPECT_NEAR(state.last_seen->velocity.x(), 1.2, 1e-9);
   const auto later = 59 + static_cast<uint32_t>(frames_in(1, kDt));
-  EXPECT_TRUE(is_within_reach(config, state, {2.2, 2}, later, kDt)) << "they went on";
-  EXPECT_TRUE(is_within_reach(config, state, {1.2, 2.5}, later, kDt)) << "they stopped";
-  EXPECT_FALSE(is_within_reach(config, state, {-0.5, 2}, later, kDt)) << "somebody behind them";
+  EXPECT_TRUE(is_within_reach(config, state.last_seen, {2.2, 2}, later, kDt)) << "they went on";
+  EXPECT_TRUE(is_within_reach(config, state.last_seen, {1.2, 2.5}, later, kDt)) << "they stopped";
+  EXPECT_FALSE(is_within_reach(config, state.last_seen, {-0.5, 2}, later, kDt))
+      << "somebody behind them";
   const auto long_after = 59 + static_cast<uint32_t>(frames_in(config.reacquire_within + 1, kDt));
-  EXPECT_TRUE(is_within_reach(config, state, {-5, 2}, long_after, kDt)) << "anywhere by now";
+  EXPECT_TRUE(is_within_reach(config, state.last_seen, {-5, 2}, long_after, kDt))
+      << "anywhere by now";
 }
 
 }  // namespace

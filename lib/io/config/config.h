@@ -17,8 +17,8 @@
 #include "io/video/encoder_preset.h"
 #include "kinetics/kinetics.h"
 #include "observation/config.h"
+#include "tracker/config.h"
 #include "tracker/smooth/smoothing.h"
-#include "tracker/tracker.h"
 
 namespace walktrack {
 

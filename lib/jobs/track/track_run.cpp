@@ -76,9 +76,9 @@ TrackRun::TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& f
   if (checkpoint) tracker_.resume(std::move(checkpoint->tracker));
   if (!budget_.on()) return;
   particles_used_.assign(first_frame_, std::numeric_limits<double>::quiet_NaN());
-  const size_t resumed = tracker_.particles().states.size();
-  tracker_.use_particles(budget_.bounded(resumed > 0 ? static_cast<double>(resumed)
-                                                     : job.config.values.tracker.filter.particles));
+  tracker_.use_particles(
+      budget_.bounded(tracker_.tracking() ? static_cast<double>(tracker_.particles().states.size())
+                                          : job.config.values.tracker.filter.particles));
 }
 
 void TrackRun::skip(const JobControl& control) {

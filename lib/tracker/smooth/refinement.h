@@ -15,9 +15,6 @@
 
 namespace walktrack {
 
-// What is reported of a frame: the particles' mean, or the most probable pose near it.
-enum class EstimateKind { kMean, kMap };
-
 // Moves a tracked frame's estimate there: pose, joints, bands and samples.
 void refine(const TrackerScene& scene, const SceneEvidence& evidence, int threads,
             FrameRecord& record);

@@ -1,0 +1,104 @@
+#include "tracker/detect/search_window.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/anthropometry.h"
+#include "core/parallel_for.h"
+#include "tracker/detect/keypoint_lines.h"
+
+namespace walktrack {
+
+namespace {
+
+// The walk that figures of another body see in the window.
+std::optional<DetectedWalk> look_for_walk(const SearchWindow& window, const BodyModel& model) {
+  const TrackContext& context = window.context;
+  const PoseTemplates figures(model, context.prior);
+  const WindowEnds ends = window_ends(window.frames.size());
+  const std::vector<Place> early = places_in_frame(window, ends.early, model.body, figures),
+                           late = places_in_frame(window, ends.late, model.body, figures);
+  return detect_walk({window.frames.size(), early, late}, window_score(window, model.body, figures),
+                     context.scene.dt, camera_position(context.scene), context.config.detector,
+                     context.threads);
+}
+
+}  // namespace
+
+WindowScore window_score(const SearchWindow& window, const Body& body,
+                         const PoseTemplates& figures) {
+  return [&](size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d& velocity) {
+    const double heading = std::atan2(velocity.y(), velocity.x());
+    return place_score(window.context.scene, window.frames[frame], body,
+                       figures.at(velocity.norm(), heading), place, heading);
+  };
+}
+
+std::vector<Place> places_in_frame(const SearchWindow& window, size_t index, const Body& body,
+                                   const PoseTemplates& templates) {
+  const TrackContext& context = window.context;
+  const uint32_t frame = window.first_frame + static_cast<uint32_t>(index);
+  const auto score = [&](const Eigen::Vector2d& place) {
+    if (!is_within_reach(context.config.monitor, window.last_seen, place, frame, context.scene.dt))
+      return 0.0;
+    // Half of the figures, half a step, will do for a first look.
+    const double heading = side_on_heading(context.scene.cameras[0], place);
+    const std::span<const Pose> figures = templates.at(anthropometry::kUsualSpeed, heading);
+    return place_score(context.scene, window.frames[index], body, figures.first(figures.size() / 2),
+                       place, heading);
+  };
+  return find_figures(score, window.places, context.config.detector, context.threads);
+}
+
+std::vector<DetectedWalk> lines_by_keypoints(const SearchWindow& window) {
+  constexpr double kLeastShare = 0.5;  // of the window in which the person was seen
+  const TrackerScene& scene = window.context.scene;
+  const DetectorConfig& config = window.context.config.detector;
+  std::vector<DetectedWalk> out;
+  for (size_t c = 0; c < scene.cameras.size(); ++c) {
+    std::vector<const KeypointEvidence*> frames;
+    for (const SceneEvidence& frame : window.frames) frames.push_back(&frame[c].keypoints);
+    for (const KeypointLine& line :
+         keypoint_lines(frames, scene.cameras[c], window.context.body().subject.height, scene.dt,
+                        kLeastShare * config.window)) {
+      const double speed = line.velocity.norm();
+      if (speed >= config.slowest && speed <= config.fastest)
+        out.push_back({.position = line.position, .velocity = line.velocity});
+    }
+  }
+  return out;
+}
+
+Eigen::Vector2d camera_position(const TrackerScene& scene) {
+  return camera_centre(scene.cameras[0]).head<2>();
+}
+
+SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double height) {
+  const TrackContext& context = window.context;
+  const auto score = [&](double tried) -> WindowScore {
+    const BodyModel model = with_height(context.scene.model, tried);
+    return [&window, body = model.body, figures = PoseTemplates(model, context.prior)](
+               size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d& velocity) {
+      return window_score(window, body, figures)(frame, place, velocity);
+    };
+  };
+  return size_up(walk, height, window.frames.size(), score, context.scene.dt,
+                 camera_position(context.scene));
+}
+
+SizedWalk best_size(const SearchWindow& window, const DetectedWalk& found) {
+  const TrackContext& context = window.context;
+  std::vector<SizedWalk> sizes{{{context.body().subject.height, 0}, found}};
+  for (const double height : {1.3, 1.5, 1.6, 1.9}) {
+    const auto other = look_for_walk(window, with_height(context.scene.model, height));
+    if (other) sizes.push_back({{height, 0}, *other});
+  }
+  parallel_for(sizes.size(), context.threads, [&](size_t i) {
+    sizes[i] = sized_up(window, sizes[i].walk, sizes[i].stature.height);
+  });
+  return *std::max_element(sizes.begin(), sizes.end(), [](const SizedWalk& a, const SizedWalk& b) {
+    return a.walk.score < b.walk.score;
+  });
+}
+
+}  // namespace walktrack

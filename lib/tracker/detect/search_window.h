@@ -1,0 +1,46 @@
+// What the frames of a window say of walks through it: the scores, places, lines and sizes that the
+// detector (tracker/detect/detector.h) and the estimate of the height (tracker/detect/stature.h)
+// ask for.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tracker/detect/stature.h"
+#include "tracker/subject_model.h"
+
+namespace walktrack {
+
+struct SearchWindow {
+  const TrackContext& context;
+  const std::deque<SceneEvidence>& frames;
+  uint32_t first_frame;                      // number of the window's first
+  const std::optional<LastSeen>& last_seen;  // the subject, if they were lost
+  std::span<const Eigen::Vector2d> places;   // over which figures are tried
+};
+
+// How well figures of a body explain the window's frames.
+WindowScore window_score(const SearchWindow& window, const Body& body,
+                         const PoseTemplates& figures);
+
+// Where somebody of that body may stand in a frame of the window.
+std::vector<Place> places_in_frame(const SearchWindow& window, size_t index, const Body& body,
+                                   const PoseTemplates& figures);
+
+// The lines along which keypoints go at a walker's speed.
+std::vector<DetectedWalk> lines_by_keypoints(const SearchWindow& window);
+
+// Where the camera stands that is asked for distances.
+Eigen::Vector2d camera_position(const TrackerScene& scene);
+
+// The height that explains the window best along about that line, which figures of `height` have
+// seen.
+SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double height);
+
+// The size and line that explain the window best. Figures of a wrong size may lay the line far off,
+// so it is looked for with others, too.
+SizedWalk best_size(const SearchWindow& window, const DetectedWalk& found);
+
+}  // namespace walktrack

@@ -1,0 +1,122 @@
+#include "tracker/detect/walk_search.h"
+
+#include <utility>
+
+namespace walktrack {
+
+namespace {
+
+// Frames before a walk are kept for so long, s, to follow somebody who stood there first. By hand.
+constexpr double kStandingKept = 3;
+
+}  // namespace
+
+void WalkSearch::push(const SceneEvidence& evidence) {
+  candidates_.emplace_back();
+  window_.push_back(evidence);
+}
+
+SearchWindow WalkSearch::view(const TrackContext& context, const SearchMoment& moment) const {
+  return {context, window_, moment.first_frame, moment.last_seen, places_};
+}
+
+std::optional<DetectedWalk> WalkSearch::find(const TrackContext& context,
+                                             const SearchMoment& moment) {
+  const TrackerScene& scene = context.scene;
+  const DetectorConfig& config = context.config.detector;
+  if (places_.empty())
+    places_ = standing_places(scene.cameras, context.body().subject.height, config);
+  const SearchWindow window = view(context, moment);
+  const WindowEnds ends = window_ends(window_.size());
+  const std::vector<DetectedWalk> lines = lines_by_keypoints(window);
+  const std::optional<DetectedWalk> walk = detect_walk(
+      {window_.size(), candidates(window, ends.early), candidates(window, ends.late), lines},
+      window_score(window, context.body(), context.subject.figures), scene.dt,
+      camera_position(scene), config, context.threads);
+  const bool believed = walk &&
+                        is_within_reach(context.config.monitor, moment.last_seen, walk->position,
+                                        moment.first_frame, scene.dt) &&
+                        walks_clearly(context, *walk);
+  return believed ? walk : std::nullopt;
+}
+
+const std::vector<Place>& WalkSearch::candidates(const SearchWindow& window, size_t index) {
+  std::optional<std::vector<Place>>& found = candidates_[index];
+  if (!found) {
+    const TrackContext& context = window.context;
+    found = places_in_frame(window, index, context.body(), context.subject.figures);
+  }
+  return *found;
+}
+
+// Somebody who stands is now and then seen to walk slowly, above all along the viewing ray: such a
+// walk is believed when it has been seen for as long as the window.
+bool WalkSearch::walks_clearly(const TrackContext& context, const DetectedWalk& walk) {
+  constexpr double kClearly = 0.15, kSlightly = 0.05;
+  if (!context.subject.standing || walk.over_standing >= kClearly) return true;
+  slight_walks_ = walk.over_standing >= kSlightly ? slight_walks_ + 1 : 0;
+  return slight_walks_ >= window_.size();
+}
+
+SizedWalk WalkSearch::with_size(const TrackContext& context, const SearchMoment& moment,
+                                const DetectedWalk& walk) const {
+  return best_size(view(context, moment), walk);
+}
+
+SizedWalk WalkSearch::with_size_along(const TrackContext& context, const SearchMoment& moment,
+                                      const DetectedWalk& walk) const {
+  return sized_up(view(context, moment), walk, context.body().subject.height);
+}
+
+std::optional<StandingStart> WalkSearch::standing_lead(const TrackContext& context,
+                                                       const DetectedWalk& walk) const {
+  if (waiting_.empty()) return std::nullopt;
+  const Pose figure = standing_pose(context.scene.model);
+  const auto score = [&](size_t back, const Eigen::Vector2d& place,
+                         double heading) -> std::optional<double> {
+    if (back > waiting_.size()) return std::nullopt;
+    return place_score(context.scene, waiting_[waiting_.size() - back], context.body(),
+                       {&figure, 1}, place, heading);
+  };
+  std::optional<StandingStart> lead =
+      standing_before(walk, score, context.scene.dt, context.config.detector);
+  if (lead) {
+    const double walked = walk.score * double(window_.size());
+    lead->detected.score = (walked + lead->score) / double(window_.size() + lead->frames);
+  }
+  return lead;
+}
+
+void WalkSearch::reach_back(size_t frames) {
+  for (size_t i = 0; i < frames; ++i) {
+    window_.push_front(std::move(waiting_.back()));
+    waiting_.pop_back();
+    candidates_.emplace_front();
+  }
+}
+
+void WalkSearch::let_go(size_t frames) {
+  for (size_t i = 0; i < frames; ++i) {
+    waiting_.push_back(std::move(window_.front()));
+    window_.pop_front();
+    candidates_.pop_front();
+  }
+}
+
+bool WalkSearch::slide(const TrackContext& context) {
+  let_go(1);
+  const auto kept = context.subject.standing
+                        ? static_cast<size_t>(frames_in(kStandingKept, context.scene.dt))
+                        : size_t{0};
+  if (waiting_.size() <= kept) return false;
+  waiting_.pop_front();
+  return true;
+}
+
+std::deque<SceneEvidence> WalkSearch::take() {
+  waiting_.clear();
+  candidates_.clear();
+  return std::exchange(window_, {});
+}
+
+}  // namespace walktrack

@@ -1,0 +1,35 @@
+#include "tracker/subject_model.h"
+
+namespace walktrack {
+
+SubjectModel::SubjectModel(const BodyModel& model, const GaitPrior& prior,
+                           const MotionConfig& config, double dt)
+    : motion(to_scale(config, model.body.subject.height)),
+      moves(make_motion_model(motion.model, model, prior)),
+      frame_scale(noise_scale(*moves, motion, model, dt)),
+      markov(markov_steps(*moves, motion, dt)),
+      figures(model, prior) {
+  // Other models do without a walker, or have none that could rest.
+  if (motion.standing && motion.model == MotionKind::kKneed)
+    standing = standing_process(*moves, motion, dt);
+}
+
+WalkerFilterContext filter_context(const TrackContext& context) {
+  const SubjectModel& subject = context.subject;
+  return {context.scene,
+          {context.scene.model, context.prior, *subject.moves, subject.motion, subject.frame_scale,
+           subject.markov, context.scene.dt, subject.standing ? &*subject.standing : nullptr},
+          context.config.samples,
+          context.threads,
+          context.config.model_error};
+}
+
+WalkerFilterContext first_filter_context(const TrackContext& context, bool given) {
+  WalkerFilterContext out = filter_context(context);
+  MotionContext& motion = out.motion;
+  motion.scale = start_scale(context.config.start, motion.moves, motion.config, motion.scale);
+  if (given) motion.config.start_position_sd = motion.config.given_position_sd;
+  return out;
+}
+
+}  // namespace walktrack

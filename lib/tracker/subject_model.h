@@ -1,0 +1,43 @@
+// What follows from the body that is tracked, and what all frames of a scene share.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "tracker/config.h"
+#include "tracker/motion/standing.h"
+#include "tracker/scene.h"
+#include "tracker/walker_filter.h"
+
+namespace walktrack {
+
+struct SubjectModel {
+  SubjectModel(const BodyModel& model, const GaitPrior& prior, const MotionConfig& config,
+               double dt);
+
+  MotionConfig motion;  // to the body's scale
+  std::unique_ptr<const MotionModel> moves;
+  NoiseScale frame_scale;
+  MarkovSteps markov;
+  std::optional<StandingProcess> standing;
+  PoseTemplates figures;
+};
+
+struct TrackContext {
+  const TrackerScene& scene;
+  const GaitPrior& prior;
+  const TrackerConfig& config;
+  const SubjectModel& subject;  // of the scene's body
+  uint64_t seed;
+  int threads;
+
+  const Body& body() const { return scene.model.body; }
+};
+
+// What a frame of a filter needs.
+WalkerFilterContext filter_context(const TrackContext& context);
+// The same for the first frame around a walk, whose noise is as wide as the walk is uncertain: the
+// scene has stated it, or it was detected.
+WalkerFilterContext first_filter_context(const TrackContext& context, bool given);
+
+}  // namespace walktrack
