@@ -1,6 +1,6 @@
 // The first particles: a walker seen at a place, walking some way, may be in any phase of either
-// leg's step. Hypotheses over phase and side are tracked side by side for a while and compete by
-// evidence, so that no single frame decides left from right.
+// leg's step. They are drawn by hypotheses over phase and side, which then compete
+// (tracker/start_hypotheses.h).
 #pragma once
 
 #include <vector>

@@ -1,5 +1,8 @@
 // Which phase of the stride does a walker start in? Hypotheses over the whole stride are tracked
-// side by side for a while and compete by evidence, so that no single frame decides.
+// side by side for a while, each a particle filter of its own, and compete by evidence, so that no
+// single frame decides: a mixture whose components are resampled separately and whose weights are
+// their evidence (Vermaak, Doucet & Perez, "Maintaining multi-modality through mixture tracking",
+// ICCV 2003).
 //
 // A second round between the best and the best of those half a stride away (legs swapped) was
 // tried: it lost blurred videos that the first round decides rightly, and won nothing for it.

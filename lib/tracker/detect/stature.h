@@ -3,7 +3,7 @@
 // Cameras over known ground see it: the feet show where somebody stands, the top of the head how
 // high that is. Figures taller and smaller, in steps, look for their own line near the one that was
 // found (tracker/detect/detector.h). The peak of their log-posterior is the height, its curvature
-// the spread.
+// the spread (Laplace's approximation: Tierney & Kadane, JASA 81, 1986).
 #pragma once
 
 #include <functional>

@@ -3,8 +3,8 @@
 //
 // A frame's state is what physics predicted plus standardised normal noise brought in by
 // `apply_noise`. Keeping the noise apart lets the filter's moves explore it reversibly
-// (preconditioned Crank-Nicolson: z' = sqrt(1 - s^2) z + s n leaves N(0, 1) invariant), without
-// simulating again.
+// (preconditioned Crank-Nicolson: z' = sqrt(1 - s^2) z + s n leaves N(0, 1) invariant; Cotter,
+// Roberts, Stuart & White, Stat. Sci. 28, 2013), without simulating again.
 #pragma once
 
 #include <array>

@@ -6,6 +6,9 @@
 // swapped. Here the pose stays as it is and the walker changes: it becomes that of any moment of
 // a step of either leg, and the residual angles make up the new difference.
 //
+// Jumps between poses that look alike and follow from the kinematics: Sminchisescu & Triggs,
+// "Kinematic jump processes for monocular 3D human tracking", CVPR 2003.
+//
 // This is a Metropolis-Hastings step along the walkers that show the same pose, with respect to the
 // residuals' own distribution (tracker/motion/motion.h): the moment that explains the pose with
 // less straying is taken up. How fast they stray is drawn anew, so that the walker goes on as its

@@ -1,6 +1,7 @@
 // Fixed-lag smoothing of the reported track: a frame in the light of those around it.
 //
-// Every number of a frame becomes the value at its time of the parabola that fits it and the frames
+// Local quadratic regression (Cleveland, JASA 74, 1979), weighted by what each frame knows, too:
+// every number of a frame becomes the value at its time of the parabola that fits it and the frames
 // within the lag best,
 //   minimise over a, b, c   sum_d w_d (x_d - a - b t_d - c t_d^2)^2,   w_d = k(t_d) / v_d,
 // k normal with its third standard deviation at the lag, v_d the frame's own variance (particles

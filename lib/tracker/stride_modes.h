@@ -4,7 +4,9 @@
 // legs is one half a stride away: the left foot does what the right one is thought to do. A
 // particle's place in the stride (0 = its left foot strikes, 1/2 = its right one) thus tells the
 // hypotheses apart in every frame, also while the legs pass each other and look the same either
-// way. Particles are of one mode with those less than a quarter of a stride away.
+// way. Particles are of one mode with those less than a quarter of a stride away. That a set passes
+// from one mode to the other while nothing moves that way is label switching (Stephens, "Dealing
+// with label switching in mixture models", JRSS B 62, 2000).
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-#include "tracker/modes.h"
+#include "tracker/stride_modes.h"
 
 #include <array>
 #include <cmath>
