@@ -9,13 +9,10 @@
 namespace walktrack {
 
 std::array<double, kAngleCount> angles_of(const Pose& pose) {
-  std::array<double, kAngleCount> out{pose.heading, pose.list, pose.tilt};
-  for (size_t side = 0; side < 2; ++side) {
-    const LegPose& leg = pose.legs[side];
-    const std::array<double, 5> values{leg.hip_flexion, leg.hip_abduction, leg.hip_rotation,
-                                       leg.knee_flexion, leg.ankle_dorsiflexion};
-    for (size_t i = 0; i < values.size(); ++i) out[3 + 5 * side + i] = values[i];
-  }
+  std::array<double, kAngleCount> out;
+  size_t k = 0;
+  for (const PoseNumber& number : kPoseNumbers)
+    if (is_compared(number)) out[k++] = number.in(pose);
   return out;
 }
 

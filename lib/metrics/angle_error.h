@@ -2,28 +2,29 @@
 // (body/pose_from_joints.h), both read with the same standard foot.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <vector>
 
 #include "body/motion.h"
+#include "body/pose_numbers.h"
 
 namespace walktrack {
 
-inline constexpr int kAngleCount = 13;
-inline constexpr std::array<std::string_view, kAngleCount> kAngleNames{"heading",
-                                                                       "list",
-                                                                       "tilt",
-                                                                       "lhip_flexion",
-                                                                       "lhip_abduction",
-                                                                       "lhip_rotation",
-                                                                       "lknee_flexion",
-                                                                       "lankle_dorsiflexion",
-                                                                       "rhip_flexion",
-                                                                       "rhip_abduction",
-                                                                       "rhip_rotation",
-                                                                       "rknee_flexion",
-                                                                       "rankle_dorsiflexion"};
+// Those of trunk and legs; arms are rarely measured.
+constexpr bool is_compared(const PoseNumber& number) {
+  return number.unit == Unit::kRadian && number.limb() != Limb::kArm;
+}
+inline constexpr size_t kAngleCount =
+    std::count_if(kPoseNumbers.begin(), kPoseNumbers.end(), is_compared);
+inline constexpr std::array<std::string_view, kAngleCount> kAngleNames = [] {
+  std::array<std::string_view, kAngleCount> names;
+  size_t k = 0;
+  for (const PoseNumber& number : kPoseNumbers)
+    if (is_compared(number)) names[k++] = number.name;
+  return names;
+}();
 
 // The angles of a pose in the order of kAngleNames, rad.
 std::array<double, kAngleCount> angles_of(const Pose& pose);

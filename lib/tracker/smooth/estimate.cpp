@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "body/kinematics.h"
+#include "body/pose_numbers.h"
 #include "core/conventions.h"
 #include "core/parallel_for.h"
 #include "core/scratch.h"
@@ -19,20 +20,9 @@ using ColumnScratch = Scratch<16 * 1024>;
 // Adds `weight` times a pose's numbers; headings as differences to the first particle's, so that a
 // full turn does not split them.
 void add_pose(const Pose& pose, double weight, double reference_heading, Pose& sum) {
-  sum.root += weight * pose.root;
-  sum.heading += weight * std::remainder(pose.heading - reference_heading, 2 * kPi);
-  sum.list += weight * pose.list;
-  sum.tilt += weight * pose.tilt;
-  for (size_t i = 0; i < 2; ++i) {
-    sum.legs[i].hip_flexion += weight * pose.legs[i].hip_flexion;
-    sum.legs[i].hip_abduction += weight * pose.legs[i].hip_abduction;
-    sum.legs[i].hip_rotation += weight * pose.legs[i].hip_rotation;
-    sum.legs[i].knee_flexion += weight * pose.legs[i].knee_flexion;
-    sum.legs[i].ankle_dorsiflexion += weight * pose.legs[i].ankle_dorsiflexion;
-    sum.arms[i].shoulder_flexion += weight * pose.arms[i].shoulder_flexion;
-    sum.arms[i].shoulder_abduction += weight * pose.arms[i].shoulder_abduction;
-    sum.arms[i].elbow_flexion += weight * pose.arms[i].elbow_flexion;
-  }
+  for (const PoseNumber& number : kPoseNumbers)
+    number.in(sum) +=
+        weight * number.difference(number.turns ? reference_heading : 0, number.in(pose));
 }
 
 // Angles as differences to those of the mean pose, so that a full turn does not split them.

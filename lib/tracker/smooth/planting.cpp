@@ -8,6 +8,7 @@
 
 #include "body/moved_feet.h"
 #include "body/pose_from_joints.h"
+#include "body/pose_numbers.h"
 #include "core/conventions.h"
 
 namespace walktrack {
@@ -103,16 +104,9 @@ void turn_legs(const JointPositions& from, const JointPositions& to, Pose& pose)
   const BodyLengths lengths{};  // ankles differ by the same, whatever is neutral
   const auto was = pose_from_joints(from, lengths), is = pose_from_joints(to, lengths);
   if (!was || !is) return;
-  for (size_t side = 0; side < 2; ++side) {
-    const LegPose &before = was->legs[side], &after = is->legs[side];
-    const auto turned = [](double b, double a) { return std::remainder(a - b, 2 * kPi); };
-    LegPose& leg = pose.legs[side];
-    leg.hip_flexion += turned(before.hip_flexion, after.hip_flexion);
-    leg.hip_abduction += turned(before.hip_abduction, after.hip_abduction);
-    leg.hip_rotation += turned(before.hip_rotation, after.hip_rotation);
-    leg.knee_flexion += turned(before.knee_flexion, after.knee_flexion);
-    leg.ankle_dorsiflexion += turned(before.ankle_dorsiflexion, after.ankle_dorsiflexion);
-  }
+  for (const PoseNumber& number : kPoseNumbers)
+    if (number.limb() == Limb::kLeg)
+      number.in(pose) += std::remainder(number.in(*is) - number.in(*was), 2 * kPi);
 }
 
 }  // namespace

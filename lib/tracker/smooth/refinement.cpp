@@ -1,9 +1,9 @@
 #include "tracker/smooth/refinement.h"
 
 #include <algorithm>
-#include <array>
 
 #include "body/kinematics.h"
+#include "body/pose_numbers.h"
 #include "core/parallel_for.h"
 #include "filter/map_estimate.h"
 #include "tracker/frame_likelihood.h"
@@ -16,65 +16,39 @@ using Numbers = Eigen::VectorXd;
 
 // Rounds of the climb. By hand.
 constexpr int kRounds = 4;
-// How far people's poses differ from the particles' mean, m, and below rad. By hand; halved
-// 13.1 mm and doubled 14.5 mm on the made walks (reports/reported_pose.md).
-constexpr double kRootSd = 0.02, kRootHeightSd = 0.01;
 
-template <typename Part>
-struct Angle {
-  double Part::*of;
-  double sd;  // rad
-  bool sideways = false;
-};
-
-// Angles that are free; those that are sideways stay on a sagittal path.
-constexpr std::array kOfBody{Angle<Pose>{&Pose::heading, 0.09, true},
-                             Angle<Pose>{&Pose::list, 0.035, true}, Angle<Pose>{&Pose::tilt, 0.05}};
-constexpr std::array kOfLeg{Angle<LegPose>{&LegPose::hip_flexion, 0.09},
-                            Angle<LegPose>{&LegPose::hip_abduction, 0.05, true},
-                            Angle<LegPose>{&LegPose::hip_rotation, 0.09, true},
-                            Angle<LegPose>{&LegPose::knee_flexion, 0.14},
-                            Angle<LegPose>{&LegPose::ankle_dorsiflexion, 0.17}};
-constexpr std::array kOfArm{Angle<ArmPose>{&ArmPose::shoulder_flexion, 0.26},
-                            Angle<ArmPose>{&ArmPose::shoulder_abduction, 0.17, true},
-                            Angle<ArmPose>{&ArmPose::elbow_flexion, 0.26}};
-
-// Calls f(number, sd) for every number of the pose that is free in this model, in a fixed order.
+// Calls f(number) for every number of the pose that is free in this model, in a fixed order. Those
+// that are sideways stay on a sagittal path.
 template <typename F>
-void for_each_free(const BodyModel& model, Pose& pose, const F& f) {
-  f(pose.root.x(), kRootSd);
-  f(pose.root.y(), kRootSd);
-  f(pose.root.z(), kRootHeightSd);
-  const auto each = [&](auto& part, const auto& angles) {
-    for (const auto& angle : angles)
-      if (turns(model) || !angle.sideways) f(part.*angle.of, angle.sd);
-  };
-  each(pose, kOfBody);
-  for (LegPose& leg : pose.legs) each(leg, kOfLeg);
-  if (!model.body.groups.arms) return;
-  for (ArmPose& arm : pose.arms) each(arm, kOfArm);
+void for_each_free(const BodyModel& model, const F& f) {
+  for (const PoseNumber& number : kPoseNumbers) {
+    if (number.sideways && !turns(model)) continue;
+    if (number.limb() == Limb::kArm && !model.body.groups.arms) continue;
+    f(number);
+  }
 }
 
 struct Prior {
   Numbers mean, sd;
 };
 
-Prior prior_about(const BodyModel& model, Pose pose) {
+Prior prior_about(const BodyModel& model, const Pose& pose) {
   Eigen::Index count = 0;
-  for_each_free(model, pose, [&](double&, double) { ++count; });
+  for_each_free(model, [&](const PoseNumber&) { ++count; });
   Prior out{Numbers(count), Numbers(count)};
   Eigen::Index k = 0;
-  for_each_free(model, pose, [&](double& number, double sd) {
-    out.mean[k] = number;
-    out.sd[k++] = sd;
+  for_each_free(model, [&](const PoseNumber& number) {
+    out.mean[k] = number.in(pose);
+    out.sd[k++] = number.spread;
   });
   return out;
 }
 
 Pose with_numbers(const BodyModel& model, Pose pose, const Numbers& numbers) {
   Eigen::Index k = 0;
-  for_each_free(model, pose, [&](double& number, double) { number = numbers[k++]; });
-  for (LegPose& leg : pose.legs) leg.knee_flexion = std::max(0.0, leg.knee_flexion);
+  for_each_free(model, [&](const PoseNumber& number) {
+    number.in(pose) = std::max(number.lowest, numbers[k++]);
+  });
   return pose;
 }
 

@@ -1,13 +1,12 @@
 #include "tracker/smooth/smoothing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include <Eigen/Cholesky>
 
-#include "core/conventions.h"
+#include "body/pose_numbers.h"
 
 namespace walktrack {
 
@@ -24,38 +23,10 @@ double variance_of(const FrameEstimate& estimate) {
   return std::max(kLeastVariance, sum / (3 * static_cast<double>(estimate.joint_count)));
 }
 
-// All numbers of a pose but the heading, which has a turn too many or too few at times.
-std::array<double*, 21> numbers_of(Pose& pose) {
-  auto& [left, right] = pose.legs;
-  auto& [left_arm, right_arm] = pose.arms;
-  return {&pose.root.x(),
-          &pose.root.y(),
-          &pose.root.z(),
-          &pose.list,
-          &pose.tilt,
-          &left.hip_flexion,
-          &left.hip_abduction,
-          &left.hip_rotation,
-          &left.knee_flexion,
-          &left.ankle_dorsiflexion,
-          &right.hip_flexion,
-          &right.hip_abduction,
-          &right.hip_rotation,
-          &right.knee_flexion,
-          &right.ankle_dorsiflexion,
-          &left_arm.shoulder_flexion,
-          &left_arm.shoulder_abduction,
-          &left_arm.elbow_flexion,
-          &right_arm.shoulder_flexion,
-          &right_arm.shoulder_abduction,
-          &right_arm.elbow_flexion};
-}
-
 // Adds `weight` times the difference of two frames to `sum`.
-void add(double weight, Pose pose, Pose middle, Pose& sum) {
-  sum.heading += weight * std::remainder(pose.heading - middle.heading, 2 * kPi);
-  const auto to = numbers_of(sum), from = numbers_of(middle), each = numbers_of(pose);
-  for (size_t k = 0; k < to.size(); ++k) *to[k] += weight * (*each[k] - *from[k]);
+void add(double weight, const Pose& pose, const Pose& middle, Pose& sum) {
+  for (const PoseNumber& number : kPoseNumbers)
+    number.in(sum) += weight * number.difference(number.in(middle), number.in(pose));
 }
 
 void add(double weight, const FrameRecord& each, const FrameRecord& middle, FrameRecord& sum) {

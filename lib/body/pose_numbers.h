@@ -1,0 +1,119 @@
+// A pose as a vector: the one table of its numbers. What goes over all numbers of a pose, to weigh,
+// smooth, fit or compare it, goes over this table.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "body/pose.h"
+#include "core/conventions.h"
+
+namespace walktrack {
+
+enum class Unit { kMetre, kRadian };
+enum class Limb { kTrunk, kLeg, kArm };
+
+struct PoseNumber {
+  std::string_view name;
+  Unit unit = Unit::kRadian;
+  // How far a person's number is from that of the walker that fits them: standard deviation, in the
+  // unit. By hand; all halved 13.1 mm and all doubled 14.5 mm on the made walks
+  // (tracker/reports/reported_pose.md).
+  double spread = 0;
+  bool sideways = false;  // leaves the upright plane of the heading
+  bool turns = false;     // values a whole turn apart are the same
+  double lowest = -std::numeric_limits<double>::infinity();
+
+  // Where it is in a pose: of one of these.
+  int axis = 0;
+  double Pose::*trunk = nullptr;
+  double LegPose::*leg = nullptr;
+  double ArmPose::*arm = nullptr;
+  Side side = Side::kLeft;
+
+  constexpr Limb limb() const {
+    return leg != nullptr ? Limb::kLeg : arm != nullptr ? Limb::kArm : Limb::kTrunk;
+  }
+  template <typename PoseT>
+  auto& in(PoseT& pose) const {
+    if (leg != nullptr) return pose.legs[static_cast<size_t>(side)].*leg;
+    if (arm != nullptr) return pose.arms[static_cast<size_t>(side)].*arm;
+    return trunk != nullptr ? pose.*trunk : pose.root[axis];
+  }
+  // From one value of the number to another, by the shorter way.
+  double difference(double from, double to) const {
+    return turns ? std::remainder(to - from, 2 * kPi) : to - from;
+  }
+};
+
+namespace pose_numbers {
+
+constexpr PoseNumber root(std::string_view name, int axis, double spread) {
+  PoseNumber out{.name = name, .unit = Unit::kMetre, .spread = spread};
+  out.axis = axis;
+  return out;
+}
+constexpr PoseNumber trunk(std::string_view name, double Pose::*trunk, double spread,
+                           bool sideways) {
+  PoseNumber out{.name = name, .spread = spread, .sideways = sideways};
+  out.trunk = trunk;
+  return out;
+}
+constexpr PoseNumber heading(double spread) {
+  PoseNumber out = trunk("heading", &Pose::heading, spread, true);
+  out.turns = true;
+  return out;
+}
+constexpr PoseNumber leg(std::string_view name, Side side, double LegPose::*angle, double spread,
+                         bool sideways = false) {
+  PoseNumber out{.name = name, .spread = spread, .sideways = sideways};
+  out.leg = angle;
+  out.side = side;
+  return out;
+}
+constexpr PoseNumber knee(std::string_view name, Side side, double spread) {
+  PoseNumber out = leg(name, side, &LegPose::knee_flexion, spread);
+  out.lowest = 0;  // knees do not bend backwards
+  return out;
+}
+constexpr PoseNumber arm(std::string_view name, Side side, double ArmPose::*angle, double spread,
+                         bool sideways = false) {
+  PoseNumber out{.name = name, .spread = spread, .sideways = sideways};
+  out.arm = angle;
+  out.side = side;
+  return out;
+}
+
+}  // namespace pose_numbers
+
+inline constexpr std::array kPoseNumbers{
+    // What there is once: name, axis or angle, spread, sideways.
+    pose_numbers::root("root_x", 0, .02),
+    pose_numbers::root("root_y", 1, .02),
+    pose_numbers::root("root_z", 2, .01),
+    pose_numbers::heading(.09),
+    pose_numbers::trunk("list", &Pose::list, .035, true),
+    pose_numbers::trunk("tilt", &Pose::tilt, .05, false),
+    // Of each side: name, side, angle, spread, sideways.
+    pose_numbers::leg("lhip_flexion", Side::kLeft, &LegPose::hip_flexion, .09),
+    pose_numbers::leg("lhip_abduction", Side::kLeft, &LegPose::hip_abduction, .05, true),
+    pose_numbers::leg("lhip_rotation", Side::kLeft, &LegPose::hip_rotation, .09, true),
+    pose_numbers::knee("lknee_flexion", Side::kLeft, .14),
+    pose_numbers::leg("lankle_dorsiflexion", Side::kLeft, &LegPose::ankle_dorsiflexion, .17),
+    pose_numbers::leg("rhip_flexion", Side::kRight, &LegPose::hip_flexion, .09),
+    pose_numbers::leg("rhip_abduction", Side::kRight, &LegPose::hip_abduction, .05, true),
+    pose_numbers::leg("rhip_rotation", Side::kRight, &LegPose::hip_rotation, .09, true),
+    pose_numbers::knee("rknee_flexion", Side::kRight, .14),
+    pose_numbers::leg("rankle_dorsiflexion", Side::kRight, &LegPose::ankle_dorsiflexion, .17),
+    pose_numbers::arm("lshoulder_flexion", Side::kLeft, &ArmPose::shoulder_flexion, .26),
+    pose_numbers::arm("lshoulder_abduction", Side::kLeft, &ArmPose::shoulder_abduction, .17, true),
+    pose_numbers::arm("lelbow_flexion", Side::kLeft, &ArmPose::elbow_flexion, .26),
+    pose_numbers::arm("rshoulder_flexion", Side::kRight, &ArmPose::shoulder_flexion, .26),
+    pose_numbers::arm("rshoulder_abduction", Side::kRight, &ArmPose::shoulder_abduction, .17, true),
+    pose_numbers::arm("relbow_flexion", Side::kRight, &ArmPose::elbow_flexion, .26),
+};
+static_assert(sizeof(Pose) == kPoseNumbers.size() * sizeof(double), "a row for every number");
+
+}  // namespace walktrack

@@ -1,0 +1,205 @@
+// The coordinates of a particle beside its walker's state, which follow damped second-order Markov
+// processes (tracker/motion/motion.h): those that the walker does not drive, and how far those that
+// it drives stray from it. The walker itself never feels them: its gait stays the stable one that
+// the prior knows.
+//
+// One table says of each what it moves, in which plane, which is its mirror image, and its process.
+// What concerns several of them asks the table: no order of theirs means anything, but that random
+// numbers are drawn, and files hold them, by ascending ResidualAngle.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "body/pose.h"
+#include "core/conventions.h"
+
+namespace walktrack {
+
+enum ResidualAngle {
+  kHeading,
+  kList,
+  kAbduction,  // of the left leg, and so for all that there are two of
+  kAbductionRight,
+  kRotation,
+  kRotationRight,
+  kAnkle,  // dorsiflexion; a standing foot's follows from its sole instead
+  kAnkleRight,
+  kPace,    // logarithm of how much faster the person walks than the walker
+  kCrouch,  // how much further both knees are bent than the walker's
+  kTilt,
+  kThigh,
+  kThighRight,
+  kShank,
+  kShankRight,
+  kShoulder,  // flexion
+  kShoulderRight,
+  kElbow,
+  kElbowRight,
+  kShoulderAbduction,
+  kShoulderAbductionRight,
+  kResidualCount
+};
+using ResidualAngles = std::array<double, kResidualCount>;  // rad
+
+// Constants of a Markov process.
+struct MarkovConstants {
+  double rest, time, spread;                                // rad, s, rad (the heading: rad/s)
+  double lowest, highest;                                   // rad
+  double period = std::numeric_limits<double>::infinity();  // s, of its swinging; infinite: none
+};
+
+// What a coordinate moves, and what is therefore changed together.
+enum class Moves { kTrunk, kLeg, kArm, kWalker };
+
+struct ResidualRow {
+  ResidualAngle left, right;  // the same where there is one
+  Moves moves;
+  bool sideways;            // out of the upright plane of the heading
+  bool strays;              // from an angle that the walker has
+  MarkovConstants process;  // of the kneed model, but for MotionConfig::residual_scale
+  double standing_time;     // s, the process's time of those who stand
+
+  constexpr bool paired() const { return left != right; }
+  constexpr ResidualAngle of(Side side) const { return side == Side::kLeft ? left : right; }
+};
+
+namespace residual_table {
+
+constexpr double deg(double angle) { return rad_from_deg(angle); }
+inline constexpr bool kSideways = true, kInPlane = false, kStrays = true, kOwn = false;
+
+}  // namespace residual_table
+
+// All by hand, none fitted. Rests are the mean offsets of walking people from the walker, spreads
+// the differences between people and along a stride that the walker has not got (walks of the
+// developing set, 2026-11-21), limits anatomical. Sensitivity: not measured one by one;
+// `motion.residual_scale` multiplies the spreads of those that stray. A standing person sways and
+// shifts weight in seconds, where a walker's residuals change in a tenth.
+inline constexpr std::array kResidualTable = [] {
+  using namespace residual_table;
+  // left, right, moves, plane, strays, {rest, time, spread, lowest, highest}, standing time
+  return std::array{
+      ResidualRow{kHeading, kHeading, Moves::kTrunk, kSideways, kOwn, {0, .5, .3, -1e9, 1e9}, .5},
+      ResidualRow{
+          kList, kList, Moves::kTrunk, kSideways, kOwn, {0, .15, deg(3), deg(-15), deg(15)}, .6},
+      ResidualRow{kAbduction,
+                  kAbductionRight,
+                  Moves::kLeg,
+                  kSideways,
+                  kOwn,
+                  {deg(-2.5), .15, deg(3.5), deg(-20), deg(30)},
+                  .6},
+      ResidualRow{kRotation,
+                  kRotationRight,
+                  Moves::kLeg,
+                  kSideways,
+                  kOwn,
+                  {deg(-5), .2, deg(6), deg(-40), deg(40)},
+                  .6},
+      ResidualRow{kAnkle,
+                  kAnkleRight,
+                  Moves::kLeg,
+                  kInPlane,
+                  kOwn,
+                  {deg(-3), .08, deg(12), deg(-45), deg(30)},
+                  .6},
+      ResidualRow{kPace, kPace, Moves::kWalker, kInPlane, kOwn, {0, .5, .12, -.4, .4}, .5},
+      ResidualRow{kCrouch,
+                  kCrouch,
+                  Moves::kTrunk,
+                  kInPlane,
+                  kOwn,
+                  {deg(8), 3, deg(3), deg(-10), deg(40)},
+                  3},
+      ResidualRow{
+          kTilt, kTilt, Moves::kTrunk, kInPlane, kStrays, {0, 1, deg(9), deg(-20), deg(40)}, 1},
+      ResidualRow{kThigh,
+                  kThighRight,
+                  Moves::kLeg,
+                  kInPlane,
+                  kStrays,
+                  {0, .15, deg(6), deg(-30), deg(30)},
+                  .4},
+      ResidualRow{kShank,
+                  kShankRight,
+                  Moves::kLeg,
+                  kInPlane,
+                  kStrays,
+                  {0, .12, deg(8), deg(-40), deg(40)},
+                  .4},
+      ResidualRow{kShoulder,
+                  kShoulderRight,
+                  Moves::kArm,
+                  kInPlane,
+                  kOwn,
+                  {0, .2, deg(15), deg(-60), deg(120)},
+                  .2},
+      ResidualRow{kShoulderAbduction,
+                  kShoulderAbductionRight,
+                  Moves::kArm,
+                  kSideways,
+                  kOwn,
+                  {deg(6), .2, deg(6), deg(-10), deg(60)},
+                  .2},
+      ResidualRow{kElbow,
+                  kElbowRight,
+                  Moves::kArm,
+                  kInPlane,
+                  kOwn,
+                  {deg(22), .2, deg(15), 0, deg(130)},
+                  .2},
+  };
+}();
+
+namespace residual_table {
+
+// By ResidualAngle, the number of its row; each has one.
+inline constexpr std::array<size_t, kResidualCount> kRows = [] {
+  std::array<size_t, kResidualCount> rows;
+  rows.fill(kResidualTable.size());
+  for (size_t i = 0; i < kResidualTable.size(); ++i)
+    rows[kResidualTable[i].left] = rows[kResidualTable[i].right] = i;
+  return rows;
+}();
+static_assert(*std::max_element(kRows.begin(), kRows.end()) < kResidualTable.size());
+
+}  // namespace residual_table
+
+constexpr const ResidualRow& row_of(ResidualAngle angle) {
+  return kResidualTable[residual_table::kRows[angle]];
+}
+
+// Of a pair that is named by its left one, or of what there is one of.
+constexpr size_t of_side(ResidualAngle left, Side side) { return row_of(left).of(side); }
+
+// Some of the residual angles, in ascending order.
+struct ResidualList {
+  std::array<ResidualAngle, kResidualCount> at{};
+  size_t count = 0;
+
+  constexpr auto begin() const { return at.begin(); }
+  constexpr auto end() const { return at.begin() + count; }
+  constexpr size_t size() const { return count; }
+};
+
+template <typename Wanted>
+constexpr ResidualList residuals_where(const Wanted& wanted) {
+  ResidualList out;
+  for (size_t k = 0; k < kResidualCount; ++k) {
+    const auto angle = static_cast<ResidualAngle>(k);
+    if (wanted(row_of(angle))) out.at[out.count++] = angle;
+  }
+  return out;
+}
+
+inline constexpr ResidualList kAllResiduals =
+    residuals_where([](const ResidualRow&) { return true; });
+// How far angles stray that the walker has: of trunk, thighs and shanks.
+inline constexpr ResidualList kStraying =
+    residuals_where([](const ResidualRow& row) { return row.strays; });
+
+}  // namespace walktrack
