@@ -61,8 +61,7 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
         detected.velocity + detected.velocity_sd * rng.truncated_normal(2.5) * detected.ray;
     p.aim = draw_aim(context, config, velocity.norm(), rng);
     p.stance = range.stance;
-    for (int k = 0; k < kResidualCount; ++k)
-      p.residual[static_cast<size_t>(k)] = context.markov[static_cast<size_t>(k)].rest;
+    for (const ResidualAngle k : kAllResiduals) p.residual[k] = context.markov[k].rest;
     p.residual[kHeading] = std::atan2(velocity.y(), velocity.x());
     p.residual_before = p.residual;
     phases[i] = range.from + (range.to - range.from) * rng.uniform();
@@ -76,9 +75,7 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
 NoiseScale start_scale(const StartConfig& config, const MotionModel& moves,
                        const MotionConfig& motion, const NoiseScale& frame) {
   NoiseScale scale = frame;
-  for (int k = 0; k < kResidualCount; ++k)
-    scale.residual[static_cast<size_t>(k)] =
-        moves.start_spread(motion, static_cast<ResidualAngle>(k));
+  for (const ResidualAngle k : kAllResiduals) scale.residual[k] = moves.start_spread(motion, k);
   scale.residual[kHeading] = rad_from_deg(config.heading_deg);
   return scale;
 }

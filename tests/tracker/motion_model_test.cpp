@@ -50,7 +50,7 @@ TEST_P(EveryMotionModel, PerturbLeavesTheStandardNormalPriorOfTheNoiseInvariant)
     Rng rng(i, Purpose::kTest);
     for (double& z : p.noise) z = rng.normal();
     for (int move = 0; move < 5; ++move) perturb(context, 0.5, p, rng);
-    const double z = p.noise[int{kExtraNoise} + kTilt];
+    const double z = p.noise[int{kResidualNoise} + kTilt];
     sum += z;
     squares += z * z;
   }

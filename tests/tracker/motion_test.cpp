@@ -66,7 +66,7 @@ TEST(ToScale, TheSmallAndTheLargeWalkAlike) {
     for (uint32_t frame = 0; frame < 40; ++frame) {
       Rng rng(1, Purpose::kTest, frame);
       EXPECT_EQ(propagate(context, p, rng), Outcome::kAlive);
-      std::fill(p.noise.begin() + kExtraNoise, p.noise.end(), 0.0);
+      std::fill(p.noise.begin() + kResidualNoise, p.noise.end(), 0.0);
       apply_noise(context.model, context.scale, p);
     }
     return p.ball / length;
@@ -186,7 +186,7 @@ TEST(NoiseScale, GrowsAsDiffusionDoes) {
 // The recurrence of motion.h, run on its own: the process has the spread that it states.
 TEST(NoiseScale, MarkovProcessesKeepTheirSpreadAtAnyFrameRate) {
   const Walking walking;
-  const MarkovConstants c = markov_constants(kList);
+  const MarkovConstants c = row_of(kList).process;
   for (const double dt : {1.0 / 7, 1.0 / 30, 1.0 / 240}) {
     const double sigma = walking.context(dt).scale.residual[kList];
     const double r = std::exp(-dt / c.time);
@@ -213,7 +213,7 @@ TEST(Realise, AMisfitMovesThePersonAndNotTheWalker) {
   silence(p, context);
   const KneedState walker = p.walker;
   const double knee = p.pose.legs[0].knee_flexion;
-  p.noise[int{kExtraNoise} + kShank] = 2;
+  p.noise[int{kResidualNoise} + kShank] = 2;
   apply_noise(context.model, context.scale, p);
   EXPECT_EQ(p.walker.q, walker.q);
   EXPECT_EQ(p.walker.qd, walker.qd);

@@ -67,7 +67,7 @@ TEST(PhaseJump, ThePoseStays) {
 void draw_residuals(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   particle.residual[kCrouch] = rad_from_deg(40);
   for (size_t k = kTilt; k <= kShankRight; ++k) {
-    const MarkovConstants c = markov_constants(static_cast<ResidualAngle>(k));
+    const MarkovConstants c = row_of(static_cast<ResidualAngle>(k)).process;
     const double r = std::exp(-context.dt / c.time), correlation = 2 * r / (1 + r * r);
     const double sd = context.config.residual_scale * c.spread;
     const double z = rng.truncated_normal(4), other = rng.truncated_normal(4);
@@ -93,7 +93,7 @@ TEST(PhaseJump, LeavesTheResidualsDistribution) {
     for (int repeat = 0; repeat < 20; ++repeat)
       accepted += try_phase_jump(context, steps, particle, rng);
     for (size_t k = kTilt; k <= kShankRight; ++k) {
-      const MarkovConstants c = markov_constants(static_cast<ResidualAngle>(k));
+      const MarkovConstants c = row_of(static_cast<ResidualAngle>(k)).process;
       const double sd = context.config.residual_scale * c.spread, r = std::exp(-kDt / c.time);
       const double change = particle.residual[k] - particle.residual_before[k];
       squares += std::pow(particle.residual[k] / sd, 2);

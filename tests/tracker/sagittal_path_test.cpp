@@ -38,7 +38,7 @@ TEST_P(SagittalPath, NothingTurnsOrGoesSideways) {
   for (size_t i = 0; i < set.size(); ++i) {
     for (const ResidualAngle k : kSideways) {
       EXPECT_EQ(set[i].residual[k], start[i].residual[k]) << k;
-      EXPECT_EQ(set[i].noise[size_t(kExtraNoise) + k], 0) << "is not drawn";
+      EXPECT_EQ(set[i].noise[size_t(kResidualNoise) + k], 0) << "is not drawn";
     }
     EXPECT_EQ(set[i].pose.heading, 0);
     EXPECT_EQ(set[i].pose.list, start[i].pose.list);

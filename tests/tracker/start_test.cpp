@@ -57,9 +57,9 @@ TEST(StartScale, IsInTheUnitsOfTheModel) {
                 context.moves.constants(context.config, kRootHeight).spread);
       EXPECT_NEAR(scale.residual[kRootHeight], 0.052, 0.004);
     } else {
-      EXPECT_EQ(scale.residual[kRootHeight], markov_constants(kCrouch).spread);
+      EXPECT_EQ(scale.residual[kRootHeight], row_of(kCrouch).process.spread);
     }
-    EXPECT_EQ(scale.residual[kList], markov_constants(kList).spread);
+    EXPECT_EQ(scale.residual[kList], row_of(kList).process.spread);
     EXPECT_EQ(scale.residual[kHeading], rad_from_deg(config.heading_deg));
   }
 }

@@ -78,11 +78,11 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<WalkerParticle> T>
 void fields(Archive& archive, T& value) {
-  auto& [predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_extra, noise,
-         walker, stance, ball, extra, extra_before, pose, pose_before, way, arriving, regime,
+  auto& [predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_residual, noise,
+         walker, stance, ball, residual, residual_before, pose, pose_before, way, arriving, regime,
          controls, aim] = value;
-  archive(predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_extra, noise,
-          walker, stance, ball, extra, extra_before, pose, pose_before, way, arriving, regime,
+  archive(predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_residual, noise,
+          walker, stance, ball, residual, residual_before, pose, pose_before, way, arriving, regime,
           controls, aim);
 }
 

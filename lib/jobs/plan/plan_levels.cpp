@@ -56,8 +56,7 @@ PlanLevel level_of(const std::string& name, const std::vector<std::string>& sett
 
 PlanState state_of(const Scene& scene, const Config& config) {
   const BodyModel model = model_of(scene, config);
-  const ResidualRange extras = free_residuals(model);
-  const int free = extras.end - extras.first;
+  const auto free = static_cast<int>(free_residuals(model).size());
   PlanState state;
   state.walker = static_cast<int>(KneedState{}.q.size() + KneedState{}.qd.size());
   // Of the standing foot; the way that the root goes, or the heading that it keeps.
@@ -65,7 +64,7 @@ PlanState state_of(const Scene& scene, const Config& config) {
   state.pose = 2 * free;  // with their rates, as values of two frames
   state.controls =
       kControlSize + 2;  // four springs with dampers and rest angles, a push-off; the step's aim
-  state.noise = kExtraNoise + free;
+  state.noise = kResidualNoise + free;
   // Two copies of each state, three weights, a parent and flags.
   state.bytes_per_particle = 2.0 * sizeof(WalkerParticle) + 6.0 * sizeof(double);
   return state;

@@ -18,10 +18,8 @@ namespace {
 constexpr int kHipTorque = 1, kGroundTorque = 4;
 constexpr std::array<int, 3> kTorques{kTorqueNoise + kHipTorque, kTorqueNoise + kGroundTorque,
                                       noise_of(kPace)};
-constexpr std::array<NoiseGroup, 6> kLinkageGroups{kTrunkNoise, kLeftLegNoise, kRightLegNoise,
-                                                   kTorques,    kLeftArmNoise, kRightArmNoise};
-constexpr std::array<NoiseGroup, 6> kLinkageGroupsInPlane{
-    kTrunkInPlane, kLeftLegInPlane, kRightLegInPlane, kTorques, kLeftArmInPlane, kRightArmInPlane};
+constexpr std::array kLinkageGroups = groups_with(kSpatialNoise, kTorques);
+constexpr std::array kLinkageGroupsInPlane = groups_with(kSagittalNoise, kTorques);
 
 StraightState straight(const KneedState& walker) {
   return {{walker.q[kStanceThigh], walker.q[kSwingThigh]},
@@ -64,10 +62,10 @@ KneedState shown_state(const KneedState& walker, Side stance, const ResidualAngl
   KneedState shown = walker;
   shown.q[kTorso] = residual[kTilt];
   const auto bend = [&](Side side, int thigh, int shank) {
-    const auto i = static_cast<size_t>(side);
-    const double flexion = std::clamp(residual[kKneeFlexion + i], 0.0, kDeepestBend);
-    shown.q[thigh] += residual[kThigh + i] - 0.5 * flexion;
-    shown.q[shank] += residual[kThigh + i] + 0.5 * flexion;
+    const double flexion = std::clamp(residual[of_side(kKneeFlexion, side)], 0.0, kDeepestBend);
+    const double leg = residual[of_side(kThigh, side)];
+    shown.q[thigh] += leg - 0.5 * flexion;
+    shown.q[shank] += leg + 0.5 * flexion;
   };
   bend(stance, kStanceThigh, kStanceShank);
   bend(other(stance), kSwingThigh, kSwingShank);
@@ -83,21 +81,18 @@ AnthropomorphicMotion::AnthropomorphicMotion(const BodyModel& model)
 
 MarkovConstants AnthropomorphicMotion::constants(const MotionConfig& config,
                                                  ResidualAngle residual) const {
-  switch (residual) {
+  switch (row_of(residual).left) {
     case kCrouch:
       return {0, 1, 0, 0, 0};  // knees are free
     case kThigh:
-    case kThighRight:
       return {0, 0.15, config.residual_scale * rad_from_deg(8), rad_from_deg(-30),
               rad_from_deg(30)};
     case kTilt:
     case kAnkle:
-    case kAnkleRight:
     case kKneeFlexion:
-    case kKneeFlexion + 1:
       return free_constants(residual);
     default:
-      return markov_constants(residual);
+      return row_of(residual).process;
   }
 }
 

@@ -60,60 +60,10 @@ void walk_to(const KneedModel& model, std::span<const double> times,
   }
 }
 
-constexpr std::array<NoiseGroup, 6> kKneedGroups{kTrunkNoise,  kLeftLegNoise, kRightLegNoise,
-                                                 kWalkerNoise, kLeftArmNoise, kRightArmNoise};
-constexpr std::array<NoiseGroup, 6> kKneedGroupsInPlane{kTrunkInPlane,    kLeftLegInPlane,
-                                                        kRightLegInPlane, kWalkerNoise,
-                                                        kLeftArmInPlane,  kRightArmInPlane};
+constexpr std::array kKneedGroups = groups_with(kSpatialNoise, kWalkerNoise);
+constexpr std::array kKneedGroupsInPlane = groups_with(kSagittalNoise, kWalkerNoise);
 
 }  // namespace
-
-// {rest, time s, standard deviation, lowest, highest}, rad. All by hand, none fitted. Rests are the
-// mean offsets of walking people from the walker, spreads the differences between people and along
-// a stride that the walker has not got (walks of the developing set, 2026-11-21), limits
-// anatomical. Sensitivity: not measured one by one; `motion.residual_scale` multiplies the spreads
-// in the plane (kTilt to kShankRight).
-MarkovConstants markov_constants(ResidualAngle residual) {
-  const auto deg = [](double angle) { return rad_from_deg(angle); };
-  switch (residual) {
-    case kHeading:
-      return {0, 0.5, 0.3, -1e9, 1e9};
-    case kList:
-      return {0, 0.15, deg(3), deg(-15), deg(15)};
-    case kAbduction:
-    case kAbductionRight:
-      return {deg(-2.5), 0.15, deg(3.5), deg(-20), deg(30)};
-    case kRotation:
-    case kRotationRight:
-      return {deg(-5), 0.2, deg(6), deg(-40), deg(40)};
-    case kAnkle:
-    case kAnkleRight:
-      return {deg(-3), 0.08, deg(12), deg(-45), deg(30)};
-    case kPace:
-      return {0, 0.5, 0.12, -0.4, 0.4};
-    case kCrouch:
-      return {deg(8), 3, deg(3), deg(-10), deg(40)};
-    case kTilt:
-      return {0, 1, deg(9), deg(-20), deg(40)};
-    case kThigh:
-    case kThighRight:
-      return {0, 0.15, deg(6), deg(-30), deg(30)};
-    case kShank:
-    case kShankRight:
-      return {0, 0.12, deg(8), deg(-40), deg(40)};
-    case kShoulder:
-    case kShoulderRight:
-      return {0, 0.2, deg(15), deg(-60), deg(120)};
-    case kShoulderAbduction:
-    case kShoulderAbductionRight:
-      return {deg(6), 0.2, deg(6), deg(-10), deg(60)};
-    case kElbow:
-    case kElbowRight:
-    case kResidualCount:
-      break;
-  }
-  return {deg(22), 0.2, deg(15), 0, deg(130)};
-}
 
 KneedState state_in_gait(const BodyModel& model, const PriorGait& gait, double phase) {
   return gait.slope == 0 ? state_at_phase(model.walker, gait, phase)
@@ -122,8 +72,7 @@ KneedState state_in_gait(const BodyModel& model, const PriorGait& gait, double p
 
 Pose pose_in_gait(const BodyModel& model, const PriorGait& gait, Side stance, double phase) {
   ResidualAngles residual{};
-  for (int k = 0; k < kResidualCount; ++k)
-    residual[static_cast<size_t>(k)] = markov_constants(static_cast<ResidualAngle>(k)).rest;
+  for (const ResidualAngle k : kAllResiduals) residual[k] = row_of(k).process.rest;
   Pose pose = pose_of(model, state_in_gait(model, gait, phase), stance,
                       {gait.speed, gait.step_length}, Eigen::Vector2d::Zero(), residual);
   pose.root.head<2>().setZero();
@@ -131,8 +80,9 @@ Pose pose_in_gait(const BodyModel& model, const PriorGait& gait, Side stance, do
 }
 
 MarkovConstants KneedMotion::constants(const MotionConfig& config, ResidualAngle residual) const {
-  MarkovConstants c = markov_constants(residual);
-  if (residual >= kTilt && residual <= kShankRight) c.spread *= config.residual_scale;
+  const ResidualRow& row = row_of(residual);
+  MarkovConstants c = row.process;
+  if (row.strays) c.spread *= config.residual_scale;
   return c;
 }
 

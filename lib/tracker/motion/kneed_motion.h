@@ -9,9 +9,6 @@
 
 namespace walktrack {
 
-// Without the configuration's share in it, MotionConfig::residual_scale.
-MarkovConstants markov_constants(ResidualAngle residual);
-
 // The walker at a share of a step of a gait of the prior, on the gait's slope.
 KneedState state_in_gait(const BodyModel& model, const PriorGait& gait, double phase);
 

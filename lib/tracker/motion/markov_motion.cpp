@@ -17,10 +17,11 @@ namespace {
 // of its changes from frame to frame.
 constexpr double kAlong = 0.5, kAcross = 0.3;
 
-constexpr std::array<NoiseGroup, 5> kMarkovGroups{kTrunkNoise, kLeftLegNoise, kRightLegNoise,
-                                                  kLeftArmNoise, kRightArmNoise};
-constexpr std::array<NoiseGroup, 5> kMarkovGroupsInPlane{
-    kTrunkInPlane, kLeftLegInPlane, kRightLegInPlane, kLeftArmInPlane, kRightArmInPlane};
+constexpr std::array<NoiseGroup, 5> groups_of(const BodyNoise& body) {
+  return {body.trunk, body.left_leg, body.right_leg, body.left_arm, body.right_arm};
+}
+constexpr std::array kMarkovGroups = groups_of(kSpatialNoise);
+constexpr std::array kMarkovGroupsInPlane = groups_of(kSagittalNoise);
 
 Pose pose_at(const Body& body, const ResidualAngles& residual, const Eigen::Vector2d& root) {
   Pose pose;
@@ -28,22 +29,22 @@ Pose pose_at(const Body& body, const ResidualAngles& residual, const Eigen::Vect
   pose.heading = residual[kHeading];
   pose.list = residual[kList];
   pose.tilt = residual[kTilt];
-  for (size_t i = 0; i < 2; ++i) {
-    pose.legs[i] = {residual[kHipFlexion + i], residual[kAbduction + i], residual[kRotation + i],
-                    std::max(0.0, residual[kKneeFlexion + i]), residual[kAnkle + i]};
-    if (body.groups.arms)
-      pose.arms[i] = {residual[kShoulder + i], residual[kShoulderAbduction + i],
-                      residual[kElbow + i]};
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const auto of = [&](ResidualAngle left) { return residual[of_side(left, side)]; };
+    pose.legs[static_cast<size_t>(side)] = {of(kHipFlexion), of(kAbduction), of(kRotation),
+                                            std::max(0.0, of(kKneeFlexion)), of(kAnkle)};
   }
+  if (body.groups.arms) pose.arms = arms_of(residual);
   return pose;
 }
 
 void set_angles(const Pose& pose, ResidualAngles& residual) {
   residual[kRootHeight] = pose.root.z();
   residual[kTilt] = pose.tilt;
-  for (size_t i = 0; i < 2; ++i) {
-    residual[kHipFlexion + i] = pose.legs[i].hip_flexion;
-    residual[kKneeFlexion + i] = pose.legs[i].knee_flexion;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const LegPose& leg = pose.legs[static_cast<size_t>(side)];
+    residual[of_side(kHipFlexion, side)] = leg.hip_flexion;
+    residual[of_side(kKneeFlexion, side)] = leg.knee_flexion;
   }
 }
 
@@ -58,17 +59,14 @@ double foot_advance(const Body& body, const WalkerParticle& particle, Side side)
 
 MarkovConstants free_constants(ResidualAngle residual) {
   const auto deg = [](double angle) { return rad_from_deg(angle); };
-  switch (residual) {
+  switch (row_of(residual).left) {
     case kList:
       return {0, 0.3, deg(2.6), deg(-15), deg(15), 0.55};
     case kAbduction:
-    case kAbductionRight:
       return {0, 0.35, deg(6), deg(-20), deg(30), 0.9};
     case kRotation:
-    case kRotationRight:
       return {deg(-5), 0.08, deg(6.4), deg(-40), deg(40)};
     case kAnkle:
-    case kAnkleRight:
       return {deg(-3), 0.2, deg(14), deg(-45), deg(30), 0.77};
     case kPace:
       return {0, 1, 0, 0, 0};
@@ -77,13 +75,11 @@ MarkovConstants free_constants(ResidualAngle residual) {
     case kTilt:
       return {0, 0.25, deg(6), deg(-20), deg(40)};
     case kHipFlexion:
-    case kHipFlexion + 1:
       return {deg(11), 0.7, deg(16.5), deg(-45), deg(110), 0.96};
     case kKneeFlexion:
-    case kKneeFlexion + 1:
       return {deg(30), 0.95, deg(21), 0, deg(150), 0.61};
     default:
-      return markov_constants(residual);
+      return row_of(residual).process;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/conventions.h"
+#include "tracker/motion/noise_groups.h"
 #include "tracker/motion/standing.h"
 
 namespace walktrack {
@@ -18,23 +19,20 @@ using Eigen::Vector2d;
 
 // Arms swing against the legs: forward with the other side's thigh.
 double rest_of(ResidualAngle residual, const MarkovStep& step, const WalkerParticle& particle) {
-  if (residual != kShoulder && residual != kShoulderRight) return step.rest;
+  if (row_of(residual).left != kShoulder) return step.rest;
   constexpr double kArmPerLeg = 0.6;  // walking at 1.3 m/s, Murray et al. 1967
-  const size_t other_leg = 1 - static_cast<size_t>(residual - kShoulder);
+  const size_t other_leg = residual == kShoulder ? 1 : 0;
   return step.rest + kArmPerLeg * particle.pose.legs[other_leg].hip_flexion;
 }
 
 void predict_residuals(const MotionContext& context, WalkerParticle& particle) {
-  const ResidualRange free = free_residuals(context.model);
   const MarkovSteps& steps =
       particle.regime == Regime::kStanding ? context.standing->markov : context.markov;
-  for (int k = free.first; k < free.end; ++k) {
-    const auto residual = static_cast<ResidualAngle>(k);
-    const size_t i = static_cast<size_t>(k);
+  for (const ResidualAngle i : free_residuals(context.model)) {
     const MarkovStep& step = steps[i];
     const double now = particle.residual[i];
     const double next = now + step.momentum * (now - particle.residual_before[i]) +
-                        step.pull * (rest_of(residual, step, particle) - now);
+                        step.pull * (rest_of(i, step, particle) - now);
     particle.residual_before[i] = now;
     particle.predicted_residual[i] = std::clamp(next, step.lowest, step.highest);
   }
@@ -63,12 +61,9 @@ void relax_heading_to_travel(const MotionContext& context, WalkerParticle& parti
 }
 
 void draw_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  const ResidualRange free = free_residuals(context.model);
-  const auto draw = [&](int k) {
-    particle.noise[static_cast<size_t>(k)] = rng.truncated_normal(4);
-  };
-  for (int k = 0; k < kExtraNoise; ++k) draw(k);
-  for (int k = free.first; k < free.end; ++k) draw(kExtraNoise + k);
+  for (size_t k = 0; k < kResidualNoise; ++k) particle.noise[k] = rng.truncated_normal(4);
+  for (const ResidualAngle residual : free_residuals(context.model))
+    particle.noise[size_t(noise_of(residual))] = rng.truncated_normal(4);
 }
 
 // The walker as it is becomes the frame's prediction, and its noise is drawn.
@@ -92,10 +87,8 @@ MarkovStep markov_step(ResidualAngle residual, const MarkovConstants& c, double 
 
 MarkovSteps markov_steps(const MotionModel& moves, const MotionConfig& config, double dt) {
   MarkovSteps steps;
-  for (int k = 0; k < kResidualCount; ++k) {
-    const auto residual = static_cast<ResidualAngle>(k);
-    steps[static_cast<size_t>(k)] = markov_step(residual, moves.constants(config, residual), dt);
-  }
+  for (const ResidualAngle residual : kAllResiduals)
+    steps[residual] = markov_step(residual, moves.constants(config, residual), dt);
   return steps;
 }
 
@@ -137,11 +130,9 @@ NoiseScale noise_scale(const MotionModel& moves, const MotionConfig& config, con
                                      config.ankle_torque};
   for (size_t k = 0; k < 5; ++k) scale.impulse[k] = shares[k] * unit * root;
   scale.elapsed = dt;
-  for (int k = 0; k < kResidualCount; ++k) {
-    const auto residual = static_cast<ResidualAngle>(k);
-    scale.residual[static_cast<size_t>(k)] =
+  for (const ResidualAngle residual : kAllResiduals)
+    scale.residual[residual] =
         frame_noise(config, residual, moves.constants(config, residual), dt);
-  }
   return scale;
 }
 
@@ -188,16 +179,13 @@ Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& r
 void perturb(const MotionContext& context, double step_size, WalkerParticle& particle, Rng& rng) {
   // A quarter of the proposals changes everything a little, the others one part of the body.
   const double keep = std::sqrt(1 - step_size * step_size);
-  const ResidualRange free = free_residuals(context.model);
   const auto change = [&](int k) {
     double& z = particle.noise[static_cast<size_t>(k)];
     z = keep * z + step_size * rng.normal();
   };
   if (rng.uniform() < 0.25) {
-    for (int k = 0; k < kExtraNoise + free.end; ++k) {
-      if (k == kExtraNoise) k += free.first;
-      change(k);
-    }
+    for (int k = 0; k < kResidualNoise; ++k) change(k);
+    for (const ResidualAngle residual : free_residuals(context.model)) change(noise_of(residual));
   } else {
     const std::span<const NoiseGroup> groups = context.moves.noise_groups(context.model.path);
     constexpr size_t kArms = 2;

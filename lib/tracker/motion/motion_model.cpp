@@ -7,7 +7,7 @@
 namespace walktrack {
 
 double MotionModel::start_spread(const MotionConfig&, ResidualAngle residual) const {
-  return markov_constants(residual).spread;
+  return row_of(residual).process.spread;
 }
 
 std::unique_ptr<const MotionModel> make_motion_model(MotionKind kind, const BodyModel& model,

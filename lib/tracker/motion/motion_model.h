@@ -8,7 +8,6 @@
 // The other two are there to measure what physics is worth: reports/physics.md.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <span>
 
@@ -22,13 +21,6 @@ struct MotionConfig;
 struct MotionContext;
 
 enum class MotionKind { kKneed, kAnthropomorphic, kMarkov };
-
-// Constants of the Markov process of a residual angle, which tracker/motion/motion.h describes.
-struct MarkovConstants {
-  double rest, time, spread;                                // rad, s, rad (the heading: rad/s)
-  double lowest, highest;                                   // rad
-  double period = std::numeric_limits<double>::infinity();  // s, of its swinging; infinite: none
-};
 
 // A walker that falls, or whose state grows beyond bounds, is caught (goes on as the prior's gait);
 // dead is only who has no state left to go on from.

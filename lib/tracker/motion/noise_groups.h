@@ -2,35 +2,54 @@
 #pragma once
 
 #include <array>
+#include <span>
 
+#include "tracker/motion/motion_model.h"
 #include "tracker/motion/particle.h"
 
 namespace walktrack {
 
-inline constexpr int noise_of(ResidualAngle residual) { return int{kExtraNoise} + int{residual}; }
+constexpr int noise_of(ResidualAngle residual) { return int{kResidualNoise} + int{residual}; }
 
-inline constexpr std::array kTrunkNoise{int{kBallNoise}, kBallNoise + 1,    noise_of(kHeading),
-                                        noise_of(kList), noise_of(kCrouch), noise_of(kTilt)};
-inline constexpr std::array kLeftLegNoise{noise_of(kAbduction), noise_of(kRotation),
-                                          noise_of(kAnkle), noise_of(kThigh), noise_of(kShank)};
-inline constexpr std::array kRightLegNoise{noise_of(kAbductionRight), noise_of(kRotationRight),
-                                           noise_of(kAnkleRight), noise_of(kThighRight),
-                                           noise_of(kShankRight)};
+// Indices of WalkerParticle::noise.
+struct NoiseIndices {
+  std::array<int, 8> at{};
+  size_t count = 0;
+
+  constexpr void add(int index) { at[count++] = index; }
+  constexpr operator NoiseGroup() const { return {at.data(), count}; }
+};
+
+// By what they move, of one side, on a path: the residual angles that have a process there.
+constexpr NoiseIndices noise_that(Moves moves, Side side, Path path) {
+  NoiseIndices out;
+  if (moves == Moves::kTrunk)
+    for (const int along : {0, 1}) out.add(kBallNoise + along);
+  if (moves == Moves::kWalker)
+    for (int torque = kTorqueNoise; torque < kBallNoise; ++torque) out.add(torque);
+  for (const ResidualRow& row : kResidualTable)
+    if (row.moves == moves && is_free(row, path, true)) out.add(noise_of(row.of(side)));
+  return out;
+}
+
 // What a walker feels.
-inline constexpr std::array kWalkerNoise{int{kTorqueNoise}, kTorqueNoise + 1, kTorqueNoise + 2,
-                                         kTorqueNoise + 3,  kTorqueNoise + 4, noise_of(kPace)};
-inline constexpr std::array kLeftArmNoise{noise_of(kShoulder), noise_of(kShoulderAbduction),
-                                          noise_of(kElbow)};
-inline constexpr std::array kRightArmNoise{
-    noise_of(kShoulderRight), noise_of(kShoulderAbductionRight), noise_of(kElbowRight)};
+inline constexpr NoiseIndices kWalkerNoise =
+    noise_that(Moves::kWalker, Side::kLeft, Path::kSpatial);
 
-// The same on a sagittal path.
-inline constexpr std::array kTrunkInPlane{int{kBallNoise}, kBallNoise + 1, noise_of(kCrouch),
-                                          noise_of(kTilt)};
-inline constexpr std::array kLeftLegInPlane{noise_of(kAnkle), noise_of(kThigh), noise_of(kShank)};
-inline constexpr std::array kRightLegInPlane{noise_of(kAnkleRight), noise_of(kThighRight),
-                                             noise_of(kShankRight)};
-inline constexpr std::array kLeftArmInPlane{noise_of(kShoulder), noise_of(kElbow)};
-inline constexpr std::array kRightArmInPlane{noise_of(kShoulderRight), noise_of(kElbowRight)};
+struct BodyNoise {
+  NoiseIndices trunk, left_leg, right_leg, left_arm, right_arm;
+};
+constexpr BodyNoise body_noise(Path path) {
+  return {noise_that(Moves::kTrunk, Side::kLeft, path), noise_that(Moves::kLeg, Side::kLeft, path),
+          noise_that(Moves::kLeg, Side::kRight, path), noise_that(Moves::kArm, Side::kLeft, path),
+          noise_that(Moves::kArm, Side::kRight, path)};
+}
+inline constexpr BodyNoise kSpatialNoise = body_noise(Path::kSpatial),
+                           kSagittalNoise = body_noise(Path::kSagittal);
+
+// The body's groups, and one of the walker before the arms, which come last.
+constexpr std::array<NoiseGroup, 6> groups_with(const BodyNoise& body, NoiseGroup walker) {
+  return {body.trunk, body.left_leg, body.right_leg, walker, body.left_arm, body.right_arm};
+}
 
 }  // namespace walktrack

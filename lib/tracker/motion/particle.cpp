@@ -35,16 +35,24 @@ void set_leg(const KneedState& s, bool stance, const ResidualAngles& residual, S
              Pose& pose) {
   const double thigh = s.q[stance ? kStanceThigh : kSwingThigh];
   const double shank = s.q[stance ? kStanceShank : kSwingShank];
-  const size_t i = index(side);
-  pose.legs[i] = {s.q[kTorso] - thigh, residual[kAbduction + i], residual[kRotation + i],
-                  shank - thigh, residual[kAnkle + i]};
+  pose.legs[index(side)] = {s.q[kTorso] - thigh, residual[of_side(kAbduction, side)],
+                            residual[of_side(kRotation, side)], shank - thigh,
+                            residual[of_side(kAnkle, side)]};
 }
 
 }  // namespace
 
+std::array<ArmPose, 2> arms_of(const ResidualAngles& residual) {
+  const auto arm = [&](Side side) -> ArmPose {
+    return {residual[of_side(kShoulder, side)], residual[of_side(kShoulderAbduction, side)],
+            residual[of_side(kElbow, side)]};
+  };
+  return {arm(Side::kLeft), arm(Side::kRight)};
+}
+
 KneedState shown_state(const KneedState& walker, Side stance, const StepAim& aim,
                        const ResidualAngles& residual) {
-  const size_t standing = index(stance), swinging = 1 - standing;
+  const Side swing = other(stance);
   const double half_stride = 0.5 * std::min(1.0, walker.since_transfer / aim.duration());
   const LegDifference stands = leg_difference(half_stride);
   const LegDifference swings = leg_difference(0.5 + half_stride);
@@ -52,10 +60,10 @@ KneedState shown_state(const KneedState& walker, Side stance, const StepAim& aim
   const double crouch = 0.5 * residual[kCrouch];
   KneedState shown = walker;
   shown.q[kTorso] += residual[kTilt];
-  shown.q[kStanceThigh] += stands.thigh + residual[kThigh + standing] - crouch;
-  shown.q[kStanceShank] += stands.shank + residual[kShank + standing] + crouch;
-  shown.q[kSwingThigh] += swings.thigh + residual[kThigh + swinging] - crouch;
-  shown.q[kSwingShank] += swings.shank + residual[kShank + swinging] + crouch;
+  shown.q[kStanceThigh] += stands.thigh + residual[of_side(kThigh, stance)] - crouch;
+  shown.q[kStanceShank] += stands.shank + residual[of_side(kShank, stance)] + crouch;
+  shown.q[kSwingThigh] += swings.thigh + residual[of_side(kThigh, swing)] - crouch;
+  shown.q[kSwingShank] += swings.shank + residual[of_side(kShank, swing)] + crouch;
   clamp_knees(shown);
   return shown;
 }
@@ -74,9 +82,7 @@ Pose pose_showing(const BodyModel& model, const KneedState& shown, double shank,
   pose.tilt = shown.q[kTorso];
   set_leg(shown, true, residual, stance, pose);
   set_leg(shown, false, residual, other(stance), pose);
-  for (size_t i = 0; model.body.groups.arms && i < 2; ++i)
-    pose.arms[i] = {residual[kShoulder + i], residual[kShoulderAbduction + i],
-                    residual[kElbow + i]};
+  if (model.body.groups.arms) pose.arms = arms_of(residual);
   stand_on(model.body, stance, Eigen::Vector3d(ball.x(), ball.y(), 0), rolled_ankle(model, shank),
            pose);
   return pose;
@@ -94,10 +100,8 @@ void realise_walker(const BodyModel& model, const NoiseScale& scale, WalkerParti
   walker.q += 0.5 * scale.elapsed * kick;
   clamp_knees(walker);
   particle.residual[kHeading] = particle.predicted_residual[kHeading];
-  const ResidualRange free = free_residuals(model);
-  for (int k = free.first; k < free.end; ++k) {
-    const size_t i = size_t(k);
-    const double noise = z[size_t(kExtraNoise) + i];
+  for (const size_t i : free_residuals(model)) {
+    const double noise = z[size_t(kResidualNoise) + i];
     particle.residual[i] = particle.predicted_residual[i] +
                            scale.residual[i] * (i == kHeading ? heavy_tailed(noise) : noise);
   }

@@ -16,39 +16,10 @@
 #include "body/body.h"
 #include "body/pose.h"
 #include "core/rng.h"
+#include "tracker/motion/residual_table.h"
 #include "walker/kneed_walker.h"
 
 namespace walktrack {
-
-// The coordinates that follow a damped second-order Markov process, in this order: those that the
-// walker does not drive, and how far those that it drives stray from it. The walker itself never
-// feels them: its gait stays the stable one that the prior knows. What is sideways comes first and
-// last, the arms last, so that those that a scene has are a range (free_residuals).
-enum ResidualAngle {
-  kHeading,
-  kList,
-  kAbduction,  // of the left leg; the right one's follows, and so for all pairs
-  kAbductionRight,
-  kRotation,
-  kRotationRight,
-  kAnkle,  // dorsiflexion; a standing foot's follows from its sole instead
-  kAnkleRight,
-  kPace,    // logarithm of how much faster the person walks than the walker
-  kCrouch,  // how much further both knees are bent than the walker's
-  kTilt,    // from here to the shanks: how far a person's angles stray from the walker's
-  kThigh,
-  kThighRight,
-  kShank,
-  kShankRight,
-  kShoulder,  // flexion
-  kShoulderRight,
-  kElbow,
-  kElbowRight,
-  kShoulderAbduction,
-  kShoulderAbductionRight,
-  kResidualCount
-};
-using ResidualAngles = std::array<double, kResidualCount>;  // rad
 
 // Where walkers may go and what shows of them:
 //   spatial   anywhere over the ground, turning
@@ -64,8 +35,8 @@ enum class Regime : uint8_t { kWalking, kStanding };
 enum NoiseIndex {
   kTorqueNoise,                   // 5: torso, hip, stance knee, swing knee, stance ankle
   kBallNoise = kTorqueNoise + 5,  // 2: the standing foot's place, along and across
-  kExtraNoise = kBallNoise + 2,
-  kNoiseCount = kExtraNoise + kResidualCount
+  kResidualNoise = kBallNoise + 2,
+  kNoiseCount = kResidualNoise + kResidualCount
 };
 
 // Standard deviations of one frame's noise, derived from MotionConfig and the frame's length.
@@ -118,15 +89,24 @@ struct BodyModel {
   Path path = Path::kSpatial;
 };
 
-// The coordinates that have a process in this model. One that has none keeps the value that it was
-// given at the start, and is neither predicted nor drawn.
-struct ResidualRange {
-  int first, end;
-};
-inline ResidualRange free_residuals(const BodyModel& model) {
+// Whether a coordinate has a process on a path, with arms or without them. One that has none keeps
+// the value that it was given at the start, and is neither predicted nor drawn.
+constexpr bool is_free(const ResidualRow& row, Path path, bool arms) {
+  return (path == Path::kSpatial || !row.sideways) && (arms || row.moves != Moves::kArm);
+}
+
+// Those that have one in this model.
+inline const ResidualList& free_residuals(const BodyModel& model) {
+  static constexpr auto kFree = [](Path path, bool arms) {
+    return residuals_where([=](const ResidualRow& row) { return is_free(row, path, arms); });
+  };
+  static constexpr ResidualList kSpatial = kFree(Path::kSpatial, false),
+                                kSpatialArms = kFree(Path::kSpatial, true),
+                                kSagittal = kFree(Path::kSagittal, false),
+                                kSagittalArms = kFree(Path::kSagittal, true);
   const bool arms = model.body.groups.arms;
-  if (model.path == Path::kSpatial) return {kHeading, arms ? kResidualCount : kShoulder};
-  return {kAnkle, arms ? kShoulderAbduction : kShoulder};
+  if (model.path == Path::kSpatial) return arms ? kSpatialArms : kSpatial;
+  return arms ? kSagittalArms : kSagittal;
 }
 
 // Whether walkers may turn.
@@ -141,6 +121,9 @@ void realise_walker(const BodyModel& model, const NoiseScale& scale, WalkerParti
 // strayed by the residual angles.
 KneedState shown_state(const KneedState& walker, Side stance, const StepAim& aim,
                        const ResidualAngles& residual);
+
+// Both arms' angles.
+std::array<ArmPose, 2> arms_of(const ResidualAngles& residual);
 
 // The pose of a walker whose standing foot has its ball at `ball`.
 Pose pose_of(const BodyModel& model, const KneedState& walker, Side stance, const StepAim& aim,

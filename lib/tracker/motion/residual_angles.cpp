@@ -4,34 +4,31 @@
 #include <cmath>
 #include <limits>
 
-#include "tracker/motion/kneed_motion.h"
-
 namespace walktrack {
 
 namespace {
 
-// Angles in the walker's plane in the order of the residuals, rad.
-using PlanarAngles = Eigen::Array<double, kInPlaneCount, 1>;
-
-PlanarAngles planar_angles(const Pose& pose) {
-  PlanarAngles out;
-  out[0] = pose.tilt;
-  for (int i = 0; i < 2; ++i) {
-    const LegPose& leg = pose.legs[static_cast<size_t>(i)];
-    out[1 + i] = pose.tilt - leg.hip_flexion;
-    out[3 + i] = out[1 + i] + leg.knee_flexion;
+// Angles in the walker's plane, in the places of those that stray from them, rad.
+ResidualAngles planar_angles(const Pose& pose) {
+  ResidualAngles out{};
+  out[kTilt] = pose.tilt;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const LegPose& leg = pose.legs[static_cast<size_t>(side)];
+    const double thigh = pose.tilt - leg.hip_flexion;
+    out[of_side(kThigh, side)] = thigh;
+    out[of_side(kShank, side)] = thigh + leg.knee_flexion;
   }
   return out;
 }
 
-PlanarAngles planar_angles(const Vector5& q, Side stance) {
-  const int standing = static_cast<int>(stance), swinging = 1 - standing;
-  PlanarAngles out;
-  out[0] = q[kTorso];
-  out[1 + standing] = q[kStanceThigh];
-  out[1 + swinging] = q[kSwingThigh];
-  out[3 + standing] = q[kStanceShank];
-  out[3 + swinging] = q[kSwingShank];
+ResidualAngles planar_angles(const Vector5& q, Side stance) {
+  const Side swing = other(stance);
+  ResidualAngles out{};
+  out[kTilt] = q[kTorso];
+  out[of_side(kThigh, stance)] = q[kStanceThigh];
+  out[of_side(kThigh, swing)] = q[kSwingThigh];
+  out[of_side(kShank, stance)] = q[kStanceShank];
+  out[of_side(kShank, swing)] = q[kSwingShank];
   return out;
 }
 
@@ -39,8 +36,8 @@ PlanarAngles planar_angles(const Vector5& q, Side stance) {
 
 double residual_energy(const MotionContext& context, const ResidualAngles& residual) {
   double sum = 0;
-  for (size_t k = kTilt; k < kTilt + kInPlaneCount; ++k) {
-    const MarkovConstants c = markov_constants(static_cast<ResidualAngle>(k));
+  for (const ResidualAngle k : kStraying) {
+    const MarkovConstants& c = row_of(k).process;
     if (residual[k] < c.lowest || residual[k] > c.highest)
       return std::numeric_limits<double>::infinity();
     const double off = residual[k] / (context.config.residual_scale * c.spread);
@@ -51,17 +48,16 @@ double residual_energy(const MotionContext& context, const ResidualAngles& resid
 
 void fit_residuals_to(const Pose& pose, WalkerParticle& reading) {
   ResidualAngles& residual = reading.residual;
-  std::fill_n(residual.begin() + kTilt, kInPlaneCount, 0.0);
+  for (const ResidualAngle k : kStraying) residual[k] = 0;
   const KneedState shown = shown_state(reading.walker, reading.stance, reading.aim, residual);
-  const PlanarAngles residual_now = planar_angles(pose) - planar_angles(shown.q, reading.stance);
-  for (size_t k = 0; k < kInPlaneCount; ++k)
-    residual[kTilt + k] = residual_now[static_cast<Eigen::Index>(k)];
+  const ResidualAngles wanted = planar_angles(pose), there = planar_angles(shown.q, reading.stance);
+  for (const ResidualAngle k : kStraying) residual[k] = wanted[k] - there[k];
 }
 
 // The process of tracker/motion/motion.h is autoregressive with the double root r.
 void draw_residuals_before(const MotionContext& context, WalkerParticle& reading, Rng& rng) {
-  for (size_t k = kTilt; k < kTilt + kInPlaneCount; ++k) {
-    const MarkovConstants c = markov_constants(static_cast<ResidualAngle>(k));
+  for (const ResidualAngle k : kStraying) {
+    const MarkovConstants& c = row_of(k).process;
     const double rr = std::exp(-2 * context.dt / c.time);
     const double correlation = 2 * std::sqrt(rr) / (1 + rr), rest = (1 - rr) / (1 + rr);
     reading.residual_before[k] =

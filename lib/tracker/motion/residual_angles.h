@@ -2,14 +2,9 @@
 // at one moment of its step show the pose of another.
 #pragma once
 
-#include <cstddef>
-
 #include "tracker/motion/motion.h"
 
 namespace walktrack {
-
-// The residuals are the residual angles from kTilt on, in this number: trunk, thighs, shanks.
-inline constexpr size_t kInPlaneCount = kShankRight - kTilt + 1;
 
 // -log of the residuals' own density (tracker/motion/motion.h), but for a constant; infinite beyond
 // their limits.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracker/motion/kneed_motion.h"
-
 namespace walktrack {
 
 namespace {
@@ -19,28 +17,6 @@ constexpr double kSlowestAim = 0.6, kFastestAim = 1.3;
 constexpr double kSlower = -0.25, kSlower_sd = 0.12;  // of kPace, a logarithm
 // Moments of a step at which they may be: before the legs have passed each other.
 constexpr double kLatest = 0.6;
-
-// A standing person sways and shifts weight in seconds, where a walker's residuals change in a
-// tenth.
-double standing_time(ResidualAngle residual, double walking) {
-  switch (residual) {
-    case kThigh:
-    case kThighRight:
-    case kShank:
-    case kShankRight:
-      return 0.4;
-    case kList:
-    case kAbduction:
-    case kAbductionRight:
-    case kRotation:
-    case kRotationRight:
-    case kAnkle:
-    case kAnkleRight:
-      return 0.6;
-    default:
-      return walking;
-  }
-}
 
 bool sets_off(const MotionContext& context, const StepLibrary& steps, WalkerParticle& particle,
               Rng& rng) {
@@ -61,7 +37,7 @@ bool sets_off(const MotionContext& context, const StepLibrary& steps, WalkerPart
   fit_residuals_to(particle.pose, reading);
   if (!std::isfinite(residual_energy(context, reading.residual))) return false;
   draw_residuals_before(context, reading, rng);
-  const MarkovConstants c = markov_constants(kPace);
+  const MarkovConstants& c = row_of(kPace).process;
   reading.residual[kPace] =
       std::clamp(kSlower + kSlower_sd * rng.truncated_normal(3), c.lowest, c.highest);
   reading.residual_before[kPace] = reading.residual[kPace];
@@ -80,12 +56,11 @@ bool stops(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
 
 StandingProcess standing_process(const MotionModel& moves, const MotionConfig& config, double dt) {
   StandingProcess out;
-  for (int k = 0; k < kResidualCount; ++k) {
-    const auto residual = static_cast<ResidualAngle>(k);
+  for (const ResidualAngle residual : kAllResiduals) {
     MarkovConstants c = moves.constants(config, residual);
-    c.time = standing_time(residual, c.time);
-    out.markov[static_cast<size_t>(k)] = markov_step(residual, c, dt);
-    out.scale.residual[static_cast<size_t>(k)] = frame_noise(config, residual, c, dt);
+    c.time = row_of(residual).standing_time;
+    out.markov[residual] = markov_step(residual, c, dt);
+    out.scale.residual[residual] = frame_noise(config, residual, c, dt);
   }
   out.scale.elapsed = dt;
   return out;

@@ -13,14 +13,12 @@ namespace {
 double reach(const Body& body) { return body.lengths.hip_width / leg_length(body.lengths); }
 
 void swap_residuals(ResidualAngles& residual) {
-  for (const ResidualAngle left :
-       {kAbduction, kRotation, kAnkle, kThigh, kShank, kShoulder, kShoulderAbduction, kElbow})
-    std::swap(residual[size_t(left)], residual[size_t(left) + 1]);
+  for (const ResidualRow& row : kResidualTable)
+    if (row.paired()) std::swap(residual[row.left], residual[row.right]);
 }
 
 void reach_across(double reach, ResidualAngles& residual) {
-  for (const size_t i : {size_t{kAbduction}, size_t{kAbductionRight}})
-    residual[i] = -residual[i] - reach;
+  for (const ResidualAngle i : {kAbduction, kAbductionRight}) residual[i] = -residual[i] - reach;
 }
 
 // Below the hips and the shoulders.
@@ -84,10 +82,10 @@ void mirror_legs(const MotionContext& context, WalkerParticle& particle) {
     if (reaches) reach_across(reach(body), *residual);
   }
   ResidualAngles noise;
-  std::copy_n(particle.noise.begin() + kExtraNoise, kResidualCount, noise.begin());
+  std::copy_n(particle.noise.begin() + kResidualNoise, kResidualCount, noise.begin());
   swap_residuals(noise);
   if (reaches) reach_across(0, noise);
-  std::copy_n(noise.begin(), kResidualCount, particle.noise.begin() + kExtraNoise);
+  std::copy_n(noise.begin(), kResidualCount, particle.noise.begin() + kResidualNoise);
   if (!reaches) return swap_feet(context, particle);
   context.moves.apply_noise(context, particle);
   particle.pose_before = mirrored_legs(body, particle.pose_before);
