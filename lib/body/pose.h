@@ -3,7 +3,7 @@
 // Sixteen numbers: root position (3), heading, list and tilt, and for each leg hip flexion,
 // abduction and rotation, knee flexion, ankle dorsiflexion. While a foot stands, the root's
 // position follows from the foot (body/kinematics.h), so 13 of them and the foot's place are free.
-// Arms are an optional group.
+// Arms are an optional group. body/pose_numbers.h has them all in a table.
 //
 //   world_from_pelvis = Rz(heading) Rx(list) Ry(tilt)      world_from_trunk = Rz(heading) Ry(tilt)
 //   pelvis_from_thigh = Rx(o * abduction) Ry(-hip_flexion) Rz(-o * rotation), o = +1 left, -1

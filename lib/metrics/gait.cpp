@@ -11,6 +11,7 @@ namespace {
 
 using Eigen::Vector2d;
 
+// By hand, but for the retraction.
 constexpr double kPathWindow = 0.5;      // s; about a step, so that sway and bounce average out
 constexpr double kMatchWithin = 0.25;    // s; under half of the shortest usual stride
 constexpr double kRetraction = 0.045;    // of the stride, from the turning point; see the header
@@ -32,7 +33,7 @@ Vector2d ground(const Eigen::Vector3d& point) { return point.head<2>(); }
 // Whether somebody stands in row i: the pelvis does not get on in the second around it, as far as
 // that is known.
 bool stands(const Motion& motion, size_t i) {
-  constexpr double kAround = 0.5;  // s
+  constexpr double kAround = 0.5;  // s; by hand
   size_t a = i, b = i;
   while (a > 0 && usable(motion.joints[a - 1]) && motion.time[i] - motion.time[a - 1] <= kAround)
     --a;

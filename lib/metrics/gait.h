@@ -62,7 +62,7 @@ struct Gait {
 
 Gait gait_from_motion(const Motion& motion);
 
-// The part of a stance in which the sole lies flat: 15 % to 60 % of it.
+// The part of a stance in which the sole lies flat: 15 % to 60 % of it. By hand.
 inline constexpr double kFlatFrom = 0.15, kFlatTo = 0.60;
 
 // The middle of the foot, (ankle + toe) / 2.

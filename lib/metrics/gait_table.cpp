@@ -12,6 +12,7 @@ namespace walktrack {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+// By hand.
 constexpr double kSameContact = 0.25;  // s; under half of the shortest usual stride
 constexpr size_t kLeastForSpread = 3;  // steps; two say more of chance than of the walker
 constexpr size_t kLeastASide = 2;      // contacts of either side for a symmetry

@@ -14,6 +14,7 @@ namespace {
 using Eigen::Vector3d;
 using ScoredPoints = Eigen::Matrix<double, 3, kScoredJoints.size()>;
 
+// By hand.
 constexpr double kAnklesApart = 0.25;  // m; closer together, sides are not told apart
 constexpr double kLongestGap = 1.5;    // sample periods; a missing row is a gap
 
@@ -73,7 +74,7 @@ JointErrors::OfJoint statistics_of(Distances distances) {
 // hardly does.
 std::optional<Vector3d> way_at(const Motion& motion, size_t row) {
   constexpr double kHalfWindow = 0.5;  // s; a stride, so that sway does not count
-  constexpr double kLeastWay = 0.1;    // m
+  constexpr double kLeastWay = 0.1;    // m; by hand
   std::optional<Vector3d> first, last;
   const double now = motion.time[row];
   const auto begin = std::lower_bound(motion.time.begin(), motion.time.end(), now - kHalfWindow);

@@ -7,7 +7,7 @@ namespace walktrack {
 
 namespace {
 
-constexpr double kClearly = 0.1;  // m; less is within the noise of four joints
+constexpr double kClearly = 0.1;  // m; less is within the noise of four joints; by hand
 constexpr std::array kLeft{Joint::kLeftKnee, Joint::kLeftAnkle};
 constexpr std::array kRight{Joint::kRightKnee, Joint::kRightAnkle};
 

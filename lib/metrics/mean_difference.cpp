@@ -102,7 +102,7 @@ SampleSpread sample_spread(std::span<const double> values) {
 // With t = sqrt(n) tan(phi), P(0 < T < t) = Gamma((n+1)/2) / (sqrt(pi) Gamma(n/2)) times the
 // integral of cos^(n-1) from 0 to phi: smooth, by Simpson's rule.
 double students_t(double tail, double degrees) {
-  constexpr int kPieces = 400;
+  constexpr int kPieces = 400;  // of the integral
   const double scale = std::exp(std::lgamma((degrees + 1) / 2) - std::lgamma(degrees / 2)) /
                        std::sqrt(std::numbers::pi);
   const auto share_below = [&](double phi) {

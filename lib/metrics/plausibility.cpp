@@ -9,6 +9,7 @@ namespace walktrack {
 
 namespace {
 
+// By hand.
 constexpr double kPenetrates = 0.005;  // m; less is the noise of any measurement
 constexpr size_t kFewestTimes = 3;     // of steps, that have a usual one
 constexpr double kRegular = 0.01;      // relative; rows further from equal steps are a gap
@@ -126,7 +127,7 @@ double quickest_step(const Gait& gait) {
 }
 
 double fastest_half_second(const Motion& motion) {
-  constexpr double kSpan = 0.5;  // s
+  constexpr double kSpan = 0.5;  // s, as the name says
   double fastest = 0;
   size_t from = 0;
   for (size_t i = 0; i < motion.time.size(); ++i) {

@@ -8,14 +8,15 @@ namespace walktrack {
 
 namespace {
 
-// Frames whose pixels make the anchor, with equal weights.
+// Frames whose pixels make the anchor, with equal weights. By hand.
 constexpr int kAnchorFrames = 10;
 // A frame is learned from when at least so many pixels of the class, and such a share of those
-// seen, were probably foreground: otherwise the pose is off or the class is hidden.
+// seen, were probably foreground: otherwise the pose is off or the class is hidden. By
+// hand.
 constexpr double kLeastPixels = 8, kLeastShare = .3;
 
 // Chroma of clothes, skin and most other things: Laplace around grey with this scale, mixed with
-// any chroma at all.
+// any chroma at all. By hand; sensitivity not measured.
 constexpr double kChromaScale = 25, kAnyChroma = .2;
 
 double chroma_density(double chroma) {

@@ -28,7 +28,7 @@ inline float fast_log(float x) {
 }
 
 // Beside a shadow's or a body's edge the gradient is anything, though the pixel is background: the
-// log of the share of such pixels.
+// log of the share of such pixels. By hand.
 constexpr float kLogEdge = -3.0F;
 
 // Constants of the mixture.
@@ -46,7 +46,7 @@ struct Weights {
   float log_plain, log_shadow, log_unknown, darkest, tint, sky, gradient;
 };
 
-// Below this mean a pixel is black anyway and a shadow of it is no share of anything.
+// Below this mean a pixel is black anyway and a shadow of it is no share of anything. By hand.
 constexpr float kDarkestMean = 8;
 
 // A row of a channel with its neighbours above and below (itself at the image's edge).
@@ -75,7 +75,7 @@ Gradient slope(const Rows& rows, int x, int left, int right) {
 // Luma gradients of whatever stands in front: heavy tails in all directions alike,
 // p(g) = s / (2 pi (s^2 + |g|^2)^(3/2)).
 float log_broad_gradient(const Gradient& g) {
-  constexpr float kScale = 4;  // grey levels per px
+  constexpr float kScale = 4;  // grey levels per px; by hand
   return fast_log(kScale) - kLogTwoPi - 1.5F * fast_log(kScale * kScale + g.x * g.x + g.y * g.y);
 }
 
@@ -139,7 +139,7 @@ std::vector<LightPoint> light_points(int width, int height) {
 }
 
 double light_gain(const BackgroundModel& model, const cv::Mat& bgr) {
-  // Dark pixels have no reliable ratio, bright ones saturate.
+  // Dark pixels have no reliable ratio, bright ones saturate. By hand, grey levels.
   constexpr float kDark = 30, kBright = 225;
   std::vector<float> ratios;
   for (const LightPoint& point : light_points(model.width, model.height)) {

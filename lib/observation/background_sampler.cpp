@@ -15,6 +15,7 @@ namespace walktrack {
 namespace {
 
 // Grey levels from a pixel's densest colour within which its samples are of the background.
+// By hand.
 constexpr float kNeighbourhood = 18;
 
 struct Statistics {

@@ -82,6 +82,7 @@ std::optional<Points> find_chessboard(const cv::Mat& grey, const Board& board) {
 
 // Centroids of dark regions that are about elliptic.
 Points dark_blobs(const cv::Mat& grey) {
+  // By hand.
   constexpr double kLeastArea = 12;          // px
   constexpr double kLeastEllipticity = 0.9;  // area over that of the ellipse with its moments
   cv::Mat dark;

@@ -10,10 +10,12 @@ namespace walktrack {
 
 namespace {
 
+// By hand.
 constexpr double kLattice = 0.045;  // m: three across a leg
 constexpr double kReach = 0.7;      // m that a foot swings between frames, at seven a second
 constexpr int kLeastReach = 16;     // px
 // Of the smoothing, in steps of the lattice: what lies between its pixels is heard as well.
+// By hand.
 constexpr double kSmoothing = 0.4;
 constexpr double kLeastSmoothing = 0.8;  // px
 constexpr double kNats = 64;             // bound of a cell's sum, never met
@@ -39,6 +41,7 @@ cv::Rect rect_of(const PixelRect& area) { return {area.x0, area.y0, area.width()
 
 // The grey levels of the empty scene, as OpenCV weighs red, green and blue.
 cv::Mat grey_of(const BackgroundModel& model, const PixelRect& area) {
+  // Rec. ITU-R BT.601.
   constexpr float kRed = 0.299F, kGreen = 0.587F, kBlue = 0.114F;
   constexpr float kOfGreen = 0.5F - (kRed + kBlue);  // Y = G - Cg / 2
   constexpr float kOfOrange = 0.5F * (kRed - kBlue);
@@ -54,7 +57,7 @@ cv::Mat grey_of(const BackgroundModel& model, const PixelRect& area) {
   return out;
 }
 
-constexpr double kLevels = 256;
+constexpr double kLevels = 256;  // of grey, in 8 bits
 
 // log of background.h's mixture, of grey levels alone.
 class UncoveredDensity {
@@ -66,7 +69,7 @@ class UncoveredDensity {
         unknown_(c.unknown_share / kLevels) {}
 
   double log_density(double grey, double mean, double precision) const {
-    constexpr double kDarkestMean = 8;
+    constexpr double kDarkestMean = 8;  // as background.cpp's
     const double off = grey - mean, bright = std::max(mean, kDarkestMean);
     double density =
         unknown_ + plain_ * std::sqrt(precision) * std::exp(-0.5 * off * off * precision);
@@ -95,13 +98,13 @@ void keep_before(const cv::Mat& past, FlowField& out) {
 }  // namespace
 
 double log_t_peak(double dof) {
-  constexpr double kAnything = 0.1;
+  constexpr double kAnything = 0.1;  // share of pixels; by hand
   return std::log(1 - kAnything) + std::lgamma(0.5 * (dof + 1)) - std::lgamma(0.5 * dof) -
          0.5 * std::log(kPi) + 0.5 * dof * std::log(dof);
 }
 
 double light_gain(const GreyImage& before, const GreyImage& now) {
-  // Dark pixels have no reliable ratio, bright ones saturate.
+  // Dark pixels have no reliable ratio, bright ones saturate. By hand, grey levels.
   constexpr int kDark = 30, kBright = 225;
   std::vector<double> ratios;
   for (const LightPoint& point : light_points(now.width, now.height)) {

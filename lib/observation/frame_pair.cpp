@@ -6,10 +6,10 @@ namespace walktrack {
 
 namespace {
 
-// Pixels around the area that are kept: a foot swings this far between frames.
+// Pixels around the area that are kept: a foot swings this far between frames. By hand.
 constexpr int kMargin = 48;
 // Of the smoothing, px: less than a limb's width, enough for a motion that is a pixel off to be
-// pulled the right way.
+// pulled the right way. By hand, like the two below.
 constexpr double kGreySmoothing = 0.8;
 constexpr float kNoise = 4;    // of a difference without texture, grey levels
 constexpr float kErrorPx = 1;  // of a pose's motion that is still right

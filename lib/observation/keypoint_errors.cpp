@@ -16,11 +16,11 @@ using Eigen::Vector2d;
 constexpr std::array<double, kPointKinds> kFirstScale{.015, .033, .030, .026, .045,
                                                       .037, .037, .028, .028};
 // A track that has gone astray makes every residual large: scales may grow by so much only, and
-// shrink by as much as the best detectors do.
+// shrink by as much as the best detectors do. By hand.
 constexpr double kMostGrowth = 1.5, kSmallestShare = 0.2;
-// Steps of the running median, of the logarithm of a scale.
+// Steps of the running median, of the logarithm of a scale. By hand.
 constexpr double kFirstStep = 0.2, kLastStep = 0.005;
-// Frames after which an offset's evidence has faded to 1/e: 10 to 20 s.
+// Frames after which an offset's evidence has faded to 1/e: 10 to 20 s. By hand.
 constexpr double kMemory = 600;
 // Where people and detectors put a joint differs by some 2 cm, a hip's by more; shares of the
 // height. An offset may take no more than that away from what a point says about where the body is.

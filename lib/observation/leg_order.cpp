@@ -14,9 +14,11 @@ namespace {
 
 using Eigen::Vector2d;
 
+// By hand; sensitivity not measured.
 constexpr double kInnerRadius = 0.85;  // share of a leg's width that is surely the leg
 constexpr double kBelowHands = 0.4;    // share of the thigh, from the knee
 // Beyond three standard deviations one misfit is like another: shoes, hems, the edge of a shadow.
+// By hand.
 constexpr double kWorst = 9;
 constexpr double kDof = 3;  // of the Student-t
 

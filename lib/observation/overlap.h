@@ -23,7 +23,7 @@ struct Overlap {
 };
 
 // Near is what lies in the silhouette's bounding box, widened to all sides by kNearMargin of the
-// longer of its sides. A pixel speaks for a body if any of its parts may look so.
+// longer of its sides. A pixel speaks for a body if any of its parts may look so. By hand.
 inline constexpr double kNearMargin = 0.15;
 
 Overlap overlap(const LogRatioPlanes& planes, const CapsuleList& figure);

@@ -17,7 +17,8 @@ namespace {
 constexpr int kDriftRows = 8;
 // Rows that are worked on together.
 constexpr int kBand = 32;
-// Colours are learned from the inner part of each silhouette, where the body is surely.
+// Colours are learned from the inner part of each silhouette, where the body is surely. By
+// hand.
 constexpr double kInner = 0.75;
 
 // CPU of a frame, nanoseconds, as scripts/measure_costs.py prints them.

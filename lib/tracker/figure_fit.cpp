@@ -13,6 +13,7 @@ namespace walktrack {
 
 namespace {
 
+// By hand.
 constexpr std::array kAside{-0.4, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.4};  // m
 constexpr std::array kTurned{-30.0, -15.0, 15.0, 30.0};                     // degrees
 

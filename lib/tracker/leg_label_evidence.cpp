@@ -7,7 +7,7 @@ namespace walktrack {
 namespace {
 
 // Pixels of successive frames err together: so many nats of theirs count as one. Windows of made
-// walks whose legs bear the right names have -4 to +18 nats.
+// walks whose legs bear the right names have -4 to +18 nats. By hand.
 constexpr double kPixelTemperature = 3;
 
 // Of the terms that tell a track's legs apart.
@@ -39,7 +39,7 @@ double legs_log_odds(const TrackerScene& scene, const std::deque<SceneEvidence>&
 
 double names_in_frame(const TrackerScene& scene, const SceneEvidence& evidence, const Pose& pose) {
   // A detector that takes one leg for the other does so until the legs have passed each other.
-  constexpr double kErrsFor = 0.15;  // s
+  constexpr double kErrsFor = 0.15;  // s; by hand
   if (std::none_of(evidence.begin(), evidence.end(), KeypointTerm::says)) return 0;
   const PosedBody posed(scene.model.body, pose);
   double sum = 0;

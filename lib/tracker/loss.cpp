@@ -13,7 +13,7 @@ namespace {
 // What a figure in the usual gait would score where the subject is believed to be, whichever way it
 // faces, nats.
 double figure_score(const TrackContext& context, const SceneEvidence& evidence, const Pose& pose) {
-  constexpr int kHeadings = 6;
+  constexpr int kHeadings = 6;  // 60 degrees apart; by hand
   double best = -std::numeric_limits<double>::infinity();
   for (int k = 0; k < kHeadings; ++k) {
     const double heading = pose.heading + 2 * kPi * k / kHeadings;

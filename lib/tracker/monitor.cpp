@@ -16,7 +16,7 @@ namespace {
 // hand; sensitivity not measured.
 constexpr double kFigureShare = 0.9;
 
-// A frame's own speed trembles.
+// A frame's own speed trembles. By hand.
 constexpr double kVelocityMemory = 1;  // s
 
 // By hand: half a step, and a change of speed or heading as of somebody who stops or turns aside.

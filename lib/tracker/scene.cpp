@@ -10,7 +10,7 @@ namespace walktrack {
 
 namespace {
 
-// The speeds of the figure book, m/s.
+// The speeds of the templates, m/s. By hand.
 constexpr double kSlowestPage = 0.5, kPageStep = 0.2;
 constexpr int kPages = 9;
 
@@ -22,7 +22,7 @@ int frames_in(double seconds, double dt) {
 
 std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed,
                                   double heading) {
-  constexpr int kFigures = 6;
+  constexpr int kFigures = 6;  // by hand; half of them do for a first look
   const double leg = leg_length(model.body.lengths);
   const double unit_speed = std::sqrt(model.walker.parameters.gravity * leg);
   const PriorGait gait = gait_at(prior, in_plane(model, heading).parameters, speed,

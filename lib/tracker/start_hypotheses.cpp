@@ -11,6 +11,7 @@ namespace walktrack {
 namespace {
 
 // A hypothesis this many nats behind the best has lost (odds of 1 to 3 million).
+// By hand.
 constexpr double kHopeless = 15;
 // The evidence of a few particles is itself uncertain. Of 25 starts (side views from near and from
 // afar, two cameras; reports/left_and_right.md) the leading hypothesis was the wrong one as often

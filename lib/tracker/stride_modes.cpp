@@ -81,7 +81,7 @@ double phase_ahead(std::span<const WalkerParticle> particles, std::span<const do
 }
 
 bool label_switched(double expected, double phase) {
-  constexpr double kNear = 0.125;
+  constexpr double kNear = 0.125;  // strides: half of what tells the modes apart
   const auto legs_pass = [](double at) { return std::abs(std::remainder(at - 0.25, 0.5)) < kNear; };
   return legs_pass(expected) && legs_pass(phase) &&
          std::abs(strides_between(expected, phase)) > 0.5 - kNear;

@@ -14,6 +14,7 @@ namespace walktrack {
 namespace {
 
 // Share of the filter's moves that change the course, the others change the frame's noise.
+// By hand; sensitivity not measured.
 constexpr double kCourseMoves = 0.3;
 
 // Walkers that go together: some full vectors, and still enough groups for every thread.

@@ -40,10 +40,9 @@ TEST(ResidualTable, HasProcessesThatRestWithinTheirLimits) {
 bool leaves_plane(const BodyModel& model, const ResidualAngles& residual) {
   const Pose pose = pose_of(model, {}, Side::kLeft, {1.2, 0.6}, {0, 0}, residual);
   const JointPositions joints = forward_kinematics(model.body, pose).joints,
-                       still =
-                           forward_kinematics(model.body, pose_of(model, {}, Side::kLeft,
-                                                                  {1.2, 0.6}, {0, 0}, {}))
-                               .joints;
+                       still = forward_kinematics(model.body, pose_of(model, {}, Side::kLeft,
+                                                                      {1.2, 0.6}, {0, 0}, {}))
+                                   .joints;
   // The standing foot stays where it is, and the root moves: places relative to it.
   const Eigen::Vector3d by = joints[Joint::kPelvis] - still[Joint::kPelvis];
   for (size_t j = 0; j < kJointCount; ++j)

@@ -15,6 +15,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+// By hand; sensitivity not measured.
 constexpr double kLeastHeight_px = 24;  // a smaller figure shows no gait
 constexpr size_t kScored = 12;          // frames that a climb looks at
 constexpr double kApart = 0.5;          // m, between figures that count as two
@@ -236,14 +237,14 @@ double spread_of(const Shift& shift, const Walk& walk, const Window& window) {
     line.velocity += sign / time * (shift.end - shift.begin);
     bent += line_score(window, line);
   }
-  constexpr double kFlat = 0.05;  // nats: no less curved than this
+  constexpr double kFlat = 0.05;  // nats: no less curved than this; by hand
   return kStrangeFigure /
          std::sqrt(independent_looks(window.frames - 1, window.dt) * std::max(kFlat, -bent));
 }
 
 // How uncertain a walk is along the ray.
 void measure_spread(const Vector2d& ray, const Window& window, Walk& walk) {
-  constexpr double kStep = 0.2;  // m
+  constexpr double kStep = 0.2;  // m; by hand
   const double time = window.dt * double(window.frames - 1);
   walk.line.ray = ray;
   walk.line.position_sd = kStep * spread_of({kStep * ray, kStep * ray}, walk, window);
@@ -263,7 +264,7 @@ double least_mean(std::span<const double> values, size_t span) {
 // The least score that a line has for a moment, nats, looking at every `stride`-th frame: for less
 // than that it may fail, as a person's long step has poses that no figure resembles.
 double worst_moment(std::span<const double> scores, double dt, size_t stride) {
-  constexpr double kMoment = 0.15;  // s
+  constexpr double kMoment = 0.15;  // s; by hand, a tenth of a stride
   const auto moment =
       static_cast<size_t>(std::max(1L, std::lround(kMoment / (dt * double(stride)))));
   return least_mean(scores, std::min(moment, scores.size()));
@@ -342,7 +343,7 @@ std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
                                         const WindowScore& score, double dt,
                                         const Vector2d& camera_position,
                                         const DetectorConfig& config, int threads) {
-  constexpr size_t kRefined = 4, kStride = 3;
+  constexpr size_t kRefined = 4, kStride = 3;  // lines, frames; by hand
   const Window window{score, candidates.frames, dt, threads};
   std::vector<Walk> walks = proposed_walks(candidates, dt, config);
   for (const DetectedWalk& line : candidates.lines) walks.push_back({line, 0});
@@ -381,7 +382,7 @@ DetectedWalk nearest_walk(const DetectedWalk& walk, size_t frames, const WindowS
 }
 
 double independent_looks(size_t frames, double dt) {
-  constexpr double kIndependent_s = 0.15;
+  constexpr double kIndependent_s = 0.15;  // by hand; sensitivity not measured
   return std::max(1.0, dt * double(frames) / kIndependent_s);
 }
 

@@ -18,9 +18,10 @@ using Eigen::Vector3d;
 // Heights of joints that stay where they are in walking, shares of the body's (Drillis & Contini
 // 1966; the ankles' mean over a stride).
 constexpr double kShoulderHeight = 0.80, kHipHeight = 0.52, kAnkleHeight = 0.06;
-constexpr double kFits =
-    0.1;  // of the height in the image: a worse fit is no person standing there
-constexpr int kSteps = 8;
+// By hand: a worse fit, share of the height in the image, is no person standing there.
+constexpr double kFits = 0.1;
+constexpr int kSteps = 8;  // of Gauss and Newton
+// By hand: nobody who walks goes further.
 constexpr double kMostSpeed = 4, kJump = 0.5;  // m/s, m: between one frame's place and the next
 
 constexpr size_t index(PointKind kind) { return 2 * static_cast<size_t>(kind) - 1; }

@@ -51,7 +51,7 @@ std::vector<Place> places_in_frame(const SearchWindow& window, size_t index, con
 }
 
 std::vector<DetectedWalk> lines_by_keypoints(const SearchWindow& window) {
-  constexpr double kLeastShare = 0.5;  // of the window in which the person was seen
+  constexpr double kLeastShare = 0.5;  // of the window in which the person was seen; by hand
   const TrackerScene& scene = window.context.scene;
   const DetectorConfig& config = window.context.config.detector;
   std::vector<DetectedWalk> out;

@@ -39,9 +39,10 @@ Pose standing_pose(const BodyModel& model) {
 
 std::optional<StandingStart> standing_before(const DetectedWalk& walk, const StandingScore& score,
                                              double dt, const DetectorConfig& config) {
+  // By hand.
   constexpr double kLook = 0.15, kGap = 0.15;                       // s
   constexpr double kNearest = -0.4, kFarthest = 0.4, kStep = 0.05;  // m ahead of the line's begin
-  constexpr double kAsGood = 0.6;  // of the score just before the walk
+  constexpr double kAsGood = 0.6;  // of the score just before the walk; by hand
   const auto frames_of = [&](double s) {
     return static_cast<size_t>(std::max(1L, std::lround(s / dt)));
   };

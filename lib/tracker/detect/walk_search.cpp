@@ -52,6 +52,7 @@ const std::vector<Place>& WalkSearch::candidates(const SearchWindow& window, siz
 // Somebody who stands is now and then seen to walk slowly, above all along the viewing ray: such a
 // walk is believed when it has been seen for as long as the window.
 bool WalkSearch::walks_clearly(const TrackContext& context, const DetectedWalk& walk) {
+  // Shares of the score. By hand; sensitivity not measured.
   constexpr double kClearly = 0.15, kSlightly = 0.05;
   if (!context.subject.standing || walk.over_standing >= kClearly) return true;
   slight_walks_ = walk.over_standing >= kSlightly ? slight_walks_ + 1 : 0;

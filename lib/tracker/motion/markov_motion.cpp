@@ -110,7 +110,7 @@ MarkovConstants MarkovMotion::constants(const MotionConfig& config, ResidualAngl
 // The root's height takes the place of an angle: it is in metres. It begins further off than it
 // wanders later, for the first figure is the gait's and not yet the subject's.
 double MarkovMotion::start_spread(const MotionConfig& config, ResidualAngle residual) const {
-  constexpr double kHeight = 0.058;  // of the leg's length
+  constexpr double kHeight = 0.058;  // of the leg's length; by hand, 5 cm of an adult
   return residual == kRootHeight ? kHeight * leg_ : MotionModel::start_spread(config, residual);
 }
 

@@ -131,8 +131,7 @@ NoiseScale noise_scale(const MotionModel& moves, const MotionConfig& config, con
   for (size_t k = 0; k < 5; ++k) scale.impulse[k] = shares[k] * unit * root;
   scale.elapsed = dt;
   for (const ResidualAngle residual : kAllResiduals)
-    scale.residual[residual] =
-        frame_noise(config, residual, moves.constants(config, residual), dt);
+    scale.residual[residual] = frame_noise(config, residual, moves.constants(config, residual), dt);
   return scale;
 }
 

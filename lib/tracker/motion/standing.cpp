@@ -13,9 +13,11 @@ namespace {
 constexpr double kSetsOff = 1, kStops = 0.5;
 
 // Those who set off aim at a usual walk, m/s for an adult, and are slower in the first half second.
+// By hand.
 constexpr double kSlowestAim = 0.6, kFastestAim = 1.3;
 constexpr double kSlower = -0.25, kSlower_sd = 0.12;  // of kPace, a logarithm
-// Moments of a step at which they may be: before the legs have passed each other.
+// Moments of a step at which they may be: before the legs have passed each other. By
+// hand.
 constexpr double kLatest = 0.6;
 
 bool sets_off(const MotionContext& context, const StepLibrary& steps, WalkerParticle& particle,

@@ -6,6 +6,7 @@ namespace walktrack {
 
 namespace {
 
+// Of the table of steps. By hand.
 constexpr int kSpeeds = 14, kLengths = 5;
 
 LibraryStep booked(const BodyModel& body, const PriorGait& gait) {

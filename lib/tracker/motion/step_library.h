@@ -12,7 +12,7 @@
 namespace walktrack {
 
 struct LibraryStep {
-  static constexpr size_t kMoments = 24;
+  static constexpr size_t kMoments = 24;  // of a step; by hand
   StepAim aim;
   KneedControls controls;
   std::array<KneedState, kMoments>

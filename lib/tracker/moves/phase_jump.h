@@ -22,7 +22,7 @@
 namespace walktrack {
 
 // Reads it as a moment of one of `steps`. Whether the proposal was accepted; then walker, stance,
-// controls, aim, ball and the residuals (residual and residual_before from kTilt to kShankRight)
+// controls, aim, ball and the residuals that stray (residual and residual_before)
 // are the new ones. They show the particle's pose, but for the height of the hip, which the
 // standing leg gives.
 bool try_phase_jump(const MotionContext& context, const StepLibrary& steps,

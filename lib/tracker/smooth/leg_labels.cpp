@@ -15,7 +15,7 @@ double passed_on(double log_odds, double change) {
 }
 
 double log_odds_of(double probability) {
-  constexpr double kSurest = 1e-6;
+  constexpr double kSurest = 1e-6;  // against infinite odds
   const double p = std::clamp(probability, kSurest, 1 - kSurest);
   return std::log(p) - std::log1p(-p);
 }

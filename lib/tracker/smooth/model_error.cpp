@@ -11,8 +11,9 @@ namespace walktrack {
 
 namespace {
 
+// Measured (tracker/reports/bands.md).
 constexpr double kFigureError = 0.02;  // m
-// Where no camera sees the figure, its place is known to this.
+// Where no camera sees the figure, its place is known to this. By hand.
 constexpr double kUnseen = 1;        // m
 constexpr double kQuantile = 1.645;  // of the normal distribution, at 95 %
 

@@ -19,8 +19,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // s, over which a shift fades: shorter ones tremble, longer ones move the swinging foot.
+// By hand.
 constexpr double kFade = 0.04;
-// Against the unit weight of a shift: feet may still slide 2 to 5 % of what they did.
+// Against the unit weight of a shift: feet may still slide 2 to 5 % of what they did. By hand.
 constexpr double kStands = 50;
 
 Vector2d foot_on_ground(const JointPositions& joints, Side side) {

@@ -31,7 +31,7 @@ struct FlatFoot {
 using FootShifts = std::array<Eigen::Vector2d, 2>;
 
 // A foot that travels further than this in a stretch does not stand: it was taken for the other
-// one, or follows nothing. Such stretches are left alone.
+// one, or follows nothing. Such stretches are left alone. By hand.
 inline constexpr double kTooFarToStand = 0.4;  // m
 
 // One for each row of the motion; zero in those of unknown feet, and far from any stretch.

@@ -13,6 +13,7 @@ namespace walktrack {
 namespace {
 
 // Standard deviations of the weighting within the lag: beyond, a frame counts for nothing.
+// So the lag is defined.
 constexpr double kWithinLag = 3;
 constexpr double kLeastVariance = 1e-12;  // m^2: particles may agree
 
