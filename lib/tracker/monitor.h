@@ -13,6 +13,7 @@
 
 namespace walktrack {
 
+// By hand; sensitivity not measured.
 struct MonitorConfig {
   double lost_below = 0.35;  // share of the likelihood's own median at which the track is lost
   double lost_after = 1;     // s below it: so long may a walker be hidden

@@ -17,6 +17,7 @@
 
 namespace walktrack {
 
+// By hand; sensitivity not measured.
 struct DetectorConfig {
   double window = 1.2;       // s of video that a walk is read from: two steps
   double slowest = 0.35;     // m/s: who is slower is not walking

@@ -19,7 +19,7 @@
 
 namespace walktrack {
 
-// For an adult of kAdultHeight.
+// For an adult of kAdultHeight. By hand where nothing else is said.
 struct MotionConfig {
   MotionKind model = MotionKind::kKneed;
   Path path = Path::kSpatial;  // BodyModel::path
