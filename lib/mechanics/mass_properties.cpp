@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
 #include "core/conventions.h"
 
 namespace walktrack {
@@ -112,13 +110,6 @@ MassProperties combined(std::span<const MassProperties> solids) {
 
 Matrix3d inertia_about(const MassProperties& solid, const Vector3d& point) {
   return solid.inertia + solid.mass * steiner(solid.com - point);
-}
-
-PrincipalAxes principal_axes(const Matrix3d& inertia) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(inertia);
-  PrincipalAxes axes{solver.eigenvalues(), solver.eigenvectors()};
-  if (axes.rotation.determinant() < 0) axes.rotation.col(0) *= -1;
-  return axes;
 }
 
 }  // namespace walktrack

@@ -39,11 +39,4 @@ MassProperties combined(std::span<const MassProperties> solids);
 // Inertia about another point of the same frame.
 Eigen::Matrix3d inertia_about(const MassProperties& solid, const Eigen::Vector3d& point);
 
-// I = rotation * diag(moments) * rotation^T, moments ascending, rotation proper (determinant +1).
-struct PrincipalAxes {
-  Eigen::Vector3d moments;
-  Eigen::Matrix3d rotation;
-};
-PrincipalAxes principal_axes(const Eigen::Matrix3d& inertia);
-
 }  // namespace walktrack

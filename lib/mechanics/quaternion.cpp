@@ -12,8 +12,6 @@ using Eigen::Vector3d;
 
 Quaternion product(const Quaternion& p, const Quaternion& q) { return left_matrix(p) * q; }
 
-Quaternion conjugate(const Quaternion& q) { return {q(0), -q(1), -q(2), -q(3)}; }
-
 Matrix4d left_matrix(const Quaternion& q) {
   Matrix4d left;
   // clang-format off
@@ -54,16 +52,6 @@ Quaternion quaternion_rate(const Quaternion& q, const Vector3d& omega_body) {
   Quaternion pure;
   pure << 0, omega_body;
   return 0.5 * product(q, pure);
-}
-
-Matrix3d cross_matrix(const Vector3d& v) {
-  Matrix3d cross;
-  // clang-format off
-  cross <<    0.0, -v.z(),  v.y(),
-            v.z(),    0.0, -v.x(),
-           -v.y(),  v.x(),    0.0;
-  // clang-format on
-  return cross;
 }
 
 }  // namespace walktrack

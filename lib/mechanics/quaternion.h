@@ -14,7 +14,6 @@ inline Quaternion identity_quaternion() { return {1, 0, 0, 0}; }
 
 // p o q, the rotation q followed by p.
 Quaternion product(const Quaternion& p, const Quaternion& q);
-Quaternion conjugate(const Quaternion& q);
 
 // Q(q) with Q(q) p = q o p. For a unit q it is orthogonal: Q(q)^T = Q(conj q).
 Eigen::Matrix4d left_matrix(const Quaternion& q);
@@ -33,8 +32,5 @@ Quaternion quaternion_from_vector(const Eigen::Vector3d& v);
 
 // dq/dt for an angular velocity in body axes.
 Quaternion quaternion_rate(const Quaternion& q, const Eigen::Vector3d& omega_body);
-
-// S with S r = v x r.
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 
 }  // namespace walktrack

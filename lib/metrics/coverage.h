@@ -15,8 +15,6 @@ struct JointUncertainty {
   std::vector<JointPositions> sd, p05, p95;
 };
 
-inline constexpr double kStatedCoverage = 0.90;  // between the 5th and the 95th percentile
-
 struct Coverage {
   size_t count = 0;       // joint coordinates compared
   double share = 0;       // of them inside [p05, p95]

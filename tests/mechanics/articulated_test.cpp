@@ -16,6 +16,13 @@ using Eigen::VectorXd;
 constexpr double kStep = 1e-5;  // central differences err by kStep^2 and 1e-16 / kStep
 constexpr double kClose = 1e-8;
 
+// S with S r = v x r.
+Matrix3d cross_matrix(const Vector3d& v) {
+  Matrix3d cross;
+  for (int k = 0; k < 3; ++k) cross.col(k) = v.cross(Vector3d::Unit(k));
+  return cross;
+}
+
 class ArticulatedMotion : public testing::Test {
  protected:
   ArticulatedMotion() : rng_(31, Purpose::kTest) {
