@@ -6,7 +6,7 @@
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
 #include "io/scene/model_file.h"
-#include "jobs/simulate/cycle.h"
+#include "jobs/simulate/simulate_cycle.h"
 #include "model_options.h"
 
 namespace walktrack {

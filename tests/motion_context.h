@@ -1,7 +1,7 @@
 // What particles move in, where no tracker has made it.
 #pragma once
 
-#include "tracker/motion/motion.h"
+#include "tracker/motion/propagate.h"
 
 namespace walktrack {
 

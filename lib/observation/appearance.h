@@ -16,7 +16,7 @@
 
 #include "observation/capsules.h"
 #include "observation/colour.h"
-#include "observation/config.h"
+#include "observation/observation_config.h"
 
 namespace walktrack {
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "observation/colour.h"
-#include "observation/config.h"
+#include "observation/observation_config.h"
 
 namespace walktrack {
 

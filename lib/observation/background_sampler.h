@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "observation/background.h"
-#include "observation/config.h"
+#include "observation/observation_config.h"
 
 namespace walktrack {
 

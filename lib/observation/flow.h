@@ -28,8 +28,8 @@
 
 #include "observation/background.h"
 #include "observation/capsules.h"
-#include "observation/config.h"
 #include "observation/frame_pair.h"
+#include "observation/observation_config.h"
 
 namespace walktrack {
 

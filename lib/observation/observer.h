@@ -17,8 +17,8 @@
 
 #include "camera/camera.h"
 #include "observation/background.h"
-#include "observation/config.h"
 #include "observation/keypoints.h"
+#include "observation/observation_config.h"
 #include "observation/planes.h"
 #include "observation/terms.h"
 

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "body/kinematics.h"
-#include "observation/config.h"
+#include "observation/observation_config.h"
 
 namespace walktrack {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tracker/scene.h"
+#include "tracker/tracker_scene.h"
 
 namespace walktrack {
 

@@ -5,7 +5,7 @@
 
 #include "filter/particle_filter.h"
 #include "observation/terms.h"
-#include "tracker/scene.h"
+#include "tracker/tracker_scene.h"
 
 namespace walktrack {
 

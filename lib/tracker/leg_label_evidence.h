@@ -6,7 +6,7 @@
 #include <deque>
 #include <span>
 
-#include "tracker/scene.h"
+#include "tracker/tracker_scene.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {

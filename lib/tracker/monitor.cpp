@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "tracker/scene.h"
+#include "tracker/tracker_scene.h"
 
 namespace walktrack {
 

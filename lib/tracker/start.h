@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tracker/detect/detector.h"
-#include "tracker/motion/motion.h"
+#include "tracker/motion/propagate.h"
 
 namespace walktrack {
 

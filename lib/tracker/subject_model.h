@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "tracker/config.h"
 #include "tracker/motion/standing.h"
-#include "tracker/scene.h"
+#include "tracker/tracker_config.h"
+#include "tracker/tracker_scene.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {

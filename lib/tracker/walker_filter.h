@@ -6,10 +6,10 @@
 
 #include "filter/particle_filter.h"
 #include "tracker/figure_fit.h"
-#include "tracker/motion/motion.h"
-#include "tracker/scene.h"
+#include "tracker/motion/propagate.h"
 #include "tracker/smooth/estimate.h"
 #include "tracker/stride_modes.h"
+#include "tracker/tracker_scene.h"
 
 namespace walktrack {
 

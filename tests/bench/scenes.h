@@ -9,7 +9,7 @@
 #include "observation/capsules.h"
 #include "observation/planes.h"
 #include "tests/motion_context.h"
-#include "tracker/motion/motion.h"
+#include "tracker/motion/propagate.h"
 
 namespace walktrack {
 

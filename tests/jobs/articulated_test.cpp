@@ -1,4 +1,4 @@
-#include "jobs/simulate/articulated.h"
+#include "jobs/simulate/simulate_articulated.h"
 
 #include <filesystem>
 

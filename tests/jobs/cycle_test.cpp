@@ -1,4 +1,4 @@
-#include "jobs/simulate/cycle.h"
+#include "jobs/simulate/simulate_cycle.h"
 
 #include <stdexcept>
 

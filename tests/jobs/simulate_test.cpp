@@ -1,4 +1,4 @@
-#include "jobs/simulate/simulate.h"
+#include "jobs/simulate/simulate_job.h"
 
 #include <filesystem>
 #include <fstream>

@@ -10,7 +10,7 @@
 #include "camera/camera.h"
 #include "core/conventions.h"
 #include "core/rng.h"
-#include "observation/config.h"
+#include "observation/observation_config.h"
 #include "tests/camera/made_camera.h"
 
 namespace walktrack {

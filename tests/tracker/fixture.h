@@ -5,10 +5,10 @@
 #include "core/conventions.h"
 #include "tests/motion_context.h"
 #include "tracker/motion/kneed_motion.h"
-#include "tracker/motion/motion.h"
 #include "tracker/motion/planar_body.h"
-#include "tracker/scene.h"
+#include "tracker/motion/propagate.h"
 #include "tracker/start.h"
+#include "tracker/tracker_scene.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/tracker/frame_time.h"
-#include "tracker/scene.h"
+#include "tracker/tracker_scene.h"
 
 namespace walktrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "tracker/motion/motion.h"
+#include "tracker/motion/propagate.h"
 
 #include <cmath>
 

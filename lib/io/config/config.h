@@ -16,9 +16,9 @@
 #include "body/body.h"
 #include "io/video/encoder_preset.h"
 #include "kinetics/kinetics.h"
-#include "observation/config.h"
-#include "tracker/config.h"
-#include "tracker/smooth/smoothing.h"
+#include "observation/observation_config.h"
+#include "tracker/smooth/smoother.h"
+#include "tracker/tracker_config.h"
 
 namespace walktrack {
 

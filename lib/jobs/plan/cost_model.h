@@ -27,7 +27,7 @@
 #include <utility>
 #include <vector>
 
-#include "observation/config.h"
+#include "observation/observation_config.h"
 
 namespace walktrack {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gait/walk_plan.h"
-#include "jobs/simulate/simulate.h"
+#include "jobs/simulate/simulate_job.h"
 
 namespace walktrack {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "observation/foreground_grid.h"
-#include "tracker/scene.h"
+#include "tracker/tracker_scene.h"
 
 namespace walktrack {
 

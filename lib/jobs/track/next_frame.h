@@ -10,7 +10,7 @@
 #include "jobs/track/detections.h"
 #include "jobs/track/stopwatch.h"
 #include "observation/observer.h"
-#include "tracker/scene.h"
+#include "tracker/tracker_scene.h"
 
 namespace walktrack {
 

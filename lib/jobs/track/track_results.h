@@ -9,7 +9,7 @@
 #include "jobs/track/motion_tables.h"
 #include "jobs/track/track.h"
 #include "metrics/coverage.h"
-#include "tracker/smooth/smoothing.h"
+#include "tracker/smooth/smoother.h"
 #include "tracker/tracker.h"
 
 namespace walktrack {
@@ -20,7 +20,7 @@ struct TrackedFrames {
   FrameFile records;
 };
 
-// The same in the light of each other (tracker/smooth/smoothing.h). Their records lie in a file of
+// The same in the light of each other (tracker/smooth/smoother.h). Their records lie in a file of
 // that name, which the folder does not show any more.
 TrackedFrames smoothed(const TrackedFrames& frames, const SmoothingConfig& config,
                        const std::filesystem::path& file);

@@ -10,7 +10,7 @@
 #include "io/scene/scene.h"
 #include "jobs/track/detections.h"
 #include "observation/observer.h"
-#include "tracker/scene.h"
+#include "tracker/tracker_scene.h"
 
 namespace walktrack {
 

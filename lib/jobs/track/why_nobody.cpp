@@ -7,7 +7,7 @@
 
 #include "core/anthropometry.h"
 #include "io/video/scene_video.h"
-#include "tracker/scene.h"
+#include "tracker/tracker_scene.h"
 
 namespace walktrack {
 

@@ -2,13 +2,13 @@
 // Markov processes of their own, which know how people's angles are spread and how fast they
 // change, but not that feet stand and that legs take turns.
 //
-// Processes of the angles and of the root's height are the damped ones of tracker/motion/motion.h,
-// fitted to motion capture: autoregression of second order by least squares at 30 Hz, pooled over
-// two trials each of Bandai-Namco Research Motiondataset 1 (walk active, walk normal) and of
-// OpenCap's validation (subject 4, walking1, walkingTS1; Uhlrich et al. 2023). Stationary
-// deviations of the fitted processes are those of the data within 2 %, so nothing is lost by
-// stating them. The root's place goes on at constant velocity but for noise, as large as the same
-// trials' accelerations.
+// Processes of the angles and of the root's height are the damped ones of
+// tracker/motion/propagate.h, fitted to motion capture: autoregression of second order by least
+// squares at 30 Hz, pooled over two trials each of Bandai-Namco Research Motiondataset 1 (walk
+// active, walk normal) and of OpenCap's validation (subject 4, walking1, walkingTS1; Uhlrich et al.
+// 2023). Stationary deviations of the fitted processes are those of the data within 2 %, so nothing
+// is lost by stating them. The root's place goes on at constant velocity but for noise, as large as
+// the same trials' accelerations.
 #pragma once
 
 #include "tracker/motion/motion_model.h"

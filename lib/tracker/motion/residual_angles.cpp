@@ -54,7 +54,7 @@ void fit_residuals_to(const Pose& pose, WalkerParticle& reading) {
   for (const ResidualAngle k : kStraying) residual[k] = wanted[k] - there[k];
 }
 
-// The process of tracker/motion/motion.h is autoregressive with the double root r.
+// The process of tracker/motion/propagate.h is autoregressive with the double root r.
 void draw_residuals_before(const MotionContext& context, WalkerParticle& reading, Rng& rng) {
   for (const ResidualAngle k : kStraying) {
     const MarkovConstants& c = row_of(k).process;

@@ -2,12 +2,12 @@
 // at one moment of its step show the pose of another.
 #pragma once
 
-#include "tracker/motion/motion.h"
+#include "tracker/motion/propagate.h"
 
 namespace walktrack {
 
-// -log of the residuals' own density (tracker/motion/motion.h), but for a constant; infinite beyond
-// their limits.
+// -log of the residuals' own density (tracker/motion/propagate.h), but for a constant; infinite
+// beyond their limits.
 double residual_energy(const MotionContext& context, const ResidualAngles& residual);
 
 // Gives `reading`, whose walker, stance and aim are set, the residuals with which it shows `pose`.

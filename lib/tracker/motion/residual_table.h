@@ -1,7 +1,7 @@
 // The coordinates of a particle beside its walker's state, which follow damped second-order Markov
-// processes (tracker/motion/motion.h): those that the walker does not drive, and how far those that
-// it drives stray from it. The walker itself never feels them: its gait stays the stable one that
-// the prior knows.
+// processes (tracker/motion/propagate.h): those that the walker does not drive, and how far those
+// that it drives stray from it. The walker itself never feels them: its gait stays the stable one
+// that the prior knows.
 //
 // One table says of each what it moves, in which plane, which is its mirror image, and its process.
 // What concerns several of them asks the table: no order of theirs means anything, but that random

@@ -2,7 +2,7 @@
 // comes down.
 #pragma once
 
-#include "tracker/motion/motion.h"
+#include "tracker/motion/propagate.h"
 
 namespace walktrack {
 

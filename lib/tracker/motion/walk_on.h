@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "tracker/motion/motion.h"
+#include "tracker/motion/propagate.h"
 
 namespace walktrack {
 

@@ -14,7 +14,7 @@
 
 #include <Eigen/Core>
 
-#include "tracker/motion/motion.h"
+#include "tracker/motion/propagate.h"
 
 namespace walktrack {
 

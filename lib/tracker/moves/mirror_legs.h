@@ -5,7 +5,7 @@
 // (tracker/stride_modes.h), and this is the involution that takes one to the other.
 #pragma once
 
-#include "tracker/motion/motion.h"
+#include "tracker/motion/propagate.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {

@@ -10,13 +10,13 @@
 // "Kinematic jump processes for monocular 3D human tracking", CVPR 2003.
 //
 // This is a Metropolis-Hastings step along the walkers that show the same pose, with respect to the
-// residuals' own distribution (tracker/motion/motion.h): the moment that explains the pose with
+// residuals' own distribution (tracker/motion/propagate.h): the moment that explains the pose with
 // less straying is taken up. How fast they stray is drawn anew, so that the walker goes on as its
 // moment does: a leg that merely passes the other one is soon told from the other leg. Walkers that
 // fit their pose are left alone.
 #pragma once
 
-#include "tracker/motion/motion.h"
+#include "tracker/motion/propagate.h"
 #include "tracker/motion/step_library.h"
 
 namespace walktrack {

@@ -10,7 +10,7 @@
 // tracker/reports/reported_pose.md says what it gains, and what else was tried.
 #pragma once
 
-#include "tracker/scene.h"
+#include "tracker/tracker_scene.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {

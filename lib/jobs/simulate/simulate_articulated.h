@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/conventions.h"
-#include "jobs/simulate/simulate.h"
+#include "jobs/simulate/simulate_job.h"
 #include "mechanics/articulated_dynamics.h"
 #include "walker/model_spec.h"
 

@@ -4,7 +4,7 @@
 #include "filter/particle_filter.h"
 #include "tracker/detect/detector.h"
 #include "tracker/monitor.h"
-#include "tracker/motion/motion.h"
+#include "tracker/motion/propagate.h"
 #include "tracker/start.h"
 
 namespace walktrack {

@@ -1,4 +1,4 @@
-#include "jobs/simulate/articulated.h"
+#include "jobs/simulate/simulate_articulated.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "core/version.h"
 #include "io/archive/result_folder.h"
 #include "io/drawing/stick_figure.h"
-#include "jobs/simulate/simulate.h"
+#include "jobs/simulate/simulate_job.h"
 
 namespace walktrack {
 namespace {

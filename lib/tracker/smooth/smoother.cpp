@@ -1,4 +1,4 @@
-#include "tracker/smooth/smoothing.h"
+#include "tracker/smooth/smoother.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "jobs/simulate/cycle.h"
+#include "jobs/simulate/simulate_cycle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include "io/archive/files.h"
 #include "io/scene/model_file.h"
-#include "jobs/simulate/simulate.h"
+#include "jobs/simulate/simulate_job.h"
 
 namespace walktrack {
 namespace {

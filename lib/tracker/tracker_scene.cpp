@@ -1,4 +1,4 @@
-#include "tracker/scene.h"
+#include "tracker/tracker_scene.h"
 
 #include <algorithm>
 #include <cmath>
