@@ -2,8 +2,10 @@
 """Compares the #includes below lib/ with the module graph declared in lib/CMakeLists.txt.
 
 A module may include its own headers and those of the modules that it names in DEPS, directly or
-through them. It also keeps OpenCV, yaml-cpp and Boost inside the modules meant for them.
+through them. It also keeps OpenCV, yaml-cpp and Boost inside the modules meant for them, every source of
+a module in the module's inline namespace, and headers' names apart from each other.
 """
+import itertools
 import pathlib
 import re
 import sys
@@ -61,11 +63,26 @@ def violations(graph):
                     yield f"{path.relative_to(ROOT)}:{number}: {first} is not for {module}"
 
 
+def strays(graph):
+    """Namespaces that are not their module's, and headers of one name."""
+    headers = {}
+    for module in sorted(graph):
+        for path in sorted((ROOT / "lib" / module).rglob("*")):
+            if path.suffix not in (".h", ".cpp", ".in"):
+                continue
+            where = path.relative_to(ROOT)
+            for outer, inner in itertools.pairwise(path.read_text().splitlines()):
+                if outer.startswith("namespace walktrack") and inner != f"inline namespace {module} {{":
+                    yield f"{where}: '{outer}' is not followed by 'inline namespace {module} {{'"
+            if path.suffix == ".h" and (first := headers.setdefault(path.name, where)) != where:
+                yield f"{where}: {first} has the same name"
+
+
 def main():
     graph = declared_graph()
     if "core" not in graph:
         sys.exit("no module found in lib/CMakeLists.txt")
-    found = list(violations(graph))
+    found = [*violations(graph), *strays(graph)]
     print("\n".join(found) or f"{len(graph)} modules respect their layers")
     return 1 if found else 0
 

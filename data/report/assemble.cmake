@@ -61,6 +61,7 @@ file(WRITE ${OUTPUT} "// Made from data/report by assemble.cmake.
 #include \"io/drawing/report_page.h\"
 
 namespace walktrack {
+inline namespace io {
 
 std::string_view report_template() {
   static constexpr char kText[] = R\"template(${PAGE})template\";
@@ -82,5 +83,6 @@ std::string_view normal_gait_csv() {
   return {kText, sizeof(kText) - 1};
 }
 
+}  // namespace io
 }  // namespace walktrack
 ")

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 namespace walktrack {
+inline namespace body {
 
 // Columns x, y, z: z along `up`, y as near to `left` as that allows.
 inline Eigen::Matrix3d axes_with_z(const Eigen::Vector3d& up, const Eigen::Vector3d& left) {
@@ -23,4 +24,5 @@ inline Eigen::Matrix3d axes_with_x(const Eigen::Vector3d& forward, const Eigen::
   return out;
 }
 
+}  // namespace body
 }  // namespace walktrack

@@ -1,6 +1,7 @@
 #include "body/body.h"
 
 namespace walktrack {
+inline namespace body {
 
 namespace {
 
@@ -96,4 +97,5 @@ Body make_body(const Subject& subject, const BodyGroups& groups) {
   return body;
 }
 
+}  // namespace body
 }  // namespace walktrack

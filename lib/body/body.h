@@ -14,6 +14,7 @@
 #include "body/subject.h"
 
 namespace walktrack {
+inline namespace body {
 
 // Clothes and skin that look alike. Which classes are told apart is the likelihood's matter.
 enum class Appearance { kTrunk, kLegs, kFeet, kHead, kArms };
@@ -67,4 +68,5 @@ struct Body {
 
 Body make_body(const Subject& subject, const BodyGroups& groups);
 
+}  // namespace body
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "body/kinematics.h"
 
 namespace walktrack {
+inline namespace body {
 
 namespace {
 
@@ -74,4 +75,5 @@ JointAngles joint_angles(const Pose& pose) {
   return out;
 }
 
+}  // namespace body
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include "body/pose.h"
 
 namespace walktrack {
+inline namespace body {
 
 enum JointAngle {
   kPelvisTilt,      // + upper end backwards, against the ground
@@ -50,4 +51,5 @@ inline Eigen::Vector3d opensim_from_world(const Eigen::Vector3d& point) {
   return {point.x(), point.z(), -point.y()};
 }
 
+}  // namespace body
 }  // namespace walktrack

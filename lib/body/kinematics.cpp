@@ -7,6 +7,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace body {
 
 namespace {
 
@@ -174,4 +175,5 @@ void stand_on(const Body& body, Side side, const Vector3d& ball,
       pose.tilt - leg.hip_flexion + leg.knee_flexion - sole_pitch(body.lengths, ankle_from_ball);
 }
 
+}  // namespace body
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "body/pose.h"
 
 namespace walktrack {
+inline namespace body {
 
 struct Skeleton {
   JointPositions joints;                                          // world
@@ -73,4 +74,5 @@ double sole_pitch(const BodyLengths& lengths, const Eigen::Vector2d& ankle_from_
 void stand_on(const Body& body, Side side, const Eigen::Vector3d& ball,
               const Eigen::Vector2d& ankle_from_ball, Pose& pose);
 
+}  // namespace body
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace body {
 
 namespace {
 
@@ -100,4 +101,5 @@ double stature_of(const Motion& motion) {
   return count > 0 && sum > 0 ? sum / static_cast<double>(count) : Subject{}.height;
 }
 
+}  // namespace body
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "body/pose.h"
 
 namespace walktrack {
+inline namespace body {
 
 struct Motion {
   std::vector<double> time;            // s, increasing
@@ -43,4 +44,5 @@ double stature_of(const Motion& motion);
 // motion and between rows further apart than `longest_gap` seconds.
 Motion resampled(const Motion& motion, std::span<const double> times, double longest_gap);
 
+}  // namespace body
 }  // namespace walktrack

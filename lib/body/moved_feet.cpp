@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 namespace walktrack {
+inline namespace body {
 
 using Eigen::Quaterniond;
 using Eigen::Vector2d;
@@ -34,4 +35,5 @@ void lift_toe(Side side, JointPositions& joints) {
   joints[toe(side)] = Vector3d(a.x() + ahead.x(), a.y() + ahead.y(), 0);
 }
 
+}  // namespace body
 }  // namespace walktrack

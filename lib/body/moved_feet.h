@@ -7,6 +7,7 @@
 #include "body/pose.h"
 
 namespace walktrack {
+inline namespace body {
 
 // The foot `by` (m, world) further over the ground: the leg turns about its hip as it is, the knee
 // no more bent than before, and the foot keeps its attitude. Its height changes by the little that
@@ -18,4 +19,5 @@ void turn_leg(Side side, const Eigen::Vector2d& by, JointPositions& joints);
 // points. Nothing changes where the ankle is below the ground itself.
 void lift_toe(Side side, JointPositions& joints);
 
+}  // namespace body
 }  // namespace walktrack

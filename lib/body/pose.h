@@ -21,6 +21,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace body {
 
 enum class Side { kLeft = 0, kRight = 1 };
 
@@ -91,4 +92,5 @@ struct JointPositions {
   const Eigen::Vector3d& operator[](Joint joint) const { return at[static_cast<size_t>(joint)]; }
 };
 
+}  // namespace body
 }  // namespace walktrack

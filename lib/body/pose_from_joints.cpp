@@ -8,6 +8,7 @@
 #include "body/motion.h"
 
 namespace walktrack {
+inline namespace body {
 
 namespace {
 
@@ -114,4 +115,5 @@ std::optional<Pose> pose_from_joints(const JointPositions& joints, const BodyLen
   return pose;
 }
 
+}  // namespace body
 }  // namespace walktrack

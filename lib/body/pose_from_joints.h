@@ -13,6 +13,7 @@
 #include "body/subject.h"
 
 namespace walktrack {
+inline namespace body {
 
 // Only the ankle's neutral position takes `lengths`. nullopt if a hip, knee or ankle is unknown
 // (NaN), or if two that a bone joins coincide. Without toes the foot is taken to point where the
@@ -24,4 +25,5 @@ std::optional<Pose> pose_from_joints(const JointPositions& joints, const BodyLen
 Eigen::Vector3d leg_hinge_axis(const JointPositions& joints, Side side,
                                const Eigen::Vector3d& left);
 
+}  // namespace body
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace body {
 
 enum class Unit { kMetre, kRadian };
 enum class Limb { kTrunk, kLeg, kArm };
@@ -116,4 +117,5 @@ inline constexpr std::array kPoseNumbers{
 };
 static_assert(sizeof(Pose) == kPoseNumbers.size() * sizeof(double), "a row for every number");
 
+}  // namespace body
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include "core/anthropometry.h"
 
 namespace walktrack {
+inline namespace body {
 
 namespace {
 
@@ -44,4 +45,5 @@ double leg_length(const BodyLengths& lengths) {
   return lengths.thigh + lengths.shank + lengths.ankle_height;
 }
 
+}  // namespace body
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include <optional>
 
 namespace walktrack {
+inline namespace body {
 
 // Lengths that a scene may state; the others follow from the stature. Metres.
 struct SubjectLengths {
@@ -44,4 +45,5 @@ BodyLengths body_lengths(const Subject& subject);
 // Length of the straight leg from the hip centre to the sole: the unit of dimensionless gait.
 double leg_length(const BodyLengths& lengths);
 
+}  // namespace body
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace camera {
 
 namespace {
 
@@ -261,4 +262,5 @@ Camera scaled_down(const Camera& camera, int factor) {
   return small;
 }
 
+}  // namespace camera
 }  // namespace walktrack

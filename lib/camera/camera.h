@@ -24,6 +24,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace camera {
 
 enum class Lens { kPinhole, kBrown, kRational, kFisheye };
 
@@ -124,4 +125,5 @@ inline bool inside_image(const Camera& camera, const Eigen::Vector2d& pixel) {
 // of the small image lie between those of the large one.
 Camera scaled_down(const Camera& camera, int factor);
 
+}  // namespace camera
 }  // namespace walktrack

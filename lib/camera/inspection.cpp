@@ -8,6 +8,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace camera {
 
 namespace {
 
@@ -107,4 +108,5 @@ CameraInspection inspect_camera(const Camera& camera, double person_height) {
   return found;
 }
 
+}  // namespace camera
 }  // namespace walktrack

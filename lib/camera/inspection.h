@@ -10,6 +10,7 @@
 #include "camera/camera.h"
 
 namespace walktrack {
+inline namespace camera {
 
 struct CameraInspection {
   Eigen::Vector3d centre;      // world, m
@@ -35,4 +36,5 @@ bool sees_person(const Camera& camera, const Eigen::Vector2d& place, double pers
 // Whether the lens model is one to one over the whole image.
 bool lens_covers_image(const Camera& camera);
 
+}  // namespace camera
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace camera {
 
 namespace {
 
@@ -199,4 +200,5 @@ WalkerView view_from_walker(std::span<const SeenStature> positions, const ViewAs
   return out;
 }
 
+}  // namespace camera
 }  // namespace walktrack

@@ -17,6 +17,7 @@
 #include "camera/camera.h"
 
 namespace walktrack {
+inline namespace camera {
 
 // Somebody at one place: means over a stride, for a head goes up and down.
 struct SeenStature {
@@ -61,4 +62,5 @@ struct WalkerView {
 WalkerView view_from_walker(std::span<const SeenStature> positions,
                             const ViewAssumptions& assumptions);
 
+}  // namespace camera
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace camera {
 
 WorldFrame world_frame_on_ground(const Eigen::Vector3d& normal, double offset) {
   const double length = normal.norm();
@@ -46,4 +47,5 @@ Camera camera_in_calibration(const WorldFrame& frame, Camera camera) {
   return camera;
 }
 
+}  // namespace camera
 }  // namespace walktrack

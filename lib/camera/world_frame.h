@@ -8,6 +8,7 @@
 #include "camera/camera.h"
 
 namespace walktrack {
+inline namespace camera {
 
 struct WorldFrame {  // world_from_calibration: x_world = rotation x_calibration + translation
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
@@ -27,4 +28,5 @@ Eigen::Vector3d calibration_from_world(const WorldFrame& frame, const Eigen::Vec
 Camera camera_in_world(const WorldFrame& frame, Camera camera);
 Camera camera_in_calibration(const WorldFrame& frame, Camera camera);
 
+}  // namespace camera
 }  // namespace walktrack

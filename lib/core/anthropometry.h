@@ -6,7 +6,9 @@
 // gyration (about the centre of mass), Dempster 1955, in Winter, table 4.1.
 #pragma once
 
-namespace walktrack::anthropometry {
+namespace walktrack {
+inline namespace core {
+namespace anthropometry {
 
 // Lengths, shares of H. The ankle's is its height over the sole.
 inline constexpr double kThigh = .245, kShank = .246, kAnkleHeight = .039, kTrunk = .288;
@@ -34,4 +36,6 @@ inline constexpr double kUsualSpeed = 1.25;
 // (Roach & Miles 1991, Physical Therapy 71, 656-665). Walking stays below 70.
 inline constexpr double kDeepestKneeBendDeg = 150;
 
-}  // namespace walktrack::anthropometry
+}  // namespace anthropometry
+}  // namespace core
+}  // namespace walktrack

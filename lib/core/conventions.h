@@ -22,6 +22,7 @@
 #include <numbers>
 
 namespace walktrack {
+inline namespace core {
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kStandardGravity = 9.80665;  // m/s^2
@@ -33,4 +34,5 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double deg_from_rad(double angle) { return angle * (180.0 / kPi); }
 inline constexpr double rad_from_deg(double angle_deg) { return angle_deg * (kPi / 180.0); }
 
+}  // namespace core
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include <string>
 
 namespace walktrack {
+inline namespace core {
 
 namespace fs = std::filesystem;
 
@@ -115,4 +116,5 @@ int threads_for(int cpus, std::optional<double> limit) {
   return std::max(1, cpus);
 }
 
+}  // namespace core
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace core {
 
 // CPUs of the affinity mask of the calling thread; 0 where the system does not tell.
 int allowed_cpus();
@@ -30,4 +31,5 @@ std::optional<double> cpu_time_limit(const std::filesystem::path& root = "/");
 // Threads for so many CPUs and such a limit, at least 1; a part of a CPU counts as one.
 int threads_for(int cpus, std::optional<double> limit);
 
+}  // namespace core
 }  // namespace walktrack

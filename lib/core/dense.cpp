@@ -9,6 +9,7 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 
 namespace walktrack {
+inline namespace core {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
@@ -91,4 +92,5 @@ LeastSquaresFit minimise_squares(const Residuals& residuals, const VectorXd& sta
   return out;
 }
 
+}  // namespace core
 }  // namespace walktrack

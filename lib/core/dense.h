@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace core {
 
 // The x of least norm among those that minimise |a x - b| (complete orthogonal decomposition: Golub
 // & Van Loan 2013, 5.5.2).
@@ -38,4 +39,5 @@ LeastSquaresFit minimise_squares(
     const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& residuals,
     const Eigen::VectorXd& start);
 
+}  // namespace core
 }  // namespace walktrack

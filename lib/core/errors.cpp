@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 namespace walktrack {
+inline namespace core {
 
 std::string describe(const InputPlace& place, std::string_view found, std::string_view allowed) {
   std::string text = place.file;
@@ -59,4 +60,5 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   return best;
 }
 
+}  // namespace core
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace core {
 
 // A usage or configuration mistake: exit code 2.
 class UsageError : public std::runtime_error {
@@ -35,4 +36,5 @@ std::string describe(const InputPlace& place, std::string_view found, std::strin
 // none is within a third of its length.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
+}  // namespace core
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace core {
 
 struct Progress {
   std::string_view what;  // e.g. "tracking"
@@ -29,4 +30,5 @@ struct JobControl {
   bool stopping() const { return stop_request && stop_request->load(std::memory_order_relaxed); }
 };
 
+}  // namespace core
 }  // namespace walktrack

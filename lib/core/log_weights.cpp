@@ -5,6 +5,7 @@
 #include <limits>
 
 namespace walktrack {
+inline namespace core {
 
 namespace {
 
@@ -51,4 +52,5 @@ double effective_sample_size(std::span<const double> log_weights, double exponen
   return sum * sum / sum_of_squares;
 }
 
+}  // namespace core
 }  // namespace walktrack

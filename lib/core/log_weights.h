@@ -7,6 +7,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace core {
 
 // log(sum_i exp(w_i)), exact for any offset; -infinity for an empty or all-dead set.
 double log_sum_exp(std::span<const double> log_weights);
@@ -21,4 +22,5 @@ double effective_sample_size(std::span<const double> log_weights);
 // Effective sample size of weights raised to `exponent`: what annealing needs to choose a layer.
 double effective_sample_size(std::span<const double> log_weights, double exponent);
 
+}  // namespace core
 }  // namespace walktrack

@@ -16,6 +16,7 @@
 #endif
 
 namespace walktrack {
+inline namespace core {
 
 namespace {
 
@@ -107,4 +108,5 @@ void run_beside(int threads, const std::function<void()>& here,
   if (thrown) std::rethrow_exception(thrown);
 }
 
+}  // namespace core
 }  // namespace walktrack

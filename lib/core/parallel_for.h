@@ -14,6 +14,7 @@
 #include <type_traits>
 
 namespace walktrack {
+inline namespace core {
 
 // Threads of this machine that the process may use (core/cpu_limits.h), at least 1.
 int hardware_threads();
@@ -37,4 +38,5 @@ void parallel_for(size_t n, int threads, F&& f) {
 void run_beside(int threads, const std::function<void()>& here,
                 const std::function<void()>& beside);
 
+}  // namespace core
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace core {
 
 std::array<uint32_t, 4> philox4x32(std::array<uint32_t, 4> counter, std::array<uint32_t, 2> key) {
   constexpr uint32_t kMultiplier0 = 0xD2511F53, kMultiplier1 = 0xCD9E8D57;
@@ -57,4 +58,5 @@ double Rng::truncated_normal(double limit) {
   return value;
 }
 
+}  // namespace core
 }  // namespace walktrack

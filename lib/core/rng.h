@@ -9,6 +9,7 @@
 #include <cstdint>
 
 namespace walktrack {
+inline namespace core {
 
 // Ten rounds of Philox on one 128-bit counter and a 64-bit key.
 std::array<uint32_t, 4> philox4x32(std::array<uint32_t, 4> counter, std::array<uint32_t, 2> key);
@@ -46,4 +47,5 @@ class Rng {
   bool has_spare_ = false;
 };
 
+}  // namespace core
 }  // namespace walktrack

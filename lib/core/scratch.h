@@ -7,6 +7,7 @@
 #include <memory_resource>
 
 namespace walktrack {
+inline namespace core {
 
 template <size_t kBytes>
 class Scratch {
@@ -22,4 +23,5 @@ class Scratch {
   std::pmr::monotonic_buffer_resource resource_{bytes_.data(), kBytes};
 };
 
+}  // namespace core
 }  // namespace walktrack

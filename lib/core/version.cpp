@@ -1,6 +1,7 @@
 #include "core/version.h"
 
 namespace walktrack {
+inline namespace core {
 
 const BuildFacts& build_facts() {
   static constexpr BuildFacts kFacts{WALKTRACK_VERSION, WALKTRACK_COMMIT, WALKTRACK_BUILD_TYPE,
@@ -8,4 +9,5 @@ const BuildFacts& build_facts() {
   return kFacts;
 }
 
+}  // namespace core
 }  // namespace walktrack

@@ -4,6 +4,7 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace core {
 
 struct BuildFacts {
   std::string_view version;
@@ -14,4 +15,5 @@ struct BuildFacts {
 
 const BuildFacts& build_facts();
 
+}  // namespace core
 }  // namespace walktrack

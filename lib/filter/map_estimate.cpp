@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 namespace walktrack {
+inline namespace filter {
 
 namespace {
 
@@ -110,4 +111,5 @@ MapEstimate map_estimate(const VectorXd& mean, const VectorXd& sd, int rounds,
   return out;
 }
 
+}  // namespace filter
 }  // namespace walktrack

@@ -18,6 +18,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace filter {
 
 struct MapEstimate {
   Eigen::VectorXd at;
@@ -33,4 +34,5 @@ using LogLikelihoods =
 MapEstimate map_estimate(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd, int rounds,
                          const LogLikelihoods& log_likelihoods);
 
+}  // namespace filter
 }  // namespace walktrack

@@ -39,6 +39,7 @@
 #include "filter/resampling.h"
 
 namespace walktrack {
+inline namespace filter {
 
 // A likelihood that is a product of factors which can be had one after the other. A move is put to
 // them in turn and is rejected by the first that is against it, the others unasked: delayed
@@ -323,4 +324,5 @@ class ParticleFilter {
   mutable std::vector<double> raised_;
 };
 
+}  // namespace filter
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include "core/log_weights.h"
 
 namespace walktrack {
+inline namespace filter {
 
 bool systematic_resample(std::span<const double> log_weights, double u,
                          std::span<uint32_t> parents) {
@@ -28,4 +29,5 @@ bool systematic_resample(std::span<const double> log_weights, double u,
   return true;
 }
 
+}  // namespace filter
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include <span>
 
 namespace walktrack {
+inline namespace filter {
 
 // Fills `parents` with indices into `log_weights`, in ascending order. `u` lies in (0, 1). The
 // number of parents may differ from the number of weights. Returns false, leaving `parents` alone,
@@ -14,4 +15,5 @@ namespace walktrack {
 bool systematic_resample(std::span<const double> log_weights, double u,
                          std::span<uint32_t> parents);
 
+}  // namespace filter
 }  // namespace walktrack

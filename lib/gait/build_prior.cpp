@@ -6,6 +6,7 @@
 #include "core/parallel_for.h"
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 // An optimal gait at 1.25 m/s and steps of 0.694 m of an adult, where the search sets out. It was
@@ -284,4 +285,5 @@ GaitPrior build_gait_prior(const PriorGrid& grid, const GaitPrior& earlier, int 
   return builder.prior();
 }
 
+}  // namespace gait
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "gait/optimal_gait.h"
 
 namespace walktrack {
+inline namespace gait {
 
 struct PriorGrid {
   // 0.5 ... 2.2 m/s for a leg of 0.93 m, closer where gaits change most.
@@ -42,4 +43,5 @@ using PriorProgress = std::function<bool(const GaitPrior&, size_t tried)>;
 GaitPrior build_gait_prior(const PriorGrid& grid, const GaitPrior& earlier, int threads,
                            const PriorProgress& progress);
 
+}  // namespace gait
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "gait/newton.h"
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 // Kuo (2002), level, toe-off and hip spring (configs/models/kuo_level_spring.yaml).
@@ -130,4 +131,5 @@ StraightPrior build_straight_prior(const StraightPriorGrid& grid,
   return StraightBuilder(grid).build(progress);
 }
 
+}  // namespace gait
 }  // namespace walktrack

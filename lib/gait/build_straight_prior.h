@@ -8,6 +8,7 @@
 #include "gait/straight_prior.h"
 
 namespace walktrack {
+inline namespace gait {
 
 // Speeds and step lengths of the kneed walker's grid. Uphill there is nothing to find: see
 // lib/gait/reports/straight_gaits.md.
@@ -26,4 +27,5 @@ StraightNode measured_node(const StraightGaitVector& cycle, const GaitTarget& ta
 StraightPrior build_straight_prior(const StraightPriorGrid& grid,
                                    const std::function<bool(size_t)>& progress = {});
 
+}  // namespace gait
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "gait/walker_units.h"
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 constexpr double kDifference = 1e-5;    // the map's error of 1e-12 then costs 1e-7
@@ -74,4 +75,5 @@ SectionMatrix step_matrix(const CycleJacobian& jacobian) {
 
 SectionVector multipliers(const SectionMatrix& matrix) { return eigenvalues(matrix).cwiseAbs(); }
 
+}  // namespace gait
 }  // namespace walktrack

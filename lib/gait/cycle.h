@@ -9,6 +9,7 @@
 #include "gait/step_map.h"
 
 namespace walktrack {
+inline namespace gait {
 
 inline constexpr int kGaitSize = kControlSize + kSectionSize;
 inline constexpr int kResidualSize = kSectionSize + 2;
@@ -48,4 +49,5 @@ SectionMatrix step_matrix(const CycleJacobian& jacobian);
 // Absolute values of its eigenvalues (the Floquet multipliers), largest first.
 SectionVector multipliers(const SectionMatrix& step_matrix);
 
+}  // namespace gait
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 namespace walktrack {
+inline namespace gait {
 
 using Eigen::MatrixXd;
 
@@ -32,4 +33,5 @@ FeedbackGain feedback_gain(const CycleJacobian& jacobian, double effort) {
                         effort);
 }
 
+}  // namespace gait
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "gait/cycle.h"
 
 namespace walktrack {
+inline namespace gait {
 
 using FeedbackGain = Eigen::Matrix<double, kControlSize, kSectionSize>;
 
@@ -21,4 +22,5 @@ struct LinearStep {
 Eigen::MatrixXd regulator_gain(const LinearStep& step, double effort);
 FeedbackGain feedback_gain(const CycleJacobian& jacobian, double effort);
 
+}  // namespace gait
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include <numbers>
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 constexpr double kTruncation = 3;
@@ -37,4 +38,5 @@ double torque_deviation(const GaitNoise& noise, const WalkerUnits& units, double
   return noise.torque * units.torque() * std::sqrt(kReference / duration);
 }
 
+}  // namespace gait
 }  // namespace walktrack

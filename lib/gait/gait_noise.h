@@ -6,6 +6,7 @@
 #include "gait/walker_units.h"
 
 namespace walktrack {
+inline namespace gait {
 
 // Noise of the controls, drawn once a step, and of the torques, drawn once a time step.
 struct GaitNoise {
@@ -30,4 +31,5 @@ double log_deviation_density(double deviation, double sd);
 // diffusion does not depend on the frame rate. 0 where there is none.
 double torque_deviation(const GaitNoise& noise, const WalkerUnits& units, double duration);
 
+}  // namespace gait
 }  // namespace walktrack

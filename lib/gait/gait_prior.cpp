@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 // Bounds of a feedback's correction, in square roots of stiffness and damping relative to the
@@ -122,4 +123,5 @@ Vector5 draw_torques(Rng& rng, const WalkerUnits& units, const GaitNoise& noise,
   return {torso, -torso - hip - stance_knee, hip - swing_knee, stance_knee, swing_knee};
 }
 
+}  // namespace gait
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "gait/prior_table.h"
 
 namespace walktrack {
+inline namespace gait {
 
 struct GaitNode {
   GaitVector gait = GaitVector::Zero();
@@ -72,4 +73,5 @@ double log_density(const KneedControls& drawn, const KneedControls& controls,
 // sqrt(duration), so that the walker's diffusion does not depend on the frame rate.
 Vector5 draw_torques(Rng& rng, const WalkerUnits& units, const GaitNoise& noise, double duration);
 
+}  // namespace gait
 }  // namespace walktrack

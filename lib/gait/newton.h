@@ -8,6 +8,7 @@
 #include "gait/prior_table.h"
 
 namespace walktrack {
+inline namespace gait {
 
 // Minimum-norm Gauss-Newton from `guess` to a residual below 1e-9; nullopt where it does not get
 // there. residual(gait) and jacobian(gait) give optional matrices: nothing where no step is walked.
@@ -59,4 +60,5 @@ std::optional<Gait> continued(Gait at, const GaitTarget& from, const GaitTarget&
   return at;
 }
 
+}  // namespace gait
 }  // namespace walktrack

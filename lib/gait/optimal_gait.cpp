@@ -8,6 +8,7 @@
 #include "core/dense.h"
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 constexpr int kFree = kGaitSize - kResidualSize;
@@ -161,4 +162,5 @@ GaitVector optimal_gait(const GaitVector& cycle, const GaitTarget& target,
   return best;
 }
 
+}  // namespace gait
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "gait/cycle.h"
 
 namespace walktrack {
+inline namespace gait {
 
 // Every term is dimensionless and near 0.05 where it begins to matter, the cost of transport of a
 // good gait. Limits are soft: cost weight * (excess / scale)^2.
@@ -63,4 +64,5 @@ struct GaitSearch {
 GaitVector optimal_gait(const GaitVector& cycle, const GaitTarget& target,
                         const GaitObjective& objective, const GaitSearch& search);
 
+}  // namespace gait
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "gait/table_text.h"
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 constexpr std::string_view kVersionLine = "walktrack gait prior, version 1";
@@ -101,4 +102,5 @@ StraightPrior load_straight_prior() {
                               "gait prior of the anthropomorphic walker of this program");
 }
 
+}  // namespace gait
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "gait/straight_prior.h"
 
 namespace walktrack {
+inline namespace gait {
 
 std::string gait_prior_text(const GaitPrior& prior, std::string_view tool_version);
 std::string straight_prior_text(const StraightPrior& prior, std::string_view tool_version);
@@ -20,4 +21,5 @@ StraightPrior parse_straight_prior(std::string_view text, const std::string& nam
 std::string_view shipped_gait_prior_text();
 std::string_view shipped_straight_prior_text();
 
+}  // namespace gait
 }  // namespace walktrack

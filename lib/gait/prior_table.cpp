@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 // Four neighbours on an axis with their weights, see NodeShare.
@@ -80,4 +81,5 @@ size_t nearest_index(const std::vector<double>& axis, double value) {
   return best;
 }
 
+}  // namespace gait
 }  // namespace walktrack

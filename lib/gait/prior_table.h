@@ -7,6 +7,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace gait {
 
 struct GaitTarget {
   double speed = 0;        // body's advance per time
@@ -68,4 +69,5 @@ GaitTarget shifted(GaitTarget target);
 // The node nearest to a value on an axis.
 size_t nearest_index(const std::vector<double>& axis, double value);
 
+}  // namespace gait
 }  // namespace walktrack

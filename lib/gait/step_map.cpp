@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 constexpr double kLongestStep = 8;     // 2.5 s for an adult
@@ -128,4 +129,5 @@ std::optional<WalkedStep> walk_step(const KneedModel& model, const KneedControls
   return std::nullopt;
 }
 
+}  // namespace gait
 }  // namespace walktrack

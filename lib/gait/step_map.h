@@ -15,6 +15,7 @@
 #include "walker/kneed_advance.h"
 
 namespace walktrack {
+inline namespace gait {
 
 inline constexpr int kSectionSize = 8;
 inline constexpr int kControlSize = 13;
@@ -55,4 +56,5 @@ inline constexpr double kCoarseStep = 0.0065;
 std::optional<WalkedStep> walk_step(const KneedModel& model, const KneedControls& controls,
                                     const KneedState& start, double max_step = kFineStep);
 
+}  // namespace gait
 }  // namespace walktrack

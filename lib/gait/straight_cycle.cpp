@@ -8,6 +8,7 @@
 #include "gait/newton.h"
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 constexpr double kLongestStraightStep = 8;    // 2.5 s for an adult
@@ -145,4 +146,5 @@ std::optional<StraightGaitVector> find_straight_cycle(const StraightGaitVector& 
   return found;
 }
 
+}  // namespace gait
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include "walker/straight_batch.h"
 
 namespace walktrack {
+inline namespace gait {
 
 inline constexpr int kStraightControlSize = 2;
 inline constexpr int kStraightSectionSize = 3;
@@ -62,4 +63,5 @@ double largest_multiplier(const StraightJacobian& jacobian);
 std::optional<StraightGaitVector> find_straight_cycle(const StraightGaitVector& guess,
                                                       const GaitTarget& target);
 
+}  // namespace gait
 }  // namespace walktrack

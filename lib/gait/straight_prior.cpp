@@ -6,6 +6,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 // Bound of a feedback's correction, of the control; of 0.05 where that is smaller.
@@ -147,4 +148,5 @@ Vector2 draw_hip_torque(Rng& rng, const WalkerUnits& units, const GaitNoise& noi
   return {-torque, torque};
 }
 
+}  // namespace gait
 }  // namespace walktrack

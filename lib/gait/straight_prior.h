@@ -15,6 +15,7 @@
 #include "gait/straight_cycle.h"
 
 namespace walktrack {
+inline namespace gait {
 
 using StraightGain = Eigen::Matrix<double, kStraightControlSize, kStraightSectionSize>;
 
@@ -84,4 +85,5 @@ double log_density(const StraightControls& drawn, const StraightControls& contro
 Vector2 draw_hip_torque(Rng& rng, const WalkerUnits& units, const GaitNoise& noise,
                         double duration);
 
+}  // namespace gait
 }  // namespace walktrack

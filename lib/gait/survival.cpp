@@ -7,6 +7,7 @@
 #include "walker/kneed_batch.h"
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 // Walkers that go together: many vectors, and still enough groups for every thread.
@@ -165,4 +166,5 @@ std::vector<double> survival(const StraightPrior& prior, const StraightLeggedPar
                      trial, times, threads);
 }
 
+}  // namespace gait
 }  // namespace walktrack

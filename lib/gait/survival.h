@@ -7,6 +7,7 @@
 #include "gait/straight_prior.h"
 
 namespace walktrack {
+inline namespace gait {
 
 struct SurvivalTrial {
   double speed = 1.3;      // m/s
@@ -26,4 +27,5 @@ std::vector<double> survival(const StraightPrior& prior, const StraightLeggedPar
                              const SurvivalTrial& trial, const std::vector<double>& times,
                              int threads);
 
+}  // namespace gait
 }  // namespace walktrack

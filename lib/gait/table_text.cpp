@@ -11,6 +11,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 // FNV-1a, 64 bits: guards against truncation and editing, not against malice.
@@ -104,4 +105,5 @@ std::string table_head(std::string_view version_line, std::string_view tool_vers
 
 std::string with_checksum(std::string text) { return text + checksum_line(text) + '\n'; }
 
+}  // namespace gait
 }  // namespace walktrack

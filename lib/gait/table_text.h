@@ -9,6 +9,7 @@
 #include "gait/prior_table.h"
 
 namespace walktrack {
+inline namespace gait {
 
 // Reads words of a text in order; every failure is an InputError that names the place.
 class TableReader {
@@ -42,4 +43,5 @@ std::string table_head(std::string_view version_line, std::string_view tool_vers
                        const PriorAxes& axes);
 std::string with_checksum(std::string text);
 
+}  // namespace gait
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 // Distances of sections, in units L = M = g = 1: from the gait aimed at, and between two transfers,
@@ -92,4 +93,5 @@ StraightGait next_gait(const StraightPrior& prior, const StraightLeggedParameter
   return next_of_plan(prior, parameters, plan, time, state, progress);
 }
 
+}  // namespace gait
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "gait/straight_prior.h"
 
 namespace walktrack {
+inline namespace gait {
 
 struct SpeedChange {
   double time = 0;   // s, when the change begins
@@ -55,4 +56,5 @@ StraightGait next_gait(const StraightPrior& prior, const StraightLeggedParameter
                        const WalkPlan& plan, double time, const StraightState& state,
                        PlanProgress& progress);
 
+}  // namespace gait
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace gait {
 namespace {
 
 using namespace anthropometry;
@@ -75,4 +76,5 @@ KneedState scaled(const KneedState& state, const WalkerUnits& from, const Walker
   return s;
 }
 
+}  // namespace gait
 }  // namespace walktrack

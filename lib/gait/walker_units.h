@@ -10,6 +10,7 @@
 #include "walker/kneed_walker.h"
 
 namespace walktrack {
+inline namespace gait {
 
 struct WalkerUnits {
   double length = 1;   // m
@@ -35,4 +36,5 @@ WalkerUnits walker_units(const KneedParameters& parameters);
 KneedControls scaled(const KneedControls& controls, const WalkerUnits& from, const WalkerUnits& to);
 KneedState scaled(const KneedState& state, const WalkerUnits& from, const WalkerUnits& to);
 
+}  // namespace gait
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "kinetics/smoothing.h"
 
 namespace walktrack {
+inline namespace kinetics {
 
 namespace {
 
@@ -80,4 +81,5 @@ ForceErrors force_errors(const GroundForces& truth, const GroundForces& estimate
   return out;
 }
 
+}  // namespace kinetics
 }  // namespace walktrack

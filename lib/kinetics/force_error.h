@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace kinetics {
 
 struct GroundForces {
   std::vector<double> time;                          // s, increasing, evenly spaced
@@ -28,4 +29,5 @@ struct ForceErrors {
 // The estimate is taken at the truth's times, between neighbouring rows. `cutoff_hz` > 0.
 ForceErrors force_errors(const GroundForces& truth, const GroundForces& estimate, double cutoff_hz);
 
+}  // namespace kinetics
 }  // namespace walktrack

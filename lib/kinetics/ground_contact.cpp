@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 namespace walktrack {
+inline namespace kinetics {
 
 namespace {
 
@@ -112,4 +113,5 @@ GroundLoads shared_loads(const Wrench& whole, const LoadShares& shares,
   return out;
 }
 
+}  // namespace kinetics
 }  // namespace walktrack

@@ -22,6 +22,7 @@
 #include "body/pose.h"
 
 namespace walktrack {
+inline namespace kinetics {
 
 struct FootContact {
   Side side;
@@ -67,4 +68,5 @@ GroundLoads shared_loads(const Wrench& whole, const LoadShares& shares,
 // The sum of the feet's loads as one wrench.
 Wrench sum_of(const std::array<FootLoad, 2>& feet);
 
+}  // namespace kinetics
 }  // namespace walktrack

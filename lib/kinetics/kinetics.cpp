@@ -11,6 +11,7 @@
 #include "mechanics/articulated_dynamics.h"
 
 namespace walktrack {
+inline namespace kinetics {
 
 namespace {
 
@@ -129,8 +130,9 @@ void add_totals(const Kinetics& all, const Span& span, double dt, double weight,
 
 }  // namespace
 
-Kinetics kinetics(const Motion& motion, std::span<const FootContact> contacts,
-                  const Subject& subject, const Vector3d& gravity, const KineticsConfig& config) {
+Kinetics kinetics_of(const Motion& motion, std::span<const FootContact> contacts,
+                     const Subject& subject, const Vector3d& gravity,
+                     const KineticsConfig& config) {
   Kinetics out;
   out.time = motion.time;
   out.frames.resize(motion.time.size());
@@ -152,4 +154,5 @@ Kinetics kinetics(const Motion& motion, std::span<const FootContact> contacts,
   return out;
 }
 
+}  // namespace kinetics
 }  // namespace walktrack

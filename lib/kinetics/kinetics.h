@@ -24,6 +24,7 @@
 #include "kinetics/ground_contact.h"
 
 namespace walktrack {
+inline namespace kinetics {
 
 struct KineticsConfig {
   // Of the smoothing; walking has 99 % of its power below 6 Hz (Winter 2009, section 3.4.3).
@@ -71,8 +72,9 @@ struct Kinetics {
 inline constexpr size_t kShortestSpan = 8;
 
 // `gravity` in m/s^2; a slope tilts it.
-Kinetics kinetics(const Motion& motion, std::span<const FootContact> contacts,
-                  const Subject& subject, const Eigen::Vector3d& gravity,
-                  const KineticsConfig& config);
+Kinetics kinetics_of(const Motion& motion, std::span<const FootContact> contacts,
+                     const Subject& subject, const Eigen::Vector3d& gravity,
+                     const KineticsConfig& config);
 
+}  // namespace kinetics
 }  // namespace walktrack

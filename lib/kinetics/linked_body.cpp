@@ -11,6 +11,7 @@
 #include "core/anthropometry.h"
 
 namespace walktrack {
+inline namespace kinetics {
 
 namespace {
 
@@ -291,4 +292,5 @@ std::vector<LinkedState> linked_states(const LinkedBody& body,
   return out;
 }
 
+}  // namespace kinetics
 }  // namespace walktrack

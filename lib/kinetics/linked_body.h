@@ -18,6 +18,7 @@
 #include "mechanics/articulated.h"
 
 namespace walktrack {
+inline namespace kinetics {
 
 struct Link {
   Segment segment;
@@ -44,4 +45,5 @@ struct LinkedState {
 std::vector<LinkedState> linked_states(const LinkedBody& body,
                                        std::span<const JointPositions> joints, double dt);
 
+}  // namespace kinetics
 }  // namespace walktrack

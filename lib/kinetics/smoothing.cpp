@@ -6,6 +6,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace kinetics {
 
 namespace {
 
@@ -73,4 +74,5 @@ std::vector<JointPositions> smoothed(const Motion& motion, const Span& span, dou
   return out;
 }
 
+}  // namespace kinetics
 }  // namespace walktrack

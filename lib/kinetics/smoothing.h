@@ -13,6 +13,7 @@
 #include "body/motion.h"
 
 namespace walktrack {
+inline namespace kinetics {
 
 // Values at `rate` per second, smoothed; as they are where `cutoff_hz` is 0 or not below half of
 // the rate, or where there are fewer than 4.
@@ -27,4 +28,5 @@ struct Span {
 std::vector<JointPositions> smoothed(const Motion& motion, const Span& span, double rate,
                                      double cutoff_hz);
 
+}  // namespace kinetics
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 namespace walktrack {
+inline namespace mechanics {
 namespace {
 
 using Eigen::Index;
@@ -209,4 +210,5 @@ BodyMomentum body_momentum(const ArticulatedBody& body, const VectorXd& q, const
   return sum;
 }
 
+}  // namespace mechanics
 }  // namespace walktrack

@@ -18,6 +18,7 @@
 #include "mechanics/quaternion.h"
 
 namespace walktrack {
+inline namespace mechanics {
 
 enum class JointKind { kHinge, kBall, kFixed };
 
@@ -88,4 +89,5 @@ struct BodyMomentum {
 BodyMomentum body_momentum(const ArticulatedBody& body, const Eigen::VectorXd& q,
                            const Eigen::VectorXd& u);
 
+}  // namespace mechanics
 }  // namespace walktrack

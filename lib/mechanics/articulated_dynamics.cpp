@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 namespace walktrack {
+inline namespace mechanics {
 namespace {
 
 using Eigen::Index;
@@ -177,4 +178,5 @@ std::optional<ArticulatedState> step(const ArticulatedBody& body, const Articula
   return result;
 }
 
+}  // namespace mechanics
 }  // namespace walktrack

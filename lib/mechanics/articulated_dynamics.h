@@ -14,6 +14,7 @@
 #include "mechanics/tmt.h"
 
 namespace walktrack {
+inline namespace mechanics {
 
 // A force on a part, world axes.
 struct PartForce {
@@ -81,4 +82,5 @@ std::optional<ArticulatedState> step(const ArticulatedBody& body, const Articula
                                      const BodyLoad& load, std::span<const Attachment> attachments,
                                      double dt, const ArticulatedStepOptions& options);
 
+}  // namespace mechanics
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include "core/dense.h"
 
 namespace walktrack {
+inline namespace mechanics {
 namespace {
 
 using Eigen::Index;
@@ -58,4 +59,5 @@ VectorXd projected_velocity(const MatrixXd& mass, const Constraint& constraint,
       .acceleration;
 }
 
+}  // namespace mechanics
 }  // namespace walktrack

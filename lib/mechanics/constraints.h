@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace mechanics {
 
 struct Constraint {
   Eigen::VectorXd value;       // e(x)
@@ -37,4 +38,5 @@ Eigen::VectorXd position_correction(const Eigen::MatrixXd& mass, const Constrain
 Eigen::VectorXd projected_velocity(const Eigen::MatrixXd& mass, const Constraint& constraint,
                                    const Eigen::VectorXd& velocity);
 
+}  // namespace mechanics
 }  // namespace walktrack

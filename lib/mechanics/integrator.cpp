@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 namespace walktrack {
+inline namespace mechanics {
 namespace {
 
 using Eigen::MatrixXd;
@@ -93,4 +94,5 @@ std::optional<VectorXd> integrate_step(Integrator integrator, const Derivative& 
   return next;
 }
 
+}  // namespace mechanics
 }  // namespace walktrack

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace mechanics {
 
 enum class Integrator { kEuler, kRk4, kMidpoint };
 
@@ -24,4 +25,5 @@ using Derivative = std::function<Eigen::VectorXd(double time, const Eigen::Vecto
 std::optional<Eigen::VectorXd> integrate_step(Integrator integrator, const Derivative& derivative,
                                               double time, double dt, const Eigen::VectorXd& y);
 
+}  // namespace mechanics
 }  // namespace walktrack

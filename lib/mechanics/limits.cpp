@@ -7,6 +7,7 @@
 #include "core/dense.h"
 
 namespace walktrack {
+inline namespace mechanics {
 namespace {
 
 using Eigen::Index;
@@ -106,4 +107,5 @@ LimitedMotion solve_limited(const MatrixXd& mass, const VectorXd& momentum,
   return motion;
 }
 
+}  // namespace mechanics
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace mechanics {
 
 struct Limit {
   Eigen::VectorXd row;  // a
@@ -36,4 +37,5 @@ LimitedMotion solve_limited(const Eigen::MatrixXd& mass, const Eigen::VectorXd& 
 Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
                                       const std::vector<bool>& equality);
 
+}  // namespace mechanics
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace mechanics {
 namespace {
 
 using Eigen::Matrix3d;
@@ -112,4 +113,5 @@ Matrix3d inertia_about(const MassProperties& solid, const Vector3d& point) {
   return solid.inertia + solid.mass * steiner(solid.com - point);
 }
 
+}  // namespace mechanics
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace mechanics {
 
 struct MassProperties {
   double mass = 0;                                    // kg
@@ -39,4 +40,5 @@ MassProperties combined(std::span<const MassProperties> solids);
 // Inertia about another point of the same frame.
 Eigen::Matrix3d inertia_about(const MassProperties& solid, const Eigen::Vector3d& point);
 
+}  // namespace mechanics
 }  // namespace walktrack

@@ -1,6 +1,7 @@
 #include "mechanics/planar.h"
 
 namespace walktrack {
+inline namespace mechanics {
 namespace {
 
 using Eigen::Index;
@@ -137,4 +138,5 @@ Vector2d outer_force(const std::vector<PlanarPart>& parts, const Vector2d& gravi
   return force;
 }
 
+}  // namespace mechanics
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "mechanics/tmt.h"
 
 namespace walktrack {
+inline namespace mechanics {
 
 struct PlanarPoint {
   explicit PlanarPoint(Eigen::Index coordinates);
@@ -73,4 +74,5 @@ Eigen::Vector2d outer_force(const std::vector<PlanarPart>& parts, const Eigen::V
                             const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                             const Eigen::VectorXd& qdd);
 
+}  // namespace mechanics
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 namespace walktrack {
+inline namespace mechanics {
 
 using Eigen::Matrix3d;
 using Eigen::Matrix4d;
@@ -54,4 +55,5 @@ Quaternion quaternion_rate(const Quaternion& q, const Vector3d& omega_body) {
   return 0.5 * product(q, pure);
 }
 
+}  // namespace mechanics
 }  // namespace walktrack

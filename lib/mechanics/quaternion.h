@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace mechanics {
 
 using Quaternion = Eigen::Vector4d;
 
@@ -33,4 +34,5 @@ Quaternion quaternion_from_vector(const Eigen::Vector3d& v);
 // dq/dt for an angular velocity in body axes.
 Quaternion quaternion_rate(const Quaternion& q, const Eigen::Vector3d& omega_body);
 
+}  // namespace mechanics
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 namespace walktrack {
+inline namespace mechanics {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -17,4 +18,5 @@ VectorXd solve_mass(const MatrixXd& mass, const VectorXd& force) {
   return mass.ldlt().solve(force);
 }
 
+}  // namespace mechanics
 }  // namespace walktrack

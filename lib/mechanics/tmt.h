@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace mechanics {
 
 struct TmtSystem {
   Eigen::MatrixXd mass;   // T^T M T, n x n
@@ -21,4 +22,5 @@ TmtSystem assemble_tmt(const Eigen::MatrixXd& part_mass, const Eigen::MatrixXd& 
 // M^-1 f for a symmetric positive definite M, also a badly graded one (parts of very unequal mass).
 Eigen::VectorXd solve_mass(const Eigen::MatrixXd& mass, const Eigen::VectorXd& force);
 
+}  // namespace mechanics
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "metrics/joint_error.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 std::array<double, kAngleCount> angles_of(const Pose& pose) {
   std::array<double, kAngleCount> out;
@@ -43,4 +44,5 @@ std::array<AngleError, kAngleCount> angle_errors(const Motion& truth, const Moti
   return out;
 }
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "body/pose_numbers.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 // Those of trunk and legs; arms are rarely measured.
 constexpr bool is_compared(const PoseNumber& number) {
@@ -39,4 +40,5 @@ struct AngleError {
 // By kAngleNames, rad. Frames with unknown joints do not count.
 std::array<AngleError, kAngleCount> angle_errors(const Motion& truth, const Motion& estimate);
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include "metrics/joint_error.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 namespace {
 
@@ -56,4 +57,5 @@ CoverageReport coverage(const Motion& truth, const JointUncertainty& uncertainty
   return out;
 }
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "body/motion.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 // uncertainty.csv: for each row and joint coordinate a standard deviation and the 5th and 95th
 // percentile, metres. NaN = unknown.
@@ -29,4 +30,5 @@ struct CoverageReport {
 // Compares at the truth's rows that have an uncertainty row at the same instant.
 CoverageReport coverage(const Motion& truth, const JointUncertainty& uncertainty);
 
+}  // namespace metrics
 }  // namespace walktrack

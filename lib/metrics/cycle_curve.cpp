@@ -5,6 +5,7 @@
 #include <limits>
 
 namespace walktrack {
+inline namespace metrics {
 
 namespace {
 
@@ -80,4 +81,5 @@ CycleBand band_of(std::span<const CycleCurve> curves) {
   return band;
 }
 
+}  // namespace metrics
 }  // namespace walktrack

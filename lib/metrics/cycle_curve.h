@@ -10,6 +10,7 @@
 #include "metrics/gait.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 inline constexpr size_t kCyclePoints = 101;  // 0 %, 1 %, ..., 100 %
 using CycleCurve = std::array<double, kCyclePoints>;
@@ -38,4 +39,5 @@ struct CycleBand {
 };
 CycleBand band_of(std::span<const CycleCurve> curves);
 
+}  // namespace metrics
 }  // namespace walktrack

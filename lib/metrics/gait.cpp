@@ -6,6 +6,7 @@
 #include <numeric>
 
 namespace walktrack {
+inline namespace metrics {
 
 namespace {
 
@@ -326,4 +327,5 @@ EventErrors event_errors(const std::vector<GaitEvent>& truth,
   return out;
 }
 
+}  // namespace metrics
 }  // namespace walktrack

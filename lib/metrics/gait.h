@@ -21,6 +21,7 @@
 #include "body/motion.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 inline constexpr double kLeastSwing = 0.12;  // m; a third of the shuffling gait's 0.4 m steps
 
@@ -81,4 +82,5 @@ struct EventErrors {
 EventErrors event_errors(const std::vector<GaitEvent>& truth,
                          const std::vector<GaitEvent>& estimate);
 
+}  // namespace metrics
 }  // namespace walktrack

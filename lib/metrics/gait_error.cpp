@@ -4,6 +4,7 @@
 #include <numbers>
 
 namespace walktrack {
+inline namespace metrics {
 
 namespace {
 
@@ -106,4 +107,5 @@ void add_gait_error(const FigureError& figure, double weight, GaitTable& table) 
   widen_summary(figure, weight, std::numbers::sqrt2, table.right);
 }
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include "metrics/gait_table.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 // Standard deviations of what is known of the figure as a whole.
 struct FigureError {
@@ -25,4 +26,5 @@ struct FigureError {
 // Widens the table's bands by `weight` times the errors' sizes. Numbers without a band stay so.
 void add_gait_error(const FigureError& figure, double weight, GaitTable& table);
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "metrics/statistics.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 namespace {
 
@@ -249,4 +250,5 @@ GaitTable gait_table(const Motion& motion, const Ensemble& members,
   return table;
 }
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -28,6 +28,7 @@
 #include "metrics/gait.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 struct Banded {
   double value = std::numeric_limits<double>::quiet_NaN();
@@ -103,4 +104,5 @@ struct SupportTransfer {
 GaitTable gait_table(const Motion& motion, const Ensemble& members,
                      std::span<const SupportTransfer> transfers);
 
+}  // namespace metrics
 }  // namespace walktrack

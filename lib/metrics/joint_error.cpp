@@ -8,6 +8,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 namespace {
 
@@ -176,4 +177,5 @@ JointErrors joint_errors(const Motion& truth, const Motion& estimate) {
   return out;
 }
 
+}  // namespace metrics
 }  // namespace walktrack

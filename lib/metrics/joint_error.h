@@ -16,6 +16,7 @@
 #include "metrics/statistics.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 inline constexpr std::array<Joint, 7> kScoredJoints{
     Joint::kPelvis,   Joint::kLeftHip,   Joint::kLeftKnee,  Joint::kLeftAnkle,
@@ -55,4 +56,5 @@ bool scored_joints_known(const JointPositions& joints);
 // stays unknown.
 Motion at_times_of(const Motion& truth, const Motion& estimate);
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -4,6 +4,7 @@
 #include <array>
 
 namespace walktrack {
+inline namespace metrics {
 
 namespace {
 
@@ -45,4 +46,5 @@ size_t leg_swaps(const Motion& motion) {
   return swaps;
 }
 
+}  // namespace metrics
 }  // namespace walktrack

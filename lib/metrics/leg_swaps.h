@@ -7,6 +7,7 @@
 #include "body/motion.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 // How often, from one row to the next, knees and ankles lie nearer to where the other leg's were
 // bound for than to where their own were (each joint going on as in the two rows before), by more
@@ -14,4 +15,5 @@ namespace walktrack {
 // nothing until three known ones have followed each other.
 size_t leg_swaps(const Motion& motion);
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "metrics/statistics.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 namespace {
 
@@ -121,4 +122,5 @@ double students_t(double tail, double degrees) {
   return std::sqrt(degrees) * std::tan(low);
 }
 
+}  // namespace metrics
 }  // namespace walktrack

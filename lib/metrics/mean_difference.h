@@ -18,6 +18,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace metrics {
 
 inline constexpr size_t kLeastForBand = 3;  // curves in either group
 
@@ -43,4 +44,5 @@ SampleSpread sample_spread(std::span<const double> values);
 // freedom.
 double students_t(double tail, double degrees);
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace metrics {
 
 namespace {
 
@@ -24,4 +25,5 @@ std::vector<bool> pareto_front(std::span<const Trade> trades) {
   return front;
 }
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace metrics {
 
 struct Trade {
   double cost, error;  // any units; smaller is better
@@ -14,4 +15,5 @@ struct Trade {
 // By trade. Equal trades are on the front together; one with a NaN never is, and beats nothing.
 std::vector<bool> pareto_front(std::span<const Trade> trades);
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include "metrics/joint_error.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 namespace {
 
@@ -154,4 +155,5 @@ Plausibility plausibility(const Motion& motion, const Gait& gait) {
   return out;
 }
 
+}  // namespace metrics
 }  // namespace walktrack

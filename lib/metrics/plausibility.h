@@ -6,6 +6,7 @@
 #include "metrics/gait.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 struct Plausibility {
   // Largest horizontal travel of (ankle + toe) / 2 in the flat part of a stance that lies wholly in
@@ -32,4 +33,5 @@ struct Plausibility {
 
 Plausibility plausibility(const Motion& motion, const Gait& gait);
 
+}  // namespace metrics
 }  // namespace walktrack

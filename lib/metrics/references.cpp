@@ -6,6 +6,7 @@
 #include "metrics/joint_error.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 namespace {
 
@@ -69,4 +70,5 @@ GroundErrors ground_errors(const GroundPoints& truth, const Motion& estimate) {
   return out;
 }
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "metrics/statistics.h"
 
 namespace walktrack {
+inline namespace metrics {
 
 // A foot on the ground from `on` to `off`, the middle of the foot at x = `place` (the walk goes
 // along x).
@@ -52,4 +53,5 @@ struct GroundErrors {
 // Distance on the ground between the pelvis and the truth.
 GroundErrors ground_errors(const GroundPoints& truth, const Motion& estimate);
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace metrics {
 
 namespace {
 
@@ -38,4 +39,5 @@ ErrorStatistics error_statistics(std::vector<double> values) {
   return out;
 }
 
+}  // namespace metrics
 }  // namespace walktrack

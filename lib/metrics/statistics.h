@@ -5,6 +5,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace metrics {
 
 // All zero for an empty set. The quantiles are those of the sorted values at rank q (n - 1),
 // interpolated linearly.
@@ -18,4 +19,5 @@ ErrorStatistics error_statistics(std::vector<double> values);
 // Quantile q in [0, 1] of values (not empty) by the rule above.
 double quantile(std::vector<double> values, double q);
 
+}  // namespace metrics
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include <numeric>
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -130,4 +131,5 @@ void AppearanceModel::refresh(const ColourBins& bins, AppearanceState& state) co
   }
 }
 
+}  // namespace observation
 }  // namespace walktrack

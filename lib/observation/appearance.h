@@ -19,6 +19,7 @@
 #include "observation/observation_config.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // Logs of densities per cubed grey level, by colour bin.
 using ColourTable = std::vector<float>;
@@ -66,4 +67,5 @@ class AppearanceModel {
   ColourTable log_broad_;     // its density
 };
 
+}  // namespace observation
 }  // namespace walktrack

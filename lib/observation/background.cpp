@@ -10,6 +10,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -206,4 +207,5 @@ void follow_drift(BackgroundModel& model, const BackgroundConfig& config, const 
   }
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -21,6 +21,7 @@
 #include "observation/observation_config.h"
 
 namespace walktrack {
+inline namespace observation {
 
 struct BackgroundModel {
   int width = 0, height = 0;
@@ -49,4 +50,5 @@ void background_log_density(const BackgroundModel& model, const BackgroundConfig
 void follow_drift(BackgroundModel& model, const BackgroundConfig& config, const cv::Mat& bgr,
                   double gain, int phase, int skip);
 
+}  // namespace observation
 }  // namespace walktrack

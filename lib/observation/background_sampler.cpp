@@ -11,6 +11,7 @@
 #include "observation/shrink.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -278,4 +279,5 @@ BackgroundModel BackgroundSampler::model(int threads) const {
   return model;
 }
 
+}  // namespace observation
 }  // namespace walktrack

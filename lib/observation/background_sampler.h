@@ -8,6 +8,7 @@
 #include "observation/observation_config.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // Collects frames in bounded memory and makes the model of them. Frames may show people: each pixel
 // takes the colour it shows most often, so a place must be free in the largest share of the frames,
@@ -33,4 +34,5 @@ class BackgroundSampler {
   int width_ = 0, height_ = 0;
 };
 
+}  // namespace observation
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -146,4 +147,5 @@ std::optional<std::vector<Eigen::Vector2d>> find_board(const cv::Mat& image, con
   return out;
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -21,6 +21,7 @@ class Mat;
 }
 
 namespace walktrack {
+inline namespace observation {
 
 enum class BoardKind { kChessboard, kCircles, kAsymmetricCircles };
 
@@ -39,4 +40,5 @@ std::vector<Eigen::Vector3d> board_points(const Board& board);
 // The points in an 8-bit BGR picture, px, to a fraction of a pixel; nullopt unless all are seen.
 std::optional<std::vector<Eigen::Vector2d>> find_board(const cv::Mat& image, const Board& board);
 
+}  // namespace observation
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include <opencv2/calib3d.hpp>
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -188,4 +189,5 @@ std::optional<PlaceFit> fit_place(const Camera& lens, const PixelPoints& pixels,
   return out;
 }
 
+}  // namespace observation
 }  // namespace walktrack

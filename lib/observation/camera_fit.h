@@ -15,6 +15,7 @@
 #include "observation/board.h"
 
 namespace walktrack {
+inline namespace observation {
 
 enum class LensModel {
   kPinhole,   // no distortion
@@ -49,4 +50,5 @@ struct PlaceFit {
 std::optional<PlaceFit> fit_place(const Camera& lens, const PixelPoints& pixels,
                                   const std::vector<Eigen::Vector3d>& world);
 
+}  // namespace observation
 }  // namespace walktrack

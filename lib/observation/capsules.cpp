@@ -7,6 +7,7 @@
 #include "observation/part_discs.h"
 
 namespace walktrack {
+inline namespace observation {
 
 using Eigen::Vector2d;
 
@@ -57,4 +58,5 @@ bool inside(const Capsule& capsule, const Vector2d& point_px) {
   return within(std::clamp((p.dot(axis) + a.radius * grow) / curvature, 0.0, 1.0));
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -20,6 +20,7 @@
 #include "observation/part_table.h"
 
 namespace walktrack {
+inline namespace observation {
 
 struct Disc {
   Eigen::Vector2d centre;  // px
@@ -61,4 +62,5 @@ CapsuleList scaled_radii(const CapsuleList& capsules, double factor);
 // Whether a point lies in the convex hull of the two discs (boundary included).
 bool inside(const Capsule& capsule, const Eigen::Vector2d& point_px);
 
+}  // namespace observation
 }  // namespace walktrack

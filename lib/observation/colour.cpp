@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 namespace walktrack {
+inline namespace observation {
 
 void read_colours(const cv::Mat& bgr, const PixelRect& area, ColourPatch& out) {
   out.area = area;
@@ -49,4 +50,5 @@ double ColourBins::volume(int bin) const {
   return 256.0 / kLumaBins * width_[orange] * width_[green];
 }
 
+}  // namespace observation
 }  // namespace walktrack

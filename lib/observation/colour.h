@@ -15,6 +15,7 @@ class Mat;
 }
 
 namespace walktrack {
+inline namespace observation {
 
 struct ColourPatch {
   PixelRect area;
@@ -54,4 +55,5 @@ class ColourBins {
   std::array<double, kChromaBins> width_, middle_;
 };
 
+}  // namespace observation
 }  // namespace walktrack

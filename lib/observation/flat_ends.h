@@ -4,6 +4,7 @@
 #include "observation/part_table.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // X/Z and Y/Z in camera axes, by part.
 struct FlatPoints {
@@ -14,4 +15,5 @@ struct FlatEnds {
   FlatPoints middle, rim;
 };
 
+}  // namespace observation
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "observation/visible_rows.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -237,4 +238,5 @@ double flow_log_ratio(const FlowConfig& config, const FlowField& flow, const Cap
   return flow.step * flow.step * (uncovered + body.log_ratio());
 }
 
+}  // namespace observation
 }  // namespace walktrack

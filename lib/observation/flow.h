@@ -32,6 +32,7 @@
 #include "observation/observation_config.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // One pixel of the lattice.
 struct FlowCell {
@@ -91,4 +92,5 @@ double flow_log_ratio(const FlowConfig& config, const FlowField& flow, const Cap
 inline constexpr float kStrangest = 240;
 double log_t_peak(double dof);
 
+}  // namespace observation
 }  // namespace walktrack

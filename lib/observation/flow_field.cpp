@@ -7,6 +7,7 @@
 #include "observation/flow.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -200,4 +201,5 @@ void finish_flow_field(FlowField& field) {
   }
 }
 
+}  // namespace observation
 }  // namespace walktrack

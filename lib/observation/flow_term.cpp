@@ -7,6 +7,7 @@
 #include "observation/observed_frame.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -67,4 +68,5 @@ TermCosts FlowTerm::cost(const ObservationConfig& config, const TermWork& work) 
   return {{"flow", kFlowMeasured * work.region_px + kFlowWeighed * work.poses * work.parts}};
 }
 
+}  // namespace observation
 }  // namespace walktrack

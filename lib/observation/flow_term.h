@@ -7,6 +7,7 @@
 #include "observation/term.h"
 
 namespace walktrack {
+inline namespace observation {
 
 inline bool is_on(const FlowConfig& config) { return config.enabled == TermSetting::kOn; }
 
@@ -78,4 +79,5 @@ void FlowTerm::describe(Groups& groups) {
   w.number("weight", &W::weight, 0, 1000, "weight relative to the silhouettes");
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -41,4 +42,5 @@ int newly_covered(const ForegroundGrid& now, const ForegroundGrid& before) {
   return count;
 }
 
+}  // namespace observation
 }  // namespace walktrack

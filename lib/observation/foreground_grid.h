@@ -7,6 +7,7 @@
 #include "observation/planes.h"
 
 namespace walktrack {
+inline namespace observation {
 
 struct ForegroundGrid {
   int columns = 0, rows = 0;
@@ -20,4 +21,5 @@ ForegroundGrid foreground_grid(const LogRatioPlanes& planes, int cell_px);
 // Cells that are covered now and were not before; 0 if the grids are of different areas.
 int newly_covered(const ForegroundGrid& now, const ForegroundGrid& before);
 
+}  // namespace observation
 }  // namespace walktrack

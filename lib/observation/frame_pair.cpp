@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -48,4 +49,5 @@ FramePair pair_frames(const GreyImage& before, const GreyImage& now, const Pixel
   return out;
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -10,6 +10,7 @@ class Mat;
 }
 
 namespace walktrack {
+inline namespace observation {
 
 struct GreyImage {
   int width = 0, height = 0;
@@ -38,4 +39,5 @@ struct FramePair {
 // walker in it may have come; nothing for an empty area.
 FramePair pair_frames(const GreyImage& before, const GreyImage& now, const PixelRect& area);
 
+}  // namespace observation
 }  // namespace walktrack

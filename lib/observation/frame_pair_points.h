@@ -12,6 +12,7 @@
 #include "observation/frame_pair.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // A capsule with what asking about many points needs.
 struct Shape {
@@ -99,4 +100,5 @@ inline std::optional<Between> between(const FramePair& pair, const Eigen::Vector
                  static_cast<float>(y - j)};
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -84,4 +85,5 @@ void forget(KeypointErrors& errors) {
   }
 }
 
+}  // namespace observation
 }  // namespace walktrack

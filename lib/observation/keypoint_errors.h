@@ -11,6 +11,7 @@
 #include "observation/keypoint_points.h"
 
 namespace walktrack {
+inline namespace observation {
 
 struct KeypointErrors {
   std::array<double, kPointKinds> scale;  // of one coordinate, at full confidence
@@ -41,4 +42,5 @@ void learn(const PointResidual& residual, double dof, double temper, KeypointErr
 // After each frame.
 void forget(KeypointErrors& errors);
 
+}  // namespace observation
 }  // namespace walktrack

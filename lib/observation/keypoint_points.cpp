@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -197,4 +198,5 @@ Eigen::Matrix2d pixel_per_offset(const Camera& camera, const PosedBody& body, si
   return out;
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -14,6 +14,7 @@
 #include "observation/term.h"
 
 namespace walktrack {
+inline namespace observation {
 
 enum class PointKind { kHead, kShoulder, kElbow, kWrist, kHip, kKnee, kAnkle, kToe, kHeel };
 inline constexpr size_t kPointKinds = 9;
@@ -52,4 +53,5 @@ PointPixels point_pixels(const Camera& camera, const PosedBody& body, const Poin
 Eigen::Matrix2d pixel_per_offset(const Camera& camera, const PosedBody& body, size_t point,
                                  const PointOffsets& offsets);
 
+}  // namespace observation
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "observation/observed_frame.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -217,4 +218,5 @@ double KeypointTerm::names_log_odds(const ObservationConfig& config, const Body&
          people_score(config.keypoints, seen.people, swapped);
 }
 
+}  // namespace observation
 }  // namespace walktrack

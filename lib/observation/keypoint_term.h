@@ -24,6 +24,7 @@
 #include "observation/term.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // What a frame's keypoints say, in pixels of the shrunk image.
 struct KeypointEvidence {
@@ -146,4 +147,5 @@ void fields(Archive& archive, T& value) {
   archive(scale, seen, information, pull, frames, matched, legs_flipped);
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace observation {
 
 enum class KeypointName {
   kNose,
@@ -71,4 +72,5 @@ struct DetectedPerson {
 // Of one picture; nobody when the detector saw nobody or was not asked: both say nothing.
 using DetectedPeople = std::vector<DetectedPerson>;
 
+}  // namespace observation
 }  // namespace walktrack

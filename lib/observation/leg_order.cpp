@@ -9,6 +9,7 @@
 #include "observation/frame_pair_points.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -177,4 +178,5 @@ double leg_order_log_ratio(std::span<const Part> parts, const FramePair& pair,
   return sum;
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -20,6 +20,7 @@
 #include "observation/planes.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // The pixels that would be asked lie in here; empty while the legs do not overlap. `parts`: of the
 // body whose capsules these are.
@@ -35,4 +36,5 @@ struct SeenLegs {
 double leg_order_log_ratio(std::span<const Part> parts, const FramePair& pair,
                            const SeenLegs& before, const SeenLegs& now);
 
+}  // namespace observation
 }  // namespace walktrack

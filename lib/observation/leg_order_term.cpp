@@ -5,6 +5,7 @@
 #include "observation/terms.h"
 
 namespace walktrack {
+inline namespace observation {
 
 void LegOrderTerm::Memory::prepare(const ObserverSetting&, ObservedFrame& frame, int,
                                    Prepared&) const {
@@ -36,4 +37,5 @@ double LegOrderTerm::names_log_odds(const ObservationConfig& config, const Body&
                              {legs, evidence.planes});
 }
 
+}  // namespace observation
 }  // namespace walktrack

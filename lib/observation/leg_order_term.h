@@ -9,6 +9,7 @@
 #include "observation/term.h"
 
 namespace walktrack {
+inline namespace observation {
 
 struct LegOrderTerm {
   static constexpr std::string_view kName = "leg order";
@@ -52,4 +53,5 @@ struct LegOrderTerm {
                                const PosedBody& now);
 };
 
+}  // namespace observation
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "body/body.h"
 
 namespace walktrack {
+inline namespace observation {
 
 struct BackgroundConfig {
   bool enabled = true;
@@ -77,4 +78,5 @@ struct ObservationConfig {
   double independent_m = .1;
 };
 
+}  // namespace observation
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "observation/observer.h"
 
 namespace walktrack {
+inline namespace observation {
 
 struct ObserverSetting {
   ObservationConfig config;
@@ -29,4 +30,5 @@ struct ObservedFrame {
 // The grey image, made when a term first asks for it.
 const GreyImage& grey_of(ObservedFrame& frame);
 
+}  // namespace observation
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "observation/shrink.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -215,4 +216,5 @@ void Observer::learn(const CameraEvidence& evidence, const CapsuleList& capsules
   });
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -23,6 +23,7 @@
 #include "observation/terms.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // Where to look in a frame. Outside `area` nothing is computed and nothing is known.
 struct Region {
@@ -119,4 +120,5 @@ class Observer {
   std::unique_ptr<State> state_;
 };
 
+}  // namespace observation
 }  // namespace walktrack

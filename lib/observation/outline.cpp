@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -52,4 +53,5 @@ Outline outline_of(const Capsule& capsule, const PixelRect& area) {
   return out;
 }
 
+}  // namespace observation
 }  // namespace walktrack

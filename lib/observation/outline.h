@@ -5,6 +5,7 @@
 #include "observation/planes.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // A straight piece of an outline, x = x_at_0 + slope y for first <= y <= last.
 struct Edge {
@@ -21,4 +22,5 @@ struct Outline {
 
 Outline outline_of(const Capsule& capsule, const PixelRect& area);
 
+}  // namespace observation
 }  // namespace walktrack

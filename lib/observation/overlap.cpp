@@ -8,6 +8,7 @@
 #include "observation/silhouette.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -69,4 +70,5 @@ Overlap overlap(const LogRatioPlanes& planes, const CapsuleList& figure) {
   return {double(both) / kNat, double(against) / kNat, double(near - both) / kNat};
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "observation/planes.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // Nats; all zero where nothing is known.
 struct Overlap {
@@ -28,4 +29,5 @@ inline constexpr double kNearMargin = 0.15;
 
 Overlap overlap(const LogRatioPlanes& planes, const CapsuleList& figure);
 
+}  // namespace observation
 }  // namespace walktrack

@@ -9,7 +9,9 @@
 #include "observation/flat_ends.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace walktrack::HWY_NAMESPACE {
+namespace walktrack {
+inline namespace observation {
+namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -172,11 +174,14 @@ HWY_ATTR void to_pixels(const Camera& camera, const FlatEnds& flat, size_t count
   }
 }
 
-}  // namespace walktrack::HWY_NAMESPACE
+}  // namespace HWY_NAMESPACE
+}  // namespace observation
+}  // namespace walktrack
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -218,5 +223,6 @@ void find_discs(const Camera& camera, std::span<const PosedPart> parts, PartDisc
   project_ends(camera, table.count, upper, out.upper);
 }
 
+}  // namespace observation
 }  // namespace walktrack
 #endif

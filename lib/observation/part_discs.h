@@ -12,6 +12,7 @@
 #include "observation/part_table.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // By part. Pixels of the camera given; depth along the optical axis, m.
 struct PartDiscs {
@@ -26,4 +27,5 @@ struct PartDiscs {
 // Throws std::length_error for more than kMaxParts parts.
 void find_discs(const Camera& camera, std::span<const PosedPart> parts, PartDiscs& out);
 
+}  // namespace observation
 }  // namespace walktrack

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -34,4 +35,5 @@ void fill_table(std::span<const PosedPart> parts, PartTable& table) {
   }
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include "body/kinematics.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // The widest vector, in doubles. Vectors are whole: the lanes beyond the last part repeat it.
 inline constexpr size_t kPartVector = 8;
@@ -27,4 +28,5 @@ struct PartTable {
 // Throws std::length_error for more than kMaxParts parts. No parts: count 0.
 void fill_table(std::span<const PosedPart> parts, PartTable& table);
 
+}  // namespace observation
 }  // namespace walktrack

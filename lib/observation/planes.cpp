@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace observation {
 
 PixelRect intersection(const PixelRect& a, const PixelRect& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
@@ -38,4 +39,5 @@ double log_ratio_at(const LogRatioPlanes& planes, Appearance appearance, int x, 
   return (row[i + 1] - row[i]) / LogRatioPlanes::kNat;
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "body/body.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // Pixels x0 <= x < x1, y0 <= y < y1.
 struct PixelRect {
@@ -59,4 +60,5 @@ void set_row(LogRatioPlanes& planes, int plane, int y, std::span<const float> lo
 // The log-ratio of one pixel, nats; 0 outside the area.
 double log_ratio_at(const LogRatioPlanes& planes, Appearance appearance, int x, int y);
 
+}  // namespace observation
 }  // namespace walktrack

@@ -10,7 +10,9 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace walktrack::HWY_NAMESPACE {
+namespace walktrack {
+inline namespace observation {
+namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -170,11 +172,14 @@ HWY_ATTR uint64_t hide_rows(const RowIntervals& nearer, BlockRows rows, SeenRows
   return too_many;
 }
 
-}  // namespace walktrack::HWY_NAMESPACE
+}  // namespace HWY_NAMESPACE
+}  // namespace observation
+}  // namespace walktrack
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -201,5 +206,6 @@ uint64_t hide_rows(const RowIntervals& nearer, BlockRows rows, SeenRows& seen) {
   return HWY_DYNAMIC_DISPATCH(hide_rows)(nearer, rows, seen);
 }
 
+}  // namespace observation
 }  // namespace walktrack
 #endif

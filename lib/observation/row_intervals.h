@@ -10,6 +10,7 @@
 #include "observation/outline.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // Rows are worked on in blocks, so that all that is known about them has a fixed size, stays in the
 // nearest cache, and has a bit for each row in one word.
@@ -53,4 +54,5 @@ void show_rows(const RowIntervals& covered, BlockRows rows, SeenRows& seen);
 // pieces, and what `seen` says of that row means nothing any more.
 uint64_t hide_rows(const RowIntervals& nearer, BlockRows rows, SeenRows& seen);
 
+}  // namespace observation
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace walktrack {
+inline namespace observation {
 
 cv::Mat shrunk(const cv::Mat& image, int factor) {
   if (factor == 1) return image;
@@ -19,4 +20,5 @@ int shrink_factor(double height_px, double wanted_px) {
   return std::max(1, static_cast<int>(height_px / wanted_px));
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -8,6 +8,7 @@ class Mat;
 }
 
 namespace walktrack {
+inline namespace observation {
 
 // Area average over factor x factor pixels; rows and columns left over at the far edges are cut
 // off. Pixel centres move as scaled_down() of camera/camera.h says.
@@ -16,4 +17,5 @@ cv::Mat shrunk(const cv::Mat& image, int factor);
 // The largest factor at which something `height_px` high stays at least `wanted_px` high; >= 1.
 int shrink_factor(double height_px, double wanted_px);
 
+}  // namespace observation
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include "observation/visible_rows.h"
 
 namespace walktrack {
+inline namespace observation {
 
 double silhouette_log_ratio(const LogRatioPlanes& planes, const CapsuleList& capsules) {
   if (planes.count == 0 || planes.area.empty()) return 0;
@@ -30,4 +31,5 @@ std::vector<VisibleRun> visible_runs(const PixelRect& area, const CapsuleList& c
   return runs;
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "observation/planes.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // Sum of l over the visible silhouette, nats (neither tempered nor weighted); 0 without planes.
 double silhouette_log_ratio(const LogRatioPlanes& planes, const CapsuleList& capsules);
@@ -23,4 +24,5 @@ struct VisibleRun {
 // All runs of the visible silhouette inside `area`, row by row in blocks, nearest capsule first.
 std::vector<VisibleRun> visible_runs(const PixelRect& area, const CapsuleList& capsules);
 
+}  // namespace observation
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "observation/silhouette.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -221,4 +222,5 @@ TermCosts SilhouetteTerm::cost(const ObservationConfig& config, const TermWork& 
   return out;
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "observation/term.h"
 
 namespace walktrack {
+inline namespace observation {
 
 struct SilhouetteTerm {
   static constexpr std::string_view kName = "silhouettes";
@@ -122,4 +123,5 @@ void SilhouetteTerm::describe(Groups& groups) {
            "share of the part learned from the first frames, which is kept");
 }
 
+}  // namespace observation
 }  // namespace walktrack

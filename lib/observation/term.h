@@ -23,11 +23,12 @@
 #include <vector>
 
 #include "body/kinematics.h"
+#include "camera/camera.h"
 #include "observation/observation_config.h"
 
 namespace walktrack {
+inline namespace observation {
 
-struct Camera;
 class CapsuleList;
 struct CameraEvidence;   // terms.h
 struct ObserverInput;    // observer.h
@@ -85,4 +86,5 @@ struct FoundPose {
   const PosedBody* body;  // nullptr = not known
 };
 
+}  // namespace observation
 }  // namespace walktrack

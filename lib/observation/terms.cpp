@@ -1,6 +1,7 @@
 #include "observation/terms.h"
 
 namespace walktrack {
+inline namespace observation {
 
 std::vector<TermSwitch> term_switches() {
   std::vector<TermSwitch> out;
@@ -10,4 +11,5 @@ std::vector<TermSwitch> term_switches() {
   return out;
 }
 
+}  // namespace observation
 }  // namespace walktrack

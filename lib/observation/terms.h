@@ -13,6 +13,7 @@
 #include "observation/silhouette_term.h"
 
 namespace walktrack {
+inline namespace observation {
 
 template <typename... T>
 struct TermList {
@@ -74,4 +75,5 @@ using TermValues = std::array<double, Terms::kCount>;
 // The flags that turn terms on.
 std::vector<TermSwitch> term_switches();
 
+}  // namespace observation
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "observation/row_intervals.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // Every capsule of a list, nearest first, and the rows that it covers of one block.
 struct SilhouetteBlock {
@@ -95,4 +96,5 @@ void visit_visible(const PixelRect& area, const CapsuleList& capsules, Visit&& v
   }
 }
 
+}  // namespace observation
 }  // namespace walktrack

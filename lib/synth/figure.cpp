@@ -10,6 +10,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace synth {
 
 namespace {
 
@@ -172,4 +173,5 @@ std::optional<Skeleton> skeleton_from_joints(const Body& body, const JointPositi
   return out;
 }
 
+}  // namespace synth
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "synth/material.h"
 
 namespace walktrack {
+inline namespace synth {
 
 // One material for each class of body/body.h.
 using Clothes = std::array<Material, kAppearanceCount>;
@@ -29,4 +30,5 @@ Body body_from_motion(const Motion& motion, double height);
 // trunk is upright.
 std::optional<Skeleton> skeleton_from_joints(const Body& body, const JointPositions& joints);
 
+}  // namespace synth
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace synth {
 
 namespace {
 
@@ -257,4 +258,5 @@ Motion made_walk(const Body& body, const MadeWalk& walk) {
   return motion;
 }
 
+}  // namespace synth
 }  // namespace walktrack

@@ -17,6 +17,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace synth {
 
 struct MadeWalk {
   double speed = 1.25;                // m/s, along the path, 0.3 to 2.2
@@ -38,4 +39,5 @@ struct MadeWalk {
 // The joints of `body` (with arms if it has them). InputError if its legs cannot take such steps.
 Motion made_walk(const Body& body, const MadeWalk& walk);
 
+}  // namespace synth
 }  // namespace walktrack

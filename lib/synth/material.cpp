@@ -5,6 +5,7 @@
 #include "core/rng.h"
 
 namespace walktrack {
+inline namespace synth {
 
 namespace {
 
@@ -86,4 +87,5 @@ Colour colour_at(const Material& material, const Eigen::Vector3d& point, const N
   return mix(material.first, material.second, share);
 }
 
+}  // namespace synth
 }  // namespace walktrack

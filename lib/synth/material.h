@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace synth {
 
 using Colour = Eigen::Vector3f;  // red, green, blue, 0 to 1, as a camera would store them
 
@@ -42,4 +43,5 @@ class Noise {
 
 Colour colour_at(const Material& material, const Eigen::Vector3d& point, const Noise& noise);
 
+}  // namespace synth
 }  // namespace walktrack

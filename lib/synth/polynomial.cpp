@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace synth {
 
 namespace {
 
@@ -92,4 +93,5 @@ std::optional<double> first_descent(const Quartic& c) {
   return std::nullopt;
 }
 
+}  // namespace synth
 }  // namespace walktrack

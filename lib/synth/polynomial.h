@@ -6,6 +6,7 @@
 #include <optional>
 
 namespace walktrack {
+inline namespace synth {
 
 // c[0] + c[1] u + c[2] u^2 + c[3] u^3 + c[4] u^4.
 using Quartic = std::array<double, 5>;
@@ -14,4 +15,5 @@ using Quartic = std::array<double, 5>;
 // quartic that is already <= 0 at 0 has none before it has been positive.
 std::optional<double> first_descent(const Quartic& quartic);
 
+}  // namespace synth
 }  // namespace walktrack

@@ -17,6 +17,7 @@
 #include "synth/world.h"
 
 namespace walktrack {
+inline namespace synth {
 
 // A camera stands where its calibration file says, or at `position` looking at `look_at`, or, by
 // default, on a circle about the middle of the walk.
@@ -88,4 +89,5 @@ struct RenderOptions {
   bool labels = false, flow = false, depth = false;  // write them for every frame
 };
 
+}  // namespace synth
 }  // namespace walktrack

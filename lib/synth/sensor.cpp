@@ -7,6 +7,7 @@
 #include "core/rng.h"
 
 namespace walktrack {
+inline namespace synth {
 
 namespace {
 
@@ -56,4 +57,5 @@ std::vector<uint8_t> developed(const Plane<Colour>& light, const Sensor& sensor,
   return out;
 }
 
+}  // namespace synth
 }  // namespace walktrack

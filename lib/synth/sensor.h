@@ -7,6 +7,7 @@
 #include "synth/view.h"
 
 namespace walktrack {
+inline namespace synth {
 
 struct Sensor {
   double exposure = 1;  // brightness factor; 0.25 is low light
@@ -19,4 +20,5 @@ struct Sensor {
 std::vector<uint8_t> developed(const Plane<Colour>& light, const Sensor& sensor, uint64_t seed,
                                uint32_t stream, uint32_t frame);
 
+}  // namespace synth
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include "synth/world.h"
 
 namespace walktrack {
+inline namespace synth {
 
 namespace {
 
@@ -122,4 +123,5 @@ World make_world(Setting setting, const Vector2d& centre, double reach, const Li
   return world;
 }
 
+}  // namespace synth
 }  // namespace walktrack

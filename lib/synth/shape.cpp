@@ -3,6 +3,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace synth {
 
 namespace {
 
@@ -86,4 +87,5 @@ Body shaped(Body body, const Shape& shape) {
   return body;
 }
 
+}  // namespace synth
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include "body/body.h"
 
 namespace walktrack {
+inline namespace synth {
 
 struct Shape {
   double girth = 1;     // factor on every width but the head's and the feet's
@@ -19,4 +20,5 @@ struct Shape {
 // The body's parts in this shape; a skirt and a bag are parts more, at the end.
 Body shaped(Body body, const Shape& shape);
 
+}  // namespace synth
 }  // namespace walktrack

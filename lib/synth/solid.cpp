@@ -9,6 +9,7 @@
 #include "synth/polynomial.h"
 
 namespace walktrack {
+inline namespace synth {
 
 namespace {
 
@@ -182,4 +183,5 @@ Vector3d surface_normal(const BoxSolid& box, const Vector3d& point) {
   return normal;
 }
 
+}  // namespace synth
 }  // namespace walktrack

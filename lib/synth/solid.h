@@ -16,6 +16,7 @@
 #include "camera/camera.h"
 
 namespace walktrack {
+inline namespace synth {
 
 struct ConeSolid {
   Eigen::Vector3d lower;
@@ -49,4 +50,5 @@ std::optional<double> entry_distance(const BoxSolid& box, const Ray& ray, double
 
 Eigen::Vector3d surface_normal(const BoxSolid& box, const Eigen::Vector3d& point);
 
+}  // namespace synth
 }  // namespace walktrack

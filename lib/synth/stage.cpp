@@ -9,6 +9,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace synth {
 
 namespace {
 
@@ -166,4 +167,5 @@ Plane<Colour> exposed(const Stage& stage, const View& view, const Shutter& shutt
   return sum;
 }
 
+}  // namespace synth
 }  // namespace walktrack

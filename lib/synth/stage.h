@@ -12,6 +12,7 @@
 #include "synth/view.h"
 
 namespace walktrack {
+inline namespace synth {
 
 // A walker with what is worn. The first of a stage is the one that the truth is about.
 struct Actor {
@@ -49,4 +50,5 @@ Motion truth_at(const Stage& stage, std::span<const double> times);
 Plane<Colour> exposed(const Stage& stage, const View& view, const Shutter& shutter, double time,
                       double frame_rate);
 
+}  // namespace synth
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "core/parallel_for.h"
 
 namespace walktrack {
+inline namespace synth {
 
 namespace {
 
@@ -334,4 +335,5 @@ Plane<uint8_t> labels_of(const Plane<Sight>& sights) {
   return out;
 }
 
+}  // namespace synth
 }  // namespace walktrack

@@ -18,6 +18,7 @@
 #include "synth/world.h"
 
 namespace walktrack {
+inline namespace synth {
 
 // A row-major picture of the camera's size.
 template <typename T>
@@ -82,4 +83,5 @@ Plane<Eigen::Vector2f> flow_of(const View& view, const Plane<Sight>& sights,
 // 0 for the empty scene, else 1 + index of the part + 100 * walker, at most 255.
 Plane<uint8_t> labels_of(const Plane<Sight>& sights);
 
+}  // namespace synth
 }  // namespace walktrack

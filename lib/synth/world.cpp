@@ -5,6 +5,7 @@
 #include <limits>
 
 namespace walktrack {
+inline namespace synth {
 
 namespace {
 
@@ -78,4 +79,5 @@ StaticLook look_of(const World& world, const Ray& ray, const StaticHit& hit) {
           static_cast<float>(lit / brightness)};
 }
 
+}  // namespace synth
 }  // namespace walktrack

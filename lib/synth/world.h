@@ -12,6 +12,7 @@
 #include "synth/solid.h"
 
 namespace walktrack {
+inline namespace synth {
 
 // One sun (or lamp, far away) and even light from everywhere. A lit white surface has brightness
 // ambient + sun * cos(angle of incidence).
@@ -69,4 +70,5 @@ enum class Setting { kRoom, kField, kStudio };
 World make_world(Setting setting, const Eigen::Vector2d& centre, double reach, const Light& light,
                  uint64_t seed);
 
+}  // namespace synth
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "observation/silhouette_term.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -70,4 +71,5 @@ FigureFit figure_fit(const TrackerScene& scene, const SceneEvidence& evidence, c
   return out;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

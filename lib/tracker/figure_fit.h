@@ -7,6 +7,7 @@
 #include "tracker/tracker_scene.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 struct FigureFit {
   std::vector<double> overlap;  // by camera (Overlap::share); NaN where nothing is known
@@ -19,4 +20,5 @@ struct FigureFit {
 // Of the evidence, only planes and pixel weights are read.
 FigureFit figure_fit(const TrackerScene& scene, const SceneEvidence& evidence, const Pose& pose);
 
+}  // namespace tracker
 }  // namespace walktrack

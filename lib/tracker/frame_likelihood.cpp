@@ -4,6 +4,7 @@
 #include <optional>
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -72,4 +73,5 @@ std::vector<TermValues> FrameLikelihood::by_term(const WalkerParticle& particle)
   return out;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "tracker/tracker_scene.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 class FrameLikelihood {
  public:
@@ -69,4 +70,5 @@ class FrameLikelihood {
   bool before_;  // any term is asked that compares with the frame before
 };
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -49,4 +50,5 @@ double names_in_frame(const TrackerScene& scene, const SceneEvidence& evidence, 
   return sum * std::min(1.0, scene.dt / kErrsFor);
 }
 
+}  // namespace tracker
 }  // namespace walktrack

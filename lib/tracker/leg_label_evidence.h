@@ -10,6 +10,7 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // How much more the pictures of successive frames speak for a track's legs than for the same legs
 // swapped, nats; 0 where nothing is to be seen of it. One record for each of the first frames of
@@ -21,4 +22,5 @@ double legs_log_odds(const TrackerScene& scene, const std::deque<SceneEvidence>&
 // of evidence that counts once; 0 without any.
 double names_in_frame(const TrackerScene& scene, const SceneEvidence& evidence, const Pose& pose);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -54,4 +55,5 @@ bool is_lost(const TrackContext& context, const SceneEvidence& evidence, const F
                        monitor);
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -6,9 +6,11 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // The monitor takes in all that there is to say of the frame, unless no particle has survived it.
 bool is_lost(const TrackContext& context, const SceneEvidence& evidence, const FrameRecord& record,
              MonitorState& monitor);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "tracker/tracker_scene.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -76,4 +77,5 @@ bool is_within_reach(const MonitorConfig& config, const std::optional<LastSeen>&
   return (place - expected).norm() < kNear + kTurnsAside * elapsed;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "tracker/smooth/estimate.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // By hand; sensitivity not measured.
 struct MonitorConfig {
@@ -58,4 +59,5 @@ void see(const FrameEstimate& estimate, uint32_t frame, double dt, MonitorState&
 bool is_within_reach(const MonitorConfig& config, const std::optional<LastSeen>& last_seen,
                      const Eigen::Vector2d& place, uint32_t frame, double dt);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "tracker/motion/standing.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -80,4 +81,5 @@ NoiseScale start_scale(const StartConfig& config, const MotionModel& moves,
   return scale;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

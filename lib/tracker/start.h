@@ -9,6 +9,7 @@
 #include "tracker/motion/propagate.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 struct StartConfig {
   int phases = 6;        // hypotheses over the phase of a step, for each standing foot
@@ -38,4 +39,5 @@ std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfi
 NoiseScale start_scale(const StartConfig& config, const MotionModel& moves,
                        const MotionConfig& motion, const NoiseScale& frame);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "core/log_weights.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -120,4 +121,5 @@ std::vector<WalkerParticle> StartHypotheses::resampled() const {
   return chosen;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -16,6 +16,7 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 class StartHypotheses {
  public:
@@ -54,4 +55,5 @@ class StartHypotheses {
   std::vector<Hypothesis> hypotheses_;
 };
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -87,4 +88,5 @@ bool label_switched(double expected, double phase) {
          std::abs(strides_between(expected, phase)) > 0.5 - kNear;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

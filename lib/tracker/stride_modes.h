@@ -15,6 +15,7 @@
 #include "tracker/motion/particle.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 struct StrideModes {
   double phase = 0;           // of the mode reported, shares of the stride in [0, 1)
@@ -47,4 +48,5 @@ double phase_ahead(std::span<const WalkerParticle> particles, std::span<const do
 // does that: the particles have taken one leg for the other.
 bool label_switched(double expected, double phase);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -1,6 +1,7 @@
 #include "tracker/subject_model.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 SubjectModel::SubjectModel(const BodyModel& model, const GaitPrior& prior,
                            const MotionConfig& config, double dt)
@@ -32,4 +33,5 @@ WalkerFilterContext first_filter_context(const TrackContext& context, bool given
   return out;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

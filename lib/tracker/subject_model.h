@@ -10,6 +10,7 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 struct SubjectModel {
   SubjectModel(const BodyModel& model, const GaitPrior& prior, const MotionConfig& config,
@@ -40,4 +41,5 @@ WalkerFilterContext filter_context(const TrackContext& context);
 // scene has stated it, or it was detected.
 WalkerFilterContext first_filter_context(const TrackContext& context, bool given);
 
+}  // namespace tracker
 }  // namespace walktrack

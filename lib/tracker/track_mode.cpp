@@ -12,6 +12,7 @@
 #include "tracker/smooth/refinement.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -134,4 +135,5 @@ void use_particles(int count, Tracking& now) {
   now.filter.start(std::move(states));
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -19,6 +19,7 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 struct Searching {
   WalkerFilter filter;                // its moves keep the step size that they have learned
@@ -69,4 +70,5 @@ Eigen::Vector2d mean_place(const Tracking& now);
 // The particles become more or fewer, in proportion to their weights.
 void use_particles(int count, Tracking& now);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include "tracker/trial.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -171,4 +172,5 @@ void Tracker::use_particles(int count) {
   if (tracking()) walktrack::use_particles(count, std::get<Tracking>(mode_));
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -21,6 +21,7 @@
 #include "tracker/track_mode.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // All that the next frame of a tracker in its tracking mode depends on.
 struct TrackerState {
@@ -108,4 +109,5 @@ class Tracker {
   std::optional<Stature> stature_;
 };
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "tracker/start.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // What is reported of a frame: the particles' mean, or the most probable pose near it
 // (tracker/smooth/refinement.h).
@@ -24,4 +25,5 @@ struct TrackerConfig {
   EstimateKind estimate = EstimateKind::kMap;
 };
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "tracker/motion/kneed_motion.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -61,4 +62,5 @@ double place_score(const TrackerScene& scene, const SceneEvidence& evidence, con
   return best;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "tracker/motion/particle.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 struct TrackerScene {
   std::vector<Camera> cameras;  // of the images that the evidence is about (Observer::camera)
@@ -51,4 +52,5 @@ class PoseTemplates {
 double place_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
                    std::span<const Pose> figures, const Eigen::Vector2d& position, double heading);
 
+}  // namespace tracker
 }  // namespace walktrack

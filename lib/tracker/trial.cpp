@@ -9,6 +9,7 @@
 #include "tracker/moves/mirror_legs.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -116,4 +117,5 @@ Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& wi
   return {std::move(attempt.mode), std::move(attempt.records)};
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "tracker/track_mode.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 struct Trial {
   TrackMode mode;                    // after the window's frames; Searching: the walk has failed
@@ -21,4 +22,5 @@ struct Trial {
 Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& window,
                 uint32_t first_frame, Starting start, double walk_score);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "tracker/smooth/model_error.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -94,4 +95,5 @@ FrameRecord advance(const WalkerFilterContext& context, const SceneEvidence& evi
   return record;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

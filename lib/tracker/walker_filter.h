@@ -12,6 +12,7 @@
 #include "tracker/tracker_scene.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 using WalkerFilter = ParticleFilter<WalkerParticle>;
 
@@ -46,4 +47,5 @@ struct WalkerFilterContext {
 FrameRecord advance(const WalkerFilterContext& context, const SceneEvidence& evidence,
                     uint32_t frame, uint64_t seed, bool first, WalkerFilter& filter);
 
+}  // namespace tracker
 }  // namespace walktrack

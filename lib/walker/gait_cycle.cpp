@@ -1,6 +1,7 @@
 #include "walker/gait_cycle.h"
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 using Eigen::VectorXd;
@@ -37,4 +38,5 @@ std::optional<GaitCycle> describe_cycle(const Walker& walker, const LimitCycle& 
   return gait;
 }
 
+}  // namespace walker
 }  // namespace walktrack

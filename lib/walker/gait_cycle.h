@@ -8,6 +8,7 @@
 #include "walker/simulate.h"
 
 namespace walktrack {
+inline namespace walker {
 
 struct GaitOptions {
   SimulationOptions simulation;
@@ -31,4 +32,5 @@ struct GaitCycle {
 std::optional<GaitCycle> describe_cycle(const Walker& walker, const LimitCycle& cycle,
                                         const GaitOptions& options);
 
+}  // namespace walker
 }  // namespace walktrack

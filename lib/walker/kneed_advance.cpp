@@ -6,6 +6,7 @@
 #include "walker/kneed_incidents.h"
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 constexpr double kHastyTransfer = 0.02;  // s; a step takes ten times that
@@ -207,4 +208,5 @@ KneedAdvance kneed_advance(const KneedModel& model, const KneedControls& control
   return result;
 }
 
+}  // namespace walker
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include "walker/kneed_walker.h"
 
 namespace walktrack {
+inline namespace walker {
 
 struct KneedLimits {
   double max_step = 0.004;      // s, RK4 sub-step; a walker's knee events need no finer one
@@ -55,4 +56,5 @@ std::array<double, 2> settle_knee_stops(const KneedModel& model, const KneedCont
 double kneed_step_size(const KneedModel& model, const KneedControls& controls,
                        const KneedState& state, double max_step);
 
+}  // namespace walker
 }  // namespace walktrack

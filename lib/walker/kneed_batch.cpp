@@ -11,6 +11,7 @@
 #include "walker/kneed_lane_walkers.h"
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 struct BatchInput {
@@ -222,4 +223,5 @@ void kneed_advance_batch(const KneedModel& model, std::span<const KneedControls>
 
 const char* kneed_batch_target() { return lane_target(); }
 
+}  // namespace walker
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "walker/kneed_advance.h"
 
 namespace walktrack {
+inline namespace walker {
 
 // Moves states[i] on by durations[i] (s) or to its next transfer under controls[i] and noise[i] and
 // writes what kneed_advance() returns to results[i]. A walker without time (duration 0) stays as it
@@ -25,4 +26,5 @@ void kneed_advance_batch(const KneedModel& model, std::span<const KneedControls>
 // Name of the instruction set in use.
 const char* kneed_batch_target();
 
+}  // namespace walker
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "walker/kneed_advance.h"
 
 namespace walktrack {
+inline namespace walker {
 
 inline constexpr double kMinStep = 1e-7;   // s; a walker that needs less is reported as diverged
 inline constexpr double kMaxRate = 1e3;    // rad/s; ten times what a sprinter's shank reaches
@@ -84,4 +85,5 @@ class FallSearch {
 void transfer_support(const KneedModel& model, const KneedControls& controls, const Vector5& noise,
                       KneedState& state, KneedAdvance& result);
 
+}  // namespace walker
 }  // namespace walktrack

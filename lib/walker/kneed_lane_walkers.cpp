@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 double guard_value(KneedGuard guard, const Lanes& lanes, const LanePoint& at, size_t lane) {
@@ -177,4 +178,5 @@ void LaneIncident::take(const Lanes& lanes, const LanePoint& at, const LanePoint
   start_next(lanes, end);
 }
 
+}  // namespace walker
 }  // namespace walktrack

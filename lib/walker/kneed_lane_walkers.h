@@ -5,6 +5,7 @@
 #include "walker/kneed_lanes.h"
 
 namespace walktrack {
+inline namespace walker {
 
 LaneModel lane_model(const KneedModel& model);
 
@@ -51,4 +52,5 @@ class LaneIncident {
   double ahead_since_ = 0, height_then_ = 0;  // when the foot passed the stance foot
 };
 
+}  // namespace walker
 }  // namespace walktrack

@@ -23,7 +23,9 @@
 #include "walker/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace walktrack::HWY_NAMESPACE {
+namespace walktrack {
+inline namespace walker {
+namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Motion = MotionOf<5>;  // in the coordinates above
@@ -283,7 +285,9 @@ HWY_INLINE V step_sizes(const LaneModel& model, const LaneForces& forces, const 
   return hn::Min(all(max_step), hn::Div(all(kStepReach), hn::Max(hn::Sqrt(square), decay)));
 }
 
-}  // namespace walktrack::HWY_NAMESPACE
+}  // namespace HWY_NAMESPACE
+}  // namespace walker
+}  // namespace walktrack
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -12,7 +12,9 @@
 #include "walker/kneed_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace walktrack::HWY_NAMESPACE {
+namespace walktrack {
+inline namespace walker {
+namespace HWY_NAMESPACE {
 namespace {
 
 HWY_INLINE Motion motion_at(const LanePoint& at) {
@@ -153,11 +155,14 @@ LaneVerdict sub_step(const LaneModel& model, const LaneBounds& bounds, Lanes& la
 }
 
 }  // namespace
-}  // namespace walktrack::HWY_NAMESPACE
+}  // namespace HWY_NAMESPACE
+}  // namespace walker
+}  // namespace walktrack
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace walktrack {
+inline namespace walker {
 namespace {
 HWY_EXPORT(evaluate);
 HWY_EXPORT(step_to);
@@ -184,5 +189,6 @@ LaneVerdict sub_step_lanes(const LaneModel& model, const LaneBounds& bounds, Lan
   return HWY_DYNAMIC_DISPATCH(sub_step)(model, bounds, lanes);
 }
 
+}  // namespace walker
 }  // namespace walktrack
 #endif

@@ -5,6 +5,7 @@
 #include "walker/lanes.h"
 
 namespace walktrack {
+inline namespace walker {
 
 // A model's sums, as the pairs of parts need them (kneed_lanes-inl.h).
 struct LaneModel {
@@ -56,4 +57,5 @@ void next_lane_steps(const Lanes& lanes, double* h);
 // were; `ended` have no time left or have fallen.
 LaneVerdict sub_step_lanes(const LaneModel& model, const LaneBounds& bounds, Lanes& lanes);
 
+}  // namespace walker
 }  // namespace walktrack

@@ -1,6 +1,7 @@
 #include "walker/kneed_points.h"
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 KneedPoint stance_ankle_point(const KneedParameters& p) {
@@ -98,4 +99,5 @@ SwingFoot kneed_swing_foot(const KneedModel& model, const KneedState& state) {
           .lead_rate = rate.x() - p.foot_radius * state.qd[kStanceShank]};
 }
 
+}  // namespace walker
 }  // namespace walktrack

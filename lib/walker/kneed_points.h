@@ -7,6 +7,7 @@
 #include "walker/kneed_walker.h"
 
 namespace walktrack {
+inline namespace walker {
 
 // p = (x0 + R q3, R) + sum_k [ along_k u(q_k) + across_k w(q_k) ].
 struct KneedPoint {
@@ -65,4 +66,5 @@ inline Vector5 solve_factorised(const Matrix5& factor, Vector5 x) {
   return x;
 }
 
+}  // namespace walker
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "walker/kneed_points.h"
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 struct StopSet {
@@ -115,4 +116,5 @@ double kneed_step_size(const KneedModel& model, const KneedControls& controls,
   return std::min(max_step, kStepReach / std::max(std::sqrt(square), decay));
 }
 
+}  // namespace walker
 }  // namespace walktrack

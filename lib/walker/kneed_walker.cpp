@@ -10,6 +10,7 @@
 #include "walker/kneed_points.h"
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 struct Dynamics {
@@ -218,4 +219,5 @@ KneedTransfer kneed_support_transfer(const KneedModel& model, double toe_off_imp
   return result;
 }
 
+}  // namespace walker
 }  // namespace walktrack

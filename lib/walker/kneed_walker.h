@@ -16,6 +16,7 @@
 #include <array>
 
 namespace walktrack {
+inline namespace walker {
 
 using Vector2 = Eigen::Vector2d;
 using Vector5 = Eigen::Matrix<double, 5, 1>;
@@ -150,4 +151,5 @@ struct KneedTransfer {
 KneedTransfer kneed_support_transfer(const KneedModel& model, double toe_off_impulse,
                                      const KneedState& before);
 
+}  // namespace walker
 }  // namespace walktrack

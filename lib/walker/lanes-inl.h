@@ -13,7 +13,9 @@
 #include "walker/lanes.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace walktrack::HWY_NAMESPACE {
+namespace walktrack {
+inline namespace walker {
+namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Tag = hn::CappedTag<double, kMaxLanes>;
@@ -131,7 +133,9 @@ HWY_INLINE void rk4(const Setting& at, const MotionOf<kCount>& from, const V (&a
   }
 }
 
-}  // namespace walktrack::HWY_NAMESPACE
+}  // namespace HWY_NAMESPACE
+}  // namespace walker
+}  // namespace walktrack
 HWY_AFTER_NAMESPACE();
 
 #endif

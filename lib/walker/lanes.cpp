@@ -9,18 +9,23 @@
 #include "walker/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace walktrack::HWY_NAMESPACE {
+namespace walktrack {
+inline namespace walker {
+namespace HWY_NAMESPACE {
 namespace {
 
 size_t lanes_of_target() { return hn::Lanes(Tag()); }
 const char* name_of_target() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace
-}  // namespace walktrack::HWY_NAMESPACE
+}  // namespace HWY_NAMESPACE
+}  // namespace walker
+}  // namespace walktrack
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace walktrack {
+inline namespace walker {
 namespace {
 HWY_EXPORT(lanes_of_target);
 HWY_EXPORT(name_of_target);
@@ -30,5 +35,6 @@ size_t lane_count() { return HWY_DYNAMIC_DISPATCH(lanes_of_target)(); }
 
 const char* lane_target() { return HWY_DYNAMIC_DISPATCH(name_of_target)(); }
 
+}  // namespace walker
 }  // namespace walktrack
 #endif

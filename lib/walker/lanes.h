@@ -11,6 +11,7 @@
 #include "core/scratch.h"
 
 namespace walktrack {
+inline namespace walker {
 
 // Walkers in a vector at most: doubles in the widest vectors there are.
 inline constexpr size_t kMaxLanes = 8;
@@ -82,4 +83,5 @@ struct LaneQueues {
   }
 };
 
+}  // namespace walker
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "core/dense.h"
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 using Eigen::Index;
@@ -176,4 +177,5 @@ FollowedCycle follow_limit_cycle(const MapFamily& family, const VectorXd& guess,
   return followed;
 }
 
+}  // namespace walker
 }  // namespace walktrack

@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace walker {
 
 // nullopt: the map is not defined here (the walker fell).
 using ReturnMap = std::function<std::optional<Eigen::VectorXd>(const Eigen::VectorXd&)>;
@@ -75,4 +76,5 @@ struct FollowedCycle {
 FollowedCycle follow_limit_cycle(const MapFamily& family, const Eigen::VectorXd& guess, double from,
                                  double to, const CycleOptions& options = {});
 
+}  // namespace walker
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "mechanics/planar.h"
 
 namespace walktrack {
+inline namespace walker {
 
 // A spring and damper, or an actuator: generalised force = pull * tau,
 //   tau = stiffness (rest - measure . q) - damping measure . qd.
@@ -57,4 +58,5 @@ struct Linkage {
   std::vector<Line> lines;  // what is drawn
 };
 
+}  // namespace walker
 }  // namespace walktrack

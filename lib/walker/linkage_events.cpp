@@ -4,6 +4,7 @@
 #include "walker/linkage_walker.h"
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 using Eigen::Index;
@@ -304,4 +305,5 @@ MatrixXd LinkageWalker::section_rows(const WalkerState& state) const {
   return result;
 }
 
+}  // namespace walker
 }  // namespace walktrack

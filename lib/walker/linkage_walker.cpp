@@ -3,6 +3,7 @@
 #include <utility>
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 using Eigen::Index;
@@ -198,4 +199,5 @@ std::vector<Stroke> LinkageWalker::strokes(const WalkerState& state) const {
   return strokes;
 }
 
+}  // namespace walker
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include "walker/walker.h"
 
 namespace walktrack {
+inline namespace walker {
 
 class LinkageWalker : public Walker {
  public:
@@ -84,4 +85,5 @@ class LinkageWalker : public Walker {
   Placed on_stance_foot_, on_swing_foot_, in_flight_;
 };
 
+}  // namespace walker
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "walker/linkage_walker.h"
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 using Eigen::VectorXd;
@@ -235,4 +236,5 @@ std::optional<VectorXd> at_energy(const ModelSpec& spec, const VectorXd& x) {
   return apex;
 }
 
+}  // namespace walker
 }  // namespace walktrack

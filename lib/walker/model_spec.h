@@ -12,6 +12,7 @@
 #include "walker/monopode.h"
 
 namespace walktrack {
+inline namespace walker {
 
 // The start of a step: just after support transfer, or an apex (monopode).
 struct ModelStart {
@@ -57,4 +58,5 @@ Eigen::VectorXd start_point(const ModelSpec& spec, const Walker& walker);
 // nullopt where the energy does not suffice.
 std::optional<Eigen::VectorXd> at_energy(const ModelSpec& spec, const Eigen::VectorXd& x);
 
+}  // namespace walker
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 using Eigen::Index;
@@ -167,4 +168,5 @@ Linkage kneed(const KneedParameters& p, const KneedControls& controls, const Kne
   return linkage;
 }
 
+}  // namespace walker
 }  // namespace walktrack

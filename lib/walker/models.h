@@ -6,6 +6,7 @@
 #include "walker/linkage.h"
 
 namespace walktrack {
+inline namespace walker {
 
 // A hub on spokes that rolls down a slope (McGeer 1990; Tedrake, "Underactuated Robotics", ch. 4).
 // q = (stance spoke).
@@ -50,4 +51,5 @@ struct KneedStyle {
 Linkage kneed(const KneedParameters& parameters, const KneedControls& controls,
               const KneedStyle& style);
 
+}  // namespace walker
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 using Eigen::MatrixXd;
@@ -175,4 +176,5 @@ MatrixXd Monopode::section_rows(const WalkerState& state) const {
   return rows;
 }
 
+}  // namespace walker
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "walker/walker.h"
 
 namespace walktrack {
+inline namespace walker {
 
 struct MonopodeParameters {
   double gravity = 9.81;               // m/s^2
@@ -55,4 +56,5 @@ class Monopode : public Walker {
   std::vector<PlanarPart> parts_;
 };
 
+}  // namespace walker
 }  // namespace walktrack

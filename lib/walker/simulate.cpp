@@ -5,6 +5,7 @@
 #include <limits>
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 using Eigen::VectorXd;
@@ -269,4 +270,5 @@ std::optional<WalkerStep> take_step(const Walker& walker, const WalkerState& sta
   return step;
 }
 
+}  // namespace walker
 }  // namespace walktrack

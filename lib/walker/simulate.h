@@ -14,6 +14,7 @@
 #include "walker/walker.h"
 
 namespace walktrack {
+inline namespace walker {
 
 struct SimulationOptions {
   Integrator integrator = Integrator::kRk4;
@@ -52,4 +53,5 @@ struct WalkerStep {
 std::optional<WalkerStep> take_step(const Walker& walker, const WalkerState& start,
                                     const SimulationOptions& options, double max_time);
 
+}  // namespace walker
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "walker/straight_lanes.h"
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 // A foot leads by more than what an event's location leaves uncertain, rad: see LinkageWalker.
@@ -232,4 +233,5 @@ StraightAdvance straight_advance(const StraightModel& model, const StraightContr
   return result;
 }
 
+}  // namespace walker
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "walker/straight_walker.h"
 
 namespace walktrack {
+inline namespace walker {
 
 struct StraightAdvance {
   double elapsed = 0;  // s
@@ -34,4 +35,5 @@ StraightAdvance straight_advance(const StraightModel& model, const StraightContr
                                  const Vector2& noise, StraightState& state, double duration,
                                  double max_step = 0.004);
 
+}  // namespace walker
 }  // namespace walktrack

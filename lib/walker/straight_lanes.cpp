@@ -10,7 +10,9 @@
 #include "walker/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace walktrack::HWY_NAMESPACE {
+namespace walktrack {
+inline namespace walker {
+namespace HWY_NAMESPACE {
 namespace {
 
 using LegsMotion = MotionOf<2>;
@@ -165,11 +167,14 @@ LaneVerdict sub_step(const StraightModel& model, StraightLanes& lanes) {
 }
 
 }  // namespace
-}  // namespace walktrack::HWY_NAMESPACE
+}  // namespace HWY_NAMESPACE
+}  // namespace walker
+}  // namespace walktrack
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace walktrack {
+inline namespace walker {
 namespace {
 HWY_EXPORT(evaluate);
 HWY_EXPORT(step_sizes);
@@ -200,5 +205,6 @@ LaneVerdict sub_step_lanes(const StraightModel& model, StraightLanes& lanes) {
   return HWY_DYNAMIC_DISPATCH(sub_step)(model, lanes);
 }
 
+}  // namespace walker
 }  // namespace walktrack
 #endif

@@ -6,6 +6,7 @@
 #include "walker/straight_walker.h"
 
 namespace walktrack {
+inline namespace walker {
 
 struct StraightLanePoint {
   LaneRows<2> q, qd, qdd;
@@ -35,4 +36,5 @@ void next_lane_steps(const StraightLanes& lanes, double* h);
 // `ended` have no time left or have fallen.
 LaneVerdict sub_step_lanes(const StraightModel& model, StraightLanes& lanes);
 
+}  // namespace walker
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace walker {
 namespace {
 
 // u(a) and w(a) of core/conventions.h.
@@ -110,4 +111,5 @@ StraightTransfer straight_support_transfer(const StraightModel& m, double toe_of
   return t;
 }
 
+}  // namespace walker
 }  // namespace walktrack

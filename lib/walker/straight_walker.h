@@ -14,6 +14,7 @@
 #include "walker/models.h"
 
 namespace walktrack {
+inline namespace walker {
 
 // Held from one support transfer to the next.
 struct StraightControls {
@@ -62,4 +63,5 @@ struct StraightTransfer {
 StraightTransfer straight_support_transfer(const StraightModel& model, double toe_off_impulse,
                                            const StraightState& before);
 
+}  // namespace walker
 }  // namespace walktrack

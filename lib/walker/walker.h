@@ -16,6 +16,7 @@
 #include "mechanics/planar.h"
 
 namespace walktrack {
+inline namespace walker {
 
 // kFallen and kDiverged are states like any other: whoever simulates stops there.
 enum class Health { kSound, kFallen, kDiverged };
@@ -112,4 +113,5 @@ class Walker {
   virtual Eigen::MatrixXd section_rows(const WalkerState& state) const = 0;
 };
 
+}  // namespace walker
 }  // namespace walktrack

@@ -70,7 +70,7 @@ class ForcePlates : public testing::TestWithParam<const char*> {
   }
 
   Kinetics run(const Gait& gait, const Subject& subject) const {
-    return kinetics(motion_, foot_contacts(gait), subject, {0, 0, -kStandardGravity}, {});
+    return kinetics_of(motion_, foot_contacts(gait), subject, {0, 0, -kStandardGravity}, {});
   }
 
   static std::pair<KineticsFrame, bool> at(const Kinetics& kinetics, double time) {

@@ -116,7 +116,7 @@ TEST(GaitMotion, InverseDynamicsOfTheJointsFindsTheForces) {
   const WalkedGait& walk = usual_walk();
   const auto contacts = foot_contacts(gait_from_motion(walk.motion));
   const Kinetics found =
-      kinetics(walk.motion, contacts, Subject{}, {0, 0, -kStandardGravity}, KineticsConfig{});
+      kinetics_of(walk.motion, contacts, Subject{}, {0, 0, -kStandardGravity}, KineticsConfig{});
   const Kinetics truth = ground_kinetics(walk, walk.motion.time, 1 / 240.0);
   const auto forces = [](const Kinetics& of) {
     GroundForces out{of.time, {}};

@@ -22,7 +22,7 @@ const std::vector<FootContact> kLeftFoot{{Side::kLeft, -1, 9}};
 
 TEST(Kinetics, AStillStanceCarriesTheWeightBetweenTheFeet) {
   const Motion motion = motion_by([](double) { return joints_of(standing()); });
-  const Kinetics k = kinetics(motion, kBothFeet, kSubject, kGravity, kExact);
+  const Kinetics k = kinetics_of(motion, kBothFeet, kSubject, kGravity, kExact);
   const KineticsFrame& frame = k.frames[50];
   EXPECT_TRUE(frame.ground.force.isApprox(Vector3d(0, 0, kWeight), 1e-9));
   EXPECT_NEAR(frame.feet[0].force.z() + frame.feet[1].force.z(), kWeight, 1e-6);
@@ -40,7 +40,7 @@ TEST(Kinetics, AFallingBodyFeelsNothing) {
     pose.root += Vector3d(1.5 * t, 0.2 * t, 1 - 0.5 * kStandardGravity * t * t);
     return joints_of(pose);
   });
-  const KineticsFrame frame = kinetics(motion, kLeftFoot, kSubject, kGravity, kExact).frames[50];
+  const KineticsFrame frame = kinetics_of(motion, kLeftFoot, kSubject, kGravity, kExact).frames[50];
   EXPECT_LT(frame.ground.force.norm(), 1e-6 * kWeight);
   EXPECT_LT(frame.ground.moment.norm(), 1e-6 * kWeight);
   EXPECT_NEAR(frame.legs[0].hip_flexion, 0, 1e-4);
@@ -48,7 +48,7 @@ TEST(Kinetics, AFallingBodyFeelsNothing) {
 
 TEST(Kinetics, ForcesAreMassTimesAccelerationLessGravity) {
   const Motion motion = motion_by([](double t) { return joints_of(lively(t), true); });
-  const Kinetics k = kinetics(motion, kBothFeet, kSubject, kGravity, kExact);
+  const Kinetics k = kinetics_of(motion, kBothFeet, kSubject, kGravity, kExact);
   for (const size_t i : {20u, 50u, 80u}) {
     const Vector3d acceleration =
         (k.frames[i + 1].com - 2 * k.frames[i].com + k.frames[i - 1].com) * kSampleRate *
@@ -63,7 +63,7 @@ TEST(Kinetics, ForcesAreMassTimesAccelerationLessGravity) {
 // the angular momentum about it.
 TEST(Kinetics, MomentsBalanceAboutAnyPoint) {
   const Motion motion = motion_by([](double t) { return joints_of(lively(t), true); });
-  const Kinetics k = kinetics(motion, kBothFeet, kSubject, kGravity, kExact);
+  const Kinetics k = kinetics_of(motion, kBothFeet, kSubject, kGravity, kExact);
   const LinkedBody body = linked_body(kSubject, motion.joints);
   const auto states = linked_states(body, motion.joints, 1 / kSampleRate);
   const auto about = [&](size_t i, const Vector3d& point) {
@@ -92,7 +92,7 @@ TEST(Kinetics, ASwingingShankIsAPendulum) {
     pose.legs[1].knee_flexion = flexion(t);
     return joints_of(pose);
   });
-  const Kinetics k = kinetics(motion, kLeftFoot, kSubject, kGravity, kExact);
+  const Kinetics k = kinetics_of(motion, kLeftFoot, kSubject, kGravity, kExact);
   const LinkedBody body = linked_body(kSubject, motion.joints);
   const auto states = linked_states(body, motion.joints, 1 / kSampleRate);
   for (const size_t i : {15u, 40u, 77u}) {
@@ -129,8 +129,8 @@ TEST(Kinetics, MirroredMotionsHaveMirroredLoads) {
   const Motion mirror = motion_by([&](double t) { return mirrored_joints(joints_of(lively(t))); });
   const std::vector<FootContact> contacts{{Side::kLeft, -1, 0.6}, {Side::kRight, 0.4, 2}};
   const std::vector<FootContact> swapped{{Side::kRight, -1, 0.6}, {Side::kLeft, 0.4, 2}};
-  const Kinetics a = kinetics(motion, contacts, kSubject, kGravity, {});
-  const Kinetics b = kinetics(mirror, swapped, kSubject, kGravity, {});
+  const Kinetics a = kinetics_of(motion, contacts, kSubject, kGravity, {});
+  const Kinetics b = kinetics_of(mirror, swapped, kSubject, kGravity, {});
   for (const size_t i : {20u, 50u, 80u}) {
     const KineticsFrame &one = a.frames[i], &two = b.frames[i];
     for (size_t side = 0; side < 2; ++side) {
@@ -147,13 +147,13 @@ TEST(Kinetics, MirroredMotionsHaveMirroredLoads) {
 TEST(Kinetics, UnknownJointsAndShortSpansAreLeftOut) {
   Motion motion = motion_by([](double) { return joints_of(standing()); }, 40);
   for (const size_t i : {20u, 25u}) motion.joints[i] = unknown_joints();
-  const Kinetics k = kinetics(motion, kBothFeet, kSubject, kGravity, {});
+  const Kinetics k = kinetics_of(motion, kBothFeet, kSubject, kGravity, {});
   ASSERT_EQ(k.frames.size(), 40u);
   EXPECT_TRUE(k.frames[19].known);
   EXPECT_FALSE(k.frames[20].known);
   EXPECT_FALSE(k.frames[22].known);  // four rows between two gaps
   EXPECT_TRUE(k.frames[26].known);
-  EXPECT_TRUE(kinetics({}, {}, kSubject, kGravity, {}).frames.empty());
+  EXPECT_TRUE(kinetics_of({}, {}, kSubject, kGravity, {}).frames.empty());
 }
 
 }  // namespace

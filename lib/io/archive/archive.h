@@ -34,6 +34,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace io {
 
 template <typename T, typename Struct>
 concept ArchivedAs = std::same_as<std::remove_const_t<T>, Struct>;
@@ -255,4 +256,5 @@ class ArchiveReader {
   bool any_number_ = false;
 };
 
+}  // namespace io
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "io/archive/state_fields.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -73,4 +74,5 @@ FoundCheckpoint parse_checkpoint(std::string_view bytes, std::string_view file,
   return {{}, error.what()};
 }
 
+}  // namespace io
 }  // namespace walktrack

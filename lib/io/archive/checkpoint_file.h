@@ -21,6 +21,7 @@
 #include "tracker/tracker.h"
 
 namespace walktrack {
+inline namespace io {
 
 struct Checkpoint {
   Origin origin;
@@ -49,4 +50,5 @@ std::string checkpoint_bytes(const Checkpoint& checkpoint);
 FoundCheckpoint parse_checkpoint(std::string_view bytes, std::string_view file,
                                  const Origin& origin);
 
+}  // namespace io
 }  // namespace walktrack

@@ -19,6 +19,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace fs = std::filesystem;
 
@@ -176,4 +177,5 @@ fs::path resolved(const fs::path& base, const fs::path& path) {
   return (path.is_absolute() ? path : base / path).lexically_normal();
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace io {
 
 // The whole file. InputError naming the file and the reason, also when it is a folder, a pipe (but
 // /dev/stdin and its like) or larger than `max_bytes`.
@@ -62,4 +63,5 @@ void publish_file(const std::filesystem::path& temporary, const std::filesystem:
 std::filesystem::path resolved(const std::filesystem::path& base,
                                const std::filesystem::path& path);
 
+}  // namespace io
 }  // namespace walktrack

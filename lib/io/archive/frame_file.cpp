@@ -18,6 +18,7 @@
 #include "io/archive/state_fields.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -144,4 +145,5 @@ std::string frame_file_trouble(const std::filesystem::path& path, uint64_t recor
   return error.what();
 }
 
+}  // namespace io
 }  // namespace walktrack

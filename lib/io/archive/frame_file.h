@@ -12,6 +12,7 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace io {
 
 class FrameFile {
  public:
@@ -71,4 +72,5 @@ FrameRecord frame_record_from_bytes(std::string_view bytes, std::string_view fil
 // Why the file does not hold `records` sound records in its first `bytes` bytes; "": it does.
 std::string frame_file_trouble(const std::filesystem::path& path, uint64_t records, uint64_t bytes);
 
+}  // namespace io
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -46,4 +47,5 @@ std::string differences(const Origin& found, const Origin& wanted) {
   return text;
 }
 
+}  // namespace io
 }  // namespace walktrack

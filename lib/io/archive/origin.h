@@ -7,6 +7,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace io {
 
 // {"version of the program", "1.0 ..."}, {"filter.particles", "120"},
 // {"content of side.mp4", "9f86d0..."}, ...
@@ -18,4 +19,5 @@ inline constexpr const char* kContentOf = "content of ";
 // "" = nothing. Long lists end in "and 12 more".
 std::string differences(const Origin& found, const Origin& wanted);
 
+}  // namespace io
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "io/archive/files.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace fs = std::filesystem;
 
@@ -280,4 +281,5 @@ void ResultFolder::finish_partial(std::string_view run_json) const {
   write(kPartialFile, run_json);
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace io {
 
 inline constexpr const char* kRunFile = "run.json";
 
@@ -74,4 +75,5 @@ class ResultFolder {
   std::set<std::string> files_;
 };
 
+}  // namespace io
 }  // namespace walktrack

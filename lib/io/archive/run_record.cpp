@@ -8,6 +8,7 @@
 #include "io/archive/sha256.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -156,4 +157,5 @@ std::string result_digest(const std::string& joints_csv, const std::string& unce
   return sha256(joints_csv + uncertainty_csv);
 }
 
+}  // namespace io
 }  // namespace walktrack

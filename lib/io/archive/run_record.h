@@ -15,6 +15,7 @@
 #include "io/config/config.h"
 
 namespace walktrack {
+inline namespace io {
 
 // One measure of a result's quality, with the limit that it has to keep, if any.
 struct QualityMeasure {
@@ -67,4 +68,5 @@ std::optional<std::string> command_of_result(const std::filesystem::path& folder
 // SHA-256 of joints.csv and uncertainty.csv, one after the other.
 std::string result_digest(const std::string& joints_csv, const std::string& uncertainty_csv);
 
+}  // namespace io
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -78,4 +79,5 @@ std::string sha256(std::string_view bytes) {
   return text;
 }
 
+}  // namespace io
 }  // namespace walktrack

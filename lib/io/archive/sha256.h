@@ -5,8 +5,10 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace io {
 
 // 64 hexadecimal digits.
 std::string sha256(std::string_view bytes);
 
+}  // namespace io
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "io/archive/state_fields.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -121,4 +122,5 @@ std::string_view trouble_of(const Checkpoint& checkpoint) {
   return trouble_of(checkpoint.tracker);
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace io {
 
 // What is wrong, in words; "" = nothing.
 std::string_view trouble_of(const ObserverState& state);
@@ -16,4 +17,5 @@ std::string_view trouble_of(const TrackerState& state);
 std::string_view trouble_of(const FrameRecord& record);
 std::string_view trouble_of(const Checkpoint& checkpoint);
 
+}  // namespace io
 }  // namespace walktrack

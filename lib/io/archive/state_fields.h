@@ -9,6 +9,7 @@
 #include "tracker/tracker.h"
 
 namespace walktrack {
+inline namespace io {
 
 constexpr Side last_value(Side) { return Side::kRight; }
 constexpr Regime last_value(Regime) { return Regime::kStanding; }
@@ -226,4 +227,5 @@ void fields(Archive& archive, T& value) {
           a_count(diverged), modes, names, any_number(evidence), keypoints, fit, moving);
 }
 
+}  // namespace io
 }  // namespace walktrack

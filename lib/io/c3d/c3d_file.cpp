@@ -18,6 +18,7 @@
 #include "io/tables/motion_file.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -343,4 +344,5 @@ std::string c3d_from_motion(const C3dContent& content) {
   return bytes;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -29,6 +29,7 @@
 #include "metrics/gait.h"
 
 namespace walktrack {
+inline namespace io {
 
 struct C3dContent {
   const Motion& motion;              // at least one row, evenly spaced
@@ -42,4 +43,5 @@ struct C3dContent {
 // be (127 kB, about 3,500), the later ones are left out.
 std::string c3d_from_motion(const C3dContent& content);
 
+}  // namespace io
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -153,4 +154,5 @@ std::string c3d_parameter_section(std::span<const C3dGroup> groups) {
   return bytes;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace io {
 
 inline constexpr int kIntelProcessor = 84;  // 83 + 1: little-endian, IEEE floats
 
@@ -48,4 +49,5 @@ std::string c3d_parameter_section(std::span<const C3dGroup> groups);
 void append_c3d_whole(std::string& bytes, int value);
 void append_c3d_real(std::string& bytes, double value);
 
+}  // namespace io
 }  // namespace walktrack

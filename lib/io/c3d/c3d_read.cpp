@@ -14,6 +14,7 @@
 #include "io/c3d/c3d_parameters.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -196,4 +197,5 @@ MarkerTable markers_from_c3d(std::string_view content, const std::string& file) 
   return out;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "io/archive/files.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -80,4 +81,5 @@ std::vector<std::string> calibration_names(const std::filesystem::path& path) {
   return {};
 }
 
+}  // namespace io
 }  // namespace walktrack

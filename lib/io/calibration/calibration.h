@@ -30,6 +30,7 @@
 #include "camera/camera.h"
 
 namespace walktrack {
+inline namespace io {
 
 struct ImageSize {
   int width_px, height_px;
@@ -78,4 +79,5 @@ std::string toml_from_cameras(const std::vector<std::pair<std::string, Camera>>&
 // How far R'R may be from the identity (largest entry) in a file with rounded digits.
 inline constexpr double kRotationTolerance = 1e-3;
 
+}  // namespace io
 }  // namespace walktrack

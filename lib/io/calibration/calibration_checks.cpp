@@ -7,6 +7,7 @@
 #include "io/calibration/calibration.h"
 
 namespace walktrack {
+inline namespace io {
 
 void set_camera_matrix(Camera& camera, const Eigen::Matrix3d& matrix, const Complain& complain) {
   const bool last_row = matrix(2, 0) == 0 && matrix(2, 1) == 0 && matrix(2, 2) == 1;
@@ -55,4 +56,5 @@ Eigen::Matrix3d rotation_from_rodrigues(const Eigen::Vector3d& vector) {
   return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
 }
 
+}  // namespace io
 }  // namespace walktrack

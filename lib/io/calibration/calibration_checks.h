@@ -9,6 +9,7 @@
 #include "camera/camera.h"
 
 namespace walktrack {
+inline namespace io {
 
 // Throws the reader's InputError: for a key, what was found and what is allowed.
 using Complain =
@@ -26,4 +27,5 @@ Eigen::Matrix3d rotation_from_rodrigues(const Eigen::Vector3d& vector);
 
 inline constexpr int kMostPixels = 65536;  // along a side of an image
 
+}  // namespace io
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "io/calibration/yaml_matrix.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -90,4 +91,5 @@ Camera camera_from_easymocap(const FileText& intrinsic, const FileText& extrinsi
   return camera;
 }
 
+}  // namespace io
 }  // namespace walktrack

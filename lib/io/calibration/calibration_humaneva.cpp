@@ -14,6 +14,7 @@
 #include "io/calibration/calibration_checks.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -72,4 +73,5 @@ Camera camera_from_humaneva(const std::string& text, const std::string& file,
   return camera;
 }
 
+}  // namespace io
 }  // namespace walktrack

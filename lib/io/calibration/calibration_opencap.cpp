@@ -14,6 +14,7 @@
 #include "io/calibration/pickle.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -81,4 +82,5 @@ Camera camera_from_opencap(const std::string& bytes, const std::string& file) {
   return camera;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "io/config/yaml.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -81,4 +82,5 @@ std::string opencv_from_camera(const Camera& camera) {
   return text;
 }
 
+}  // namespace io
 }  // namespace walktrack

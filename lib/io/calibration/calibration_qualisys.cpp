@@ -15,6 +15,7 @@
 #include "io/calibration/xml_element.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -109,4 +110,5 @@ Camera camera_from_qualisys(const std::string& text, const std::string& file,
   return camera;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "io/calibration/calibration_checks.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -185,4 +186,5 @@ std::string toml_from_cameras(const std::vector<std::pair<std::string, Camera>>&
   return text + "[metadata]\nadjusted = false\nerror = 0.0\n";
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "io/calibration/xml_element.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -70,4 +71,5 @@ Camera camera_from_tsai(const std::string& text, const std::string& file) {
   return camera;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -31,6 +31,7 @@
 #include "io/calibration/xml_element.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -203,4 +204,5 @@ Camera camera_from_vicon(const std::string& text, const std::string& file,
   return camera;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -49,4 +50,5 @@ void set_inverse_distortion(Camera& camera,
   set_distortion(camera, std::vector<double>(k.data(), k.data() + 5));
 }
 
+}  // namespace io
 }  // namespace walktrack

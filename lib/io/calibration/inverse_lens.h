@@ -10,6 +10,7 @@
 #include "io/calibration/calibration_checks.h"
 
 namespace walktrack {
+inline namespace io {
 
 inline constexpr double kMostLensMisfit = 0.5;  // px
 
@@ -21,4 +22,5 @@ void set_inverse_distortion(Camera& camera,
                             const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& straight,
                             const char* key, const Complain& complain);
 
+}  // namespace io
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "io/tables/csv.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -46,4 +47,5 @@ MeasuredPoints read_measured_points(const std::filesystem::path& path) {
   return out;
 }
 
+}  // namespace io
 }  // namespace walktrack

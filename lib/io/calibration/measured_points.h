@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace io {
 
 struct MeasuredPoints {
   std::vector<Eigen::Vector2d> pixels;
@@ -20,4 +21,5 @@ struct MeasuredPoints {
 // InputError naming line and column; fewer than four points, or all on one line in the room, too.
 MeasuredPoints read_measured_points(const std::filesystem::path& path);
 
+}  // namespace io
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -464,4 +465,5 @@ std::map<std::string, PickledArray> read_pickled_arrays(const std::string& bytes
   return out;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace io {
 
 struct PickledArray {
   std::vector<size_t> shape;
@@ -25,4 +26,5 @@ inline constexpr size_t kMostPickleBytes = size_t{1} << 18;
 std::map<std::string, PickledArray> read_pickled_arrays(const std::string& bytes,
                                                         const std::string& file);
 
+}  // namespace io
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "io/calibration/calibration_checks.h"
 
 namespace walktrack {
+inline namespace io {
 
 XmlElement::XmlElement(const std::string& text, std::string file, std::string name,
                        std::string_view allowed, size_t from, size_t to)
@@ -58,4 +59,5 @@ int XmlElement::pixels(const std::string& key) const {
   return static_cast<int>(value);
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace io {
 
 class XmlElement {
  public:
@@ -32,4 +33,5 @@ class XmlElement {
   int line_ = 0;
 };
 
+}  // namespace io
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 namespace walktrack {
+inline namespace io {
 
 std::vector<double> matrix_numbers(const YamlValue& value) {
   if (value.is_map()) return matrix_numbers(value.at("data"));
@@ -39,4 +40,5 @@ YamlValue opencv_yaml(std::string text, const std::string& file) {
   return YamlValue::from_text(text, file);
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "io/config/yaml.h"
 
 namespace walktrack {
+inline namespace io {
 
 // The numbers of a matrix, row by row: OpenCV's {rows, cols, dt, data}, a flat list or a list of
 // rows. InputError for anything else or, in the second form, for another count than allowed.
@@ -21,4 +22,5 @@ Eigen::Matrix3d matrix3(const std::vector<double>& numbers);
 // OpenCV writes "%YAML:1.0", which is no YAML; the line stays, so that lines keep their numbers.
 YamlValue opencv_yaml(std::string text, const std::string& file);
 
+}  // namespace io
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "io/config/yaml.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -178,4 +179,5 @@ std::vector<std::pair<std::string, std::string>> config_values(const Config& con
   return values;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -21,6 +21,7 @@
 #include "tracker/tracker_config.h"
 
 namespace walktrack {
+inline namespace io {
 
 // A result that fails one of these ends in exit code 4.
 struct QualityConfig {
@@ -105,4 +106,5 @@ std::string config_as_yaml(const ConfigWithOrigin& config, ConfigScope scope, bo
 // Every key and its effective value as text, in table order: what run.json keeps.
 std::vector<std::pair<std::string, std::string>> config_values(const Config& config);
 
+}  // namespace io
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "observation/terms.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -274,4 +275,5 @@ const ParameterTable& config_table() {
   return kTable;
 }
 
+}  // namespace io
 }  // namespace walktrack

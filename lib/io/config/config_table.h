@@ -6,7 +6,9 @@
 #include "io/config/parameters.h"
 
 namespace walktrack {
+inline namespace io {
 
 const ParameterTable& config_table();
 
+}  // namespace io
 }  // namespace walktrack

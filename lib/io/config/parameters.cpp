@@ -9,6 +9,7 @@
 #include "io/archive/files.h"
 
 namespace walktrack {
+inline namespace io {
 
 bool number_in_range(const std::string& text, double lowest, double highest, double& value) {
   const auto number = number_from_text(text);
@@ -65,4 +66,5 @@ std::string list_text(const std::vector<double>& values) {
 
 std::string number_text(double value) { return shortest_number(value); }
 
+}  // namespace io
 }  // namespace walktrack

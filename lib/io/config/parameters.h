@@ -17,6 +17,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace io {
 
 struct Config;
 
@@ -175,4 +176,5 @@ class ParameterGroup {
   std::function<Group&(Config&)> reach_;
 };
 
+}  // namespace io
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace io {
 
 struct Preset {
   std::string_view name, yaml;
@@ -13,4 +14,5 @@ struct Preset {
 // In the order from fast to accurate.
 std::span<const Preset> presets();
 
+}  // namespace io
 }  // namespace walktrack

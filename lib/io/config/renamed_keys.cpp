@@ -3,6 +3,7 @@
 #include <array>
 
 namespace walktrack {
+inline namespace io {
 
 std::span<const RenamedKey> renamed_keys() {
   static constexpr std::array kRenamed{
@@ -44,4 +45,5 @@ std::span<const RenamedKey> renamed_keys() {
   return kRenamed;
 }
 
+}  // namespace io
 }  // namespace walktrack

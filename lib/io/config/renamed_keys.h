@@ -6,10 +6,12 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace io {
 
 struct RenamedKey {
   std::string_view before, now;
 };
 std::span<const RenamedKey> renamed_keys();
 
+}  // namespace io
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 namespace walktrack {
+inline namespace io {
 
 std::string csv_cell(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
@@ -62,4 +63,5 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace io {
 
 // A cell of a CSV table: quoted where it holds a comma, a quote or a line end (RFC 4180).
 std::string csv_cell(std::string_view text);
@@ -15,4 +16,5 @@ std::string url_path(std::string_view path);
 // Control characters become blanks.
 std::string one_line(std::string_view text);
 
+}  // namespace io
 }  // namespace walktrack

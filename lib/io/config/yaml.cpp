@@ -14,6 +14,7 @@
 #include "io/archive/files.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -239,4 +240,5 @@ std::vector<double> YamlValue::numbers(size_t count) const {
   return found;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include <yaml-cpp/yaml.h>
 
 namespace walktrack {
+inline namespace io {
 
 // A place in a YAML file. Copies are cheap (yaml-cpp nodes are handles).
 class YamlValue {
@@ -56,4 +57,5 @@ class YamlValue {
 
 inline constexpr size_t kMaxYamlBytes = 16u << 20;
 
+}  // namespace io
 }  // namespace walktrack

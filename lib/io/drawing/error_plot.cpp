@@ -9,6 +9,7 @@
 #include "io/drawing/svg.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -136,4 +137,5 @@ std::string error_plot_svg(const std::string& title, const std::vector<ErrorSeri
                      legend(all) + curves(all, first) + bars(all, second));
 }
 
+}  // namespace io
 }  // namespace walktrack

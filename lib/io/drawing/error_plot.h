@@ -8,6 +8,7 @@
 #include "body/pose.h"
 
 namespace walktrack {
+inline namespace io {
 
 struct ErrorSeries {
   std::string name;                          // of the estimate
@@ -19,4 +20,5 @@ struct ErrorSeries {
 // A self-contained SVG: curves above, bars below, a colour for each estimate.
 std::string error_plot_svg(const std::string& title, const std::vector<ErrorSeries>& all);
 
+}  // namespace io
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "io/drawing/sub_pixel.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -174,4 +175,5 @@ void draw_caption(cv::Mat& image, const std::string& text) {
   draw_text(image, text, {margin, 2 * margin + margin / 2});
 }
 
+}  // namespace io
 }  // namespace walktrack

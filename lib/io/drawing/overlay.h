@@ -16,6 +16,7 @@
 #include "camera/camera.h"
 
 namespace walktrack {
+inline namespace io {
 
 // A straight line in the world.
 void draw_line(cv::Mat& image, const Camera& camera, const Eigen::Vector3d& from,
@@ -50,4 +51,5 @@ void draw_caption(cv::Mat& image, const std::string& text);
 // Thickness that suits the image: 1 px at 480 lines, 2 at 960, …
 int line_thickness(const cv::Mat& image);
 
+}  // namespace io
 }  // namespace walktrack

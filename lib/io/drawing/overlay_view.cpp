@@ -9,6 +9,7 @@
 #include "body/motion.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -156,4 +157,5 @@ void look_through(const OverlayView& view, const cv::Mat& picture, cv::Mat& out)
   shrink(seen, view.size, out);
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include "camera/camera.h"
 
 namespace walktrack {
+inline namespace io {
 
 struct OverlayView {
   cv::Rect area;  // of the camera's picture, px
@@ -39,4 +40,5 @@ Eigen::Vector2d in_view(const OverlayView& view, const Eigen::Vector2d& px);
 // 8-bit BGR of the view's size; `out` keeps its memory and never shares the picture's.
 void look_through(const OverlayView& view, const cv::Mat& picture, cv::Mat& out);
 
+}  // namespace io
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "io/config/text.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace fs = std::filesystem;
 
@@ -91,4 +92,5 @@ std::string json_in_html(std::string_view json) {
   return safe;
 }
 
+}  // namespace io
 }  // namespace walktrack

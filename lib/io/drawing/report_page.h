@@ -11,6 +11,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace io {
 
 struct ReportClip {
   std::string name;            // e.g. the camera's
@@ -48,4 +49,5 @@ std::string_view batch_template();
 // data/report/normal_gait.csv.
 std::string_view normal_gait_csv();
 
+}  // namespace io
 }  // namespace walktrack

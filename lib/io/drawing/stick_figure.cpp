@@ -11,6 +11,7 @@
 #include "io/video/video_writer.h"
 
 namespace walktrack {
+inline namespace io {
 namespace {
 
 using Eigen::Vector2d;
@@ -171,4 +172,5 @@ void write_animation(const std::filesystem::path& path, const std::vector<StickF
   writer.close();
 }
 
+}  // namespace io
 }  // namespace walktrack

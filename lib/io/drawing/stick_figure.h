@@ -10,6 +10,7 @@
 #include <opencv2/core/mat.hpp>
 
 namespace walktrack {
+inline namespace io {
 
 struct StickLine {
   Eigen::Vector2d from, to;
@@ -31,4 +32,5 @@ cv::Mat strip_as_image(const std::vector<StickFigure>& figures, double slope);
 void write_animation(const std::filesystem::path& path, const std::vector<StickFigure>& figures,
                      double slope, double frame_rate);
 
+}  // namespace io
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include <opencv2/core/types.hpp>
 
 namespace walktrack {
+inline namespace io {
 
 inline constexpr int kFractionBits = 4;
 
@@ -20,4 +21,5 @@ inline cv::Point fixed_point(const Eigen::Vector2d& place_px) {
   return {fixed(place_px.x()), fixed(place_px.y())};
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -54,4 +55,5 @@ std::string svg_picture(double width, double height, double left, const std::str
          content + "</svg>\n";
 }
 
+}  // namespace io
 }  // namespace walktrack

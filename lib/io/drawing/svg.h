@@ -5,6 +5,7 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace io {
 
 // Of the n-th series; told apart by people who see colours otherwise.
 std::string_view svg_colour(size_t series);
@@ -31,4 +32,5 @@ std::string svg_text(double x, double y, std::string_view anchor, const std::str
 std::string svg_picture(double width, double height, double left, const std::string& title,
                         const std::string& content);
 
+}  // namespace io
 }  // namespace walktrack

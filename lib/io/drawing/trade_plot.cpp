@@ -8,6 +8,7 @@
 #include "io/drawing/svg.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -127,4 +128,5 @@ std::string trade_plot_svg(const std::string& title, const std::string& error_is
   return svg_picture(kPlotWidth, height, kPlotLeft, title, out);
 }
 
+}  // namespace io
 }  // namespace walktrack

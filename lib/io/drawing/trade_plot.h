@@ -5,6 +5,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace io {
 
 struct TradePoint {
   std::string name;
@@ -18,4 +19,5 @@ struct TradePoint {
 std::string trade_plot_svg(const std::string& title, const std::string& error_is,
                            const std::vector<TradePoint>& points);
 
+}  // namespace io
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "io/tables/motion_file.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -254,4 +255,5 @@ std::vector<Vector3d> rest_places(const AnimatedFigure& figure, double ankle_hei
   return out;
 }
 
+}  // namespace io
 }  // namespace walktrack

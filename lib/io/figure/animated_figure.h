@@ -20,6 +20,7 @@
 #include "body/subject.h"
 
 namespace walktrack {
+inline namespace io {
 
 struct FigureNode {
   std::string_view name;
@@ -53,4 +54,5 @@ AnimatedFigure animated_figure(const Motion& motion, const BodyLengths& lengths)
 // Where a node is in the rest pose, feet on the ground, the pelvis above the origin, m.
 std::vector<Eigen::Vector3d> rest_places(const AnimatedFigure& figure, double ankle_height);
 
+}  // namespace io
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "io/tables/csv.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -158,4 +159,5 @@ std::string bvh_from_figure(const AnimatedFigure& figure, double rate) {
   return text;
 }
 
+}  // namespace io
 }  // namespace walktrack

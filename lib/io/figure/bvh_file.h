@@ -17,8 +17,10 @@
 #include "io/figure/animated_figure.h"
 
 namespace walktrack {
+inline namespace io {
 
 // One frame for each row, at `rate` Hz. "" if no frame has a pose.
 std::string bvh_from_figure(const AnimatedFigure& figure, double rate);
 
+}  // namespace io
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -151,4 +152,5 @@ FigureMesh mesh_of(const AnimatedFigure& figure, const Body& body) {
   return mesh;
 }
 
+}  // namespace io
 }  // namespace walktrack

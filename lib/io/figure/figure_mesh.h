@@ -10,6 +10,7 @@
 #include "io/figure/animated_figure.h"
 
 namespace walktrack {
+inline namespace io {
 
 enum class MeshGroup { kMiddle, kLeft, kRight };
 inline constexpr size_t kMeshGroupCount = 3;
@@ -26,4 +27,5 @@ Body body_of_figure(const AnimatedFigure& figure, const Subject& subject);
 
 FigureMesh mesh_of(const AnimatedFigure& figure, const Body& body);
 
+}  // namespace io
 }  // namespace walktrack

@@ -16,6 +16,7 @@
 #include "io/figure/gltf_buffer.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -219,4 +220,5 @@ std::string glb_from_figure(const AnimatedFigure& figure, const Subject& subject
   return std::move(buffer).file(std::move(document));
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include "io/figure/animated_figure.h"
 
 namespace walktrack {
+inline namespace io {
 
 inline constexpr double kSteadyLength = 1e-4;  // m
 
@@ -22,4 +23,5 @@ inline constexpr double kSteadyLength = 1e-4;  // m
 // out.
 std::string glb_from_figure(const AnimatedFigure& figure, const Subject& subject);
 
+}  // namespace io
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -102,4 +103,5 @@ std::string GltfBuffer::file(Json document) && {
   return out + bytes_;
 }
 
+}  // namespace io
 }  // namespace walktrack

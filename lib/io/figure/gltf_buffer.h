@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 namespace walktrack {
+inline namespace io {
 
 // What a view is for, the numbers of the specification.
 enum class GltfTarget { kNone = 0, kVertices = 34962, kIndices = 34963 };
@@ -35,4 +36,5 @@ class GltfBuffer {
   nlohmann::ordered_json accessors_ = nlohmann::ordered_json::array();
 };
 
+}  // namespace io
 }  // namespace walktrack

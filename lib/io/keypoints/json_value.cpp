@@ -9,6 +9,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace io {
 
 using AnyJson = nlohmann::json;
 
@@ -98,4 +99,5 @@ std::string JsonValue::describe_found() const {
   return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 
+}  // namespace io
 }  // namespace walktrack

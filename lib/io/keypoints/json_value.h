@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 namespace walktrack {
+inline namespace io {
 
 // "NaN" and "Infinity", which are no JSON but which Python writes, become null.
 nlohmann::json json_from_text(std::string text, const std::string& file);
@@ -44,4 +45,5 @@ class JsonValue {
   std::string key_;
 };
 
+}  // namespace io
 }  // namespace walktrack

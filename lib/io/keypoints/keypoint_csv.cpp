@@ -13,6 +13,7 @@
 #include "io/video/video.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -150,4 +151,5 @@ KeypointFrames deeplabcut_table(const std::string& text, const KeypointSource& s
   return out;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "io/keypoints/keypoint_formats.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace fs = std::filesystem;
 
@@ -136,4 +137,5 @@ std::vector<fs::path> keypoint_files(const KeypointSource& source) {
   return out;
 }
 
+}  // namespace io
 }  // namespace walktrack

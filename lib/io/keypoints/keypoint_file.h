@@ -19,6 +19,7 @@
 #include "observation/keypoints.h"
 
 namespace walktrack {
+inline namespace io {
 
 struct KeypointSource {
   std::filesystem::path path{};  // empty = none
@@ -50,4 +51,5 @@ std::vector<std::filesystem::path> keypoint_files(const KeypointSource& source);
 
 inline constexpr size_t kMaxKeypointBytes = size_t{256} << 20;  // of a file
 
+}  // namespace io
 }  // namespace walktrack

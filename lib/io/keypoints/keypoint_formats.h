@@ -10,6 +10,7 @@
 #include "io/keypoints/keypoint_file.h"
 
 namespace walktrack {
+inline namespace io {
 
 // A point as a file has it. Missing: no confidence, no number, one that no picture reaches, or
 // exactly the corner (0, 0).
@@ -27,4 +28,5 @@ KeypointFrames deeplabcut_table(const std::string& text, const KeypointSource& s
 // Names of a folder's OpenPose files, by frame. InputError if two are the same frame's.
 std::map<int, std::filesystem::path> openpose_files(const std::filesystem::path& folder);
 
+}  // namespace io
 }  // namespace walktrack

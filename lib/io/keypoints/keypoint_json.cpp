@@ -11,6 +11,7 @@
 #include "io/video/video.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace fs = std::filesystem;
 
@@ -133,4 +134,5 @@ KeypointFrames mmpose_inferences(const JsonValue& root) {
   return out;
 }
 
+}  // namespace io
 }  // namespace walktrack

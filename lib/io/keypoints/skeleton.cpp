@@ -3,6 +3,7 @@
 #include <array>
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -42,4 +43,5 @@ std::span<const Point> skeleton_of(size_t points) {
 
 std::string skeletons_allowed() { return "17 (COCO), 18, 25 (BODY_25) or 26 (HALPE_26) points"; }
 
+}  // namespace io
 }  // namespace walktrack

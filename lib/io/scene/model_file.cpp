@@ -11,6 +11,7 @@
 #include "io/config/yaml.h"
 
 namespace walktrack {
+inline namespace io {
 namespace {
 
 constexpr const char* kParameters = "parameters.";
@@ -191,4 +192,5 @@ std::string model_as_yaml(const ModelSpec& spec) {
   return text;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "walker/model_spec.h"
 
 namespace walktrack {
+inline namespace io {
 
 // One value by its dotted key, with where it stands for messages.
 struct ModelSetting {
@@ -42,4 +43,5 @@ void apply_model_setting(ModelSpec& spec, const std::string& setting);
 // A model as a file that reads back to the same values.
 std::string model_as_yaml(const ModelSpec& spec);
 
+}  // namespace io
 }  // namespace walktrack

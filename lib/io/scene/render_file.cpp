@@ -13,6 +13,7 @@
 #include "synth/made_walk.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace fs = std::filesystem;
 
@@ -298,4 +299,5 @@ RenderFile read_render_file(const fs::path& path) {
   return out;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -35,6 +35,7 @@
 #include "synth/render_options.h"
 
 namespace walktrack {
+inline namespace io {
 
 // A walk that obeys mechanics.
 struct GaitWalk {
@@ -56,4 +57,5 @@ struct RenderFile {
 // key.
 RenderFile read_render_file(const std::filesystem::path& path);
 
+}  // namespace io
 }  // namespace walktrack

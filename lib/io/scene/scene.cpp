@@ -15,6 +15,7 @@
 #include "io/config/yaml.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace fs = std::filesystem;
 
@@ -298,4 +299,5 @@ bool is_frame_pattern(const fs::path& path) {
   return path.filename().string().find('%') != std::string::npos && !fs::exists(path, ignored);
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -19,6 +19,7 @@
 #include "io/keypoints/keypoint_file.h"
 
 namespace walktrack {
+inline namespace io {
 
 inline constexpr double kSlowestRate = 0.1, kFastestRate = 1000;  // of frames, Hz
 
@@ -78,4 +79,5 @@ std::vector<std::filesystem::path> files_of(const Scene& scene);
 // Whether a path stands for many files, e.g. frames/%05d.png.
 bool is_frame_pattern(const std::filesystem::path& path);
 
+}  // namespace io
 }  // namespace walktrack

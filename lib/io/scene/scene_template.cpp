@@ -12,6 +12,7 @@
 #include "io/config/yaml.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace fs = std::filesystem;
 
@@ -46,4 +47,5 @@ bool is_video_file(const fs::path& path) {
   return std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include <string>
 
 namespace walktrack {
+inline namespace io {
 
 // The text of a scene file that is the template with another video. The template must have one
 // camera; its paths become absolute, so that the text may be written anywhere; its truth, which is
@@ -15,4 +16,5 @@ std::string scene_for_video(const std::filesystem::path& scene_template,
 // By the name's ending alone.
 bool is_video_file(const std::filesystem::path& path);
 
+}  // namespace io
 }  // namespace walktrack

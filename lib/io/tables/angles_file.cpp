@@ -10,6 +10,7 @@
 #include "io/tables/csv.h"
 
 namespace walktrack {
+inline namespace io {
 
 std::vector<AngleRow> angle_rows(const Motion& motion, const BodyLengths& lengths) {
   std::vector<AngleRow> rows;
@@ -54,4 +55,5 @@ std::string joint_angles_csv(const std::vector<AngleRow>& rows) {
   return text;
 }
 
+}  // namespace io
 }  // namespace walktrack

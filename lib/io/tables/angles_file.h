@@ -14,6 +14,7 @@
 #include "io/tables/table_notes.h"
 
 namespace walktrack {
+inline namespace io {
 
 struct AngleRow {
   double time;                          // s
@@ -29,4 +30,5 @@ std::string joint_angles_csv(const std::vector<AngleRow>& rows);
 // Of "angles.csv"; `rate` in Hz.
 TableNotes joint_angles_notes(double rate);
 
+}  // namespace io
 }  // namespace walktrack

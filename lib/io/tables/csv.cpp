@@ -13,6 +13,7 @@
 #include "io/archive/files.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -144,4 +145,5 @@ void append_number(std::string& text, char separator, double value) {
   text += csv_number(value);
 }
 
+}  // namespace io
 }  // namespace walktrack

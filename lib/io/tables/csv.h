@@ -9,6 +9,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace io {
 
 struct CsvTable {
   struct Row {
@@ -50,4 +51,5 @@ void append_number(std::string& text, char separator, double value);
 
 inline constexpr size_t kMaxCsvBytes = size_t{1} << 30;
 
+}  // namespace io
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "io/tables/csv.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -125,4 +126,5 @@ std::string gait_csv(const GaitTable& table) {
   return text;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -22,6 +22,7 @@
 #include "metrics/gait_table.h"
 
 namespace walktrack {
+inline namespace io {
 
 std::string gait_json(const GaitTable& table);
 std::string gait_csv(const GaitTable& table);
@@ -29,4 +30,5 @@ std::string gait_csv(const GaitTable& table);
 // Of "gait.csv".
 TableNotes gait_notes();
 
+}  // namespace io
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "io/tables/csv.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -195,4 +196,5 @@ GroundForces read_ground_forces(const std::filesystem::path& path) {
   return out;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -22,6 +22,7 @@
 #include "kinetics/kinetics.h"
 
 namespace walktrack {
+inline namespace io {
 
 // How much the columns of each row differ over members: mean and sum of squared differences as
 // members come (Welford 1962), so that none has to be kept.
@@ -66,4 +67,5 @@ TableNotes simulated_kinetics_notes(const Kinetics& kinetics, const Subject& sub
 // The ground reactions of such a table; rows without them are NaN. InputError for another table.
 GroundForces read_ground_forces(const std::filesystem::path& path);
 
+}  // namespace io
 }  // namespace walktrack

@@ -14,6 +14,7 @@
 #include "io/tables/trc_read.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -251,4 +252,5 @@ Motion read_marker_motion(const std::filesystem::path& path) {
                                  : markers_from_c3d(content, path.string()));
 }
 
+}  // namespace io
 }  // namespace walktrack

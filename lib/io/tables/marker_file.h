@@ -19,6 +19,7 @@
 #include "io/tables/marker_table.h"
 
 namespace walktrack {
+inline namespace io {
 
 // z up, in metres. InputError naming what is missing where there are not two hips, knees and
 // ankles.
@@ -29,4 +30,5 @@ bool is_marker_file(const std::filesystem::path& path);
 // InputError with place, found and allowed.
 Motion read_marker_motion(const std::filesystem::path& path);
 
+}  // namespace io
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 namespace walktrack {
+inline namespace io {
 
 struct MarkerTable {
   std::string file;  // what messages call it
@@ -15,4 +16,5 @@ struct MarkerTable {
   std::vector<std::vector<Eigen::Vector3d>> points;  // [row][name], m; NaN where it was not seen
 };
 
+}  // namespace io
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "io/tables/marker_file.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -187,4 +188,5 @@ JointUncertainty read_uncertainty(const std::filesystem::path& path) {
           read_joints(table, kStatistics[2])};
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include "metrics/coverage.h"
 
 namespace walktrack {
+inline namespace io {
 
 // Into the library's world; a TRC or C3D file (marker_file.h) is upright by itself. InputError
 // naming line and column for what is no such table: a missing or misspelt column, times that do not
@@ -34,4 +35,5 @@ JointUncertainty read_uncertainty(const std::filesystem::path& path);
 // How many joints a table of this motion lists: with arms only where an arm joint is known.
 int listed_joint_count(const Motion& motion);
 
+}  // namespace io
 }  // namespace walktrack

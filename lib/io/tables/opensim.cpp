@@ -14,6 +14,7 @@
 #include "io/tables/motion_file.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -184,4 +185,5 @@ std::string sto_from_joint_moments(const Kinetics& kinetics) {
   return text;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -24,6 +24,7 @@
 #include "kinetics/kinetics.h"
 
 namespace walktrack {
+inline namespace io {
 
 // Markers are joint centres, metres, unknown ones blank; `name` is the file's own name, `rate` in
 // Hz. Rows must be evenly spaced in time, as motions of one video are. The last cell of a row ends
@@ -53,4 +54,5 @@ std::string sto_from_joint_moments(const Kinetics& kinetics);
 
 // Rows in which the body is unknown are left out of both.
 
+}  // namespace io
 }  // namespace walktrack

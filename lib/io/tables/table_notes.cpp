@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 namespace walktrack {
+inline namespace io {
 
 std::string tables_json(std::span<const TableNotes> tables) {
   nlohmann::ordered_json root;
@@ -19,4 +20,5 @@ nlohmann::ordered_json json_number(double value) {
   return std::round(value * 1e6) / 1e6 + 0.0;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 namespace walktrack {
+inline namespace io {
 
 struct TableNotes {
   std::string table;  // "angles.csv"
@@ -21,4 +22,5 @@ std::string tables_json(std::span<const TableNotes> tables);
 // With six decimals, as tables have them; null for what is not finite.
 nlohmann::ordered_json json_number(double value);
 
+}  // namespace io
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "io/archive/files.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -106,4 +107,5 @@ MarkerTable markers_from_trc(std::string_view text, const std::string& file) {
   return out;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -9,8 +9,10 @@
 #include "io/tables/marker_table.h"
 
 namespace walktrack {
+inline namespace io {
 
 // InputError with place, found and allowed; `file` is what messages call it.
 MarkerTable markers_from_trc(std::string_view text, const std::string& file);
 
+}  // namespace io
 }  // namespace walktrack

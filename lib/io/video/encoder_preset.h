@@ -6,6 +6,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace io {
 
 enum class EncoderPreset { kUltrafast, kSuperfast, kVeryfast, kFaster, kFast, kMedium };
 
@@ -16,4 +17,5 @@ inline std::vector<std::pair<std::string, EncoderPreset>> encoder_presets() {
           {"fast", EncoderPreset::kFast},           {"medium", EncoderPreset::kMedium}};
 }
 
+}  // namespace io
 }  // namespace walktrack

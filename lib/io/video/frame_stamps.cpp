@@ -9,6 +9,7 @@ extern "C" {
 #include <memory>
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -105,4 +106,5 @@ double usual_rate(const VideoFacts& facts, const StampSteps& steps) {
   return as_said ? facts.frame_rate : 1 / steps.usual;
 }
 
+}  // namespace io
 }  // namespace walktrack

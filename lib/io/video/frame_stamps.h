@@ -8,6 +8,7 @@
 #include "io/video/video_facts.h"
 
 namespace walktrack {
+inline namespace io {
 
 // Time stamps of the frames in the order in which they are shown, s after the first one; empty if
 // the file is no video or has frames without a stamp, and for a camera without a video ("").
@@ -25,4 +26,5 @@ StampSteps steps_of(const std::vector<double>& stamps);
 // or the like have made it another one. 0 = not known.
 double usual_rate(const VideoFacts& facts, const StampSteps& steps);
 
+}  // namespace io
 }  // namespace walktrack

@@ -13,6 +13,7 @@ extern "C" {
 #include <opencv2/imgproc.hpp>
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -140,4 +141,5 @@ void H264File::finish() {
   require(avio_closep(&state_->file->pb));
 }
 
+}  // namespace io
 }  // namespace walktrack

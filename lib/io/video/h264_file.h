@@ -11,6 +11,7 @@
 #include "io/video/encoder_preset.h"
 
 namespace walktrack {
+inline namespace io {
 
 class H264File {
  public:
@@ -34,4 +35,5 @@ class H264File {
   std::unique_ptr<State> state_;
 };
 
+}  // namespace io
 }  // namespace walktrack

@@ -14,6 +14,7 @@
 #include "io/video/video.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace fs = std::filesystem;
 
@@ -218,4 +219,5 @@ std::vector<fs::path> image_files(const fs::path& path) {
   return {};
 }
 
+}  // namespace io
 }  // namespace walktrack

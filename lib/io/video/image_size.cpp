@@ -5,6 +5,7 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -149,4 +150,5 @@ std::optional<StatedSize> image_size_from_header(Bytes bytes) {
   return is_pnm ? pnm_size(bytes) : std::nullopt;
 }
 
+}  // namespace io
 }  // namespace walktrack

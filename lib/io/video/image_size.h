@@ -8,6 +8,7 @@
 #include <span>
 
 namespace walktrack {
+inline namespace io {
 
 struct StatedSize {
   int64_t width = 0, height = 0;  // px
@@ -17,4 +18,5 @@ struct StatedSize {
 // formats, cut-off headers and sizes below one pixel.
 std::optional<StatedSize> image_size_from_header(std::span<const unsigned char> bytes);
 
+}  // namespace io
 }  // namespace walktrack

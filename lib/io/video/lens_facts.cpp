@@ -13,6 +13,7 @@ extern "C" {
 #include "io/video/video.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -172,4 +173,5 @@ std::optional<double> telephone_focal_length_35mm(std::string_view model) {
   return found != kTelephones.end() ? std::optional(found->focal_mm) : std::nullopt;
 }
 
+}  // namespace io
 }  // namespace walktrack

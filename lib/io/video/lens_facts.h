@@ -7,6 +7,7 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace io {
 
 // The focal length for which a picture of 43.27 mm diagonal (35 mm film) shows as much, mm: of a
 // video what iPhones write (com.apple.quicktime.camera.focal_length.35mm_equivalent), of images the
@@ -26,4 +27,5 @@ std::optional<double> telephone_focal_length_35mm(std::string_view model);
 std::optional<double> exif_focal_length_35mm(std::string_view jpeg);
 std::string exif_model(std::string_view jpeg);
 
+}  // namespace io
 }  // namespace walktrack

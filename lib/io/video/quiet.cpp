@@ -18,6 +18,7 @@
 #endif
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -46,4 +47,5 @@ QuietDecoders::~QuietDecoders() {
   kept = -1;
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -4,6 +4,7 @@
 #pragma once
 
 namespace walktrack {
+inline namespace io {
 
 class QuietDecoders {
  public:
@@ -13,4 +14,5 @@ class QuietDecoders {
   QuietDecoders& operator=(const QuietDecoders&) = delete;
 };
 
+}  // namespace io
 }  // namespace walktrack

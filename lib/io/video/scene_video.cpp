@@ -12,6 +12,7 @@
 #include "io/video/frame_stamps.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace {
 
@@ -152,4 +153,5 @@ void SceneVideo::close() {
   for (FrameSource& source : sources_) source.close();
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -21,6 +21,7 @@
 #include "io/video/video.h"
 
 namespace walktrack {
+inline namespace io {
 
 struct SceneFrames {
   int number = 0;               // scene frame
@@ -72,4 +73,5 @@ class SceneVideo {
   std::string trouble_;
 };
 
+}  // namespace io
 }  // namespace walktrack

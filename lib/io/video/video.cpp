@@ -11,6 +11,7 @@
 #include "io/scene/scene.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace fs = std::filesystem;
 
@@ -189,4 +190,5 @@ void FrameSource::note_end() {
   }
 }
 
+}  // namespace io
 }  // namespace walktrack

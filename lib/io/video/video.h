@@ -24,6 +24,7 @@ class VideoCapture;
 }
 
 namespace walktrack {
+inline namespace io {
 
 class FrameSource {
  public:
@@ -97,4 +98,5 @@ inline constexpr int kLargestFrameNumber = 100'000'000;
 // "frame2" before "frame10": runs of digits compare as numbers.
 bool natural_less(const std::string& a, const std::string& b);
 
+}  // namespace io
 }  // namespace walktrack

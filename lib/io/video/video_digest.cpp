@@ -13,6 +13,7 @@
 #include "io/video/video.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace fs = std::filesystem;
 
@@ -82,4 +83,5 @@ std::string video_digest(const fs::path& video) {
   return sha256(text);
 }
 
+}  // namespace io
 }  // namespace walktrack

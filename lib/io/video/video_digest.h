@@ -5,6 +5,7 @@
 #include <string>
 
 namespace walktrack {
+inline namespace io {
 
 // Of a video file, an image, a folder or a printf pattern of images. SHA-256 over the names (of
 // images in a folder) and sizes of the files and their content: all of it up to 4 MiB, of more 64
@@ -13,4 +14,5 @@ namespace walktrack {
 // no say. InputError for what cannot be read.
 std::string video_digest(const std::filesystem::path& video);
 
+}  // namespace io
 }  // namespace walktrack

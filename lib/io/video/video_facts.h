@@ -2,6 +2,7 @@
 #pragma once
 
 namespace walktrack {
+inline namespace io {
 
 struct VideoFacts {
   int width_px = 0, height_px = 0;  // of the frames as delivered
@@ -12,4 +13,5 @@ struct VideoFacts {
   bool rotated = false;  // whether frames are delivered turned by it
 };
 
+}  // namespace io
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "io/video/h264_file.h"
 
 namespace walktrack {
+inline namespace io {
 
 namespace fs = std::filesystem;
 
@@ -79,4 +80,5 @@ void VideoWriter::close() {
   publish_file(temporary_, path_);
 }
 
+}  // namespace io
 }  // namespace walktrack

@@ -18,6 +18,7 @@ class VideoWriter;
 }
 
 namespace walktrack {
+inline namespace io {
 
 class H264File;
 
@@ -43,4 +44,5 @@ class VideoWriter {
   int frames_ = 0;
 };
 
+}  // namespace io
 }  // namespace walktrack

@@ -17,6 +17,7 @@
 #include "jobs/batch/work_folder.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -217,4 +218,5 @@ BatchOutcome run_batch(const BatchJob& job, const JobControl& control) {
   return outcome;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -22,6 +22,7 @@
 #include "jobs/batch/child_process.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct Sequence {
   std::string name;  // path below the folder, e.g. "monday/trial3"
@@ -112,4 +113,5 @@ Outputs batch_outputs(const BatchJob& job);
 
 std::string_view state_name(SequenceState state);
 
+}  // namespace jobs
 }  // namespace walktrack

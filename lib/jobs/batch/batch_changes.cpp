@@ -12,6 +12,7 @@
 #include "jobs/track/track_run.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -89,4 +90,5 @@ std::string ChangedResults::text() const {
   return text;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "jobs/batch/sequence_list.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 enum class Todo : unsigned char {
   kNothing,
@@ -54,4 +55,5 @@ class ChangedResults {
   int count_ = 0, of_other_kinds_ = 0;
 };
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "io/archive/files.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -54,4 +55,5 @@ BatchFigures figures_of(const RunJson& run, const std::filesystem::path& folder)
   return figures;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 namespace walktrack {
+inline namespace jobs {
 
 struct BatchFigure {
   std::string_view column;   // of summary.csv
@@ -31,4 +32,5 @@ using BatchFigures = std::array<std::optional<double>, kBatchFigures.size()>;
 // number stays empty.
 BatchFigures figures_of(const nlohmann::json& run, const std::filesystem::path& folder);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -14,6 +14,7 @@
 #include "jobs/batch/subject_table.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -164,4 +165,5 @@ BatchOutcome write_batch_reports(const BatchJob& job, const SequenceList& list) 
   return counts;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

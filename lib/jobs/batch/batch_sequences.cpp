@@ -11,6 +11,7 @@
 #include "jobs/batch/batch.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -164,4 +165,5 @@ std::string_view state_name(SequenceState state) {
   return "waiting";
 }
 
+}  // namespace jobs
 }  // namespace walktrack

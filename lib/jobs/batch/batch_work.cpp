@@ -11,6 +11,7 @@
 #include "jobs/batch/work_folder.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -158,4 +159,5 @@ void end_sequence(const BatchJob& job, const RunningSequence& running,
                end ? failure_reason(job, *end, place / kLogFile) : "its result is gone");
 }
 
+}  // namespace jobs
 }  // namespace walktrack

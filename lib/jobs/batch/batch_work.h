@@ -11,6 +11,7 @@
 #include "jobs/batch/sequence_claim.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct RunningSequence {
   Sequence sequence;
@@ -40,4 +41,5 @@ void end_sequence(const BatchJob& job, const RunningSequence& running,
                   const std::optional<ChildEnd>& end, bool stopping,
                   const std::function<void()>& alive);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "io/video/video.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -118,4 +119,5 @@ std::vector<Sequence> find_bids_videos(const fs::path& folder, const fs::path& o
   return found;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "jobs/batch/batch.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct BidsName {
   std::vector<std::pair<std::string, std::string>> entities;  // {"sub", "01"}, ..., as in the name
@@ -43,4 +44,5 @@ std::filesystem::path motion_folder(const BidsName& name);
 std::vector<Sequence> find_bids_videos(const std::filesystem::path& folder,
                                        const std::filesystem::path& output);
 
+}  // namespace jobs
 }  // namespace walktrack

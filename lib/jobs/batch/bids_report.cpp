@@ -9,6 +9,7 @@
 #include "jobs/batch/bids_tables.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -73,4 +74,5 @@ void write_bids(const BatchJob& job, const SequenceList& list, const ResultFolde
   if (!fs::exists(fs::symlink_status(ignored))) write_file_atomically(ignored, kIgnored);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "jobs/batch/sequence_list.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 inline constexpr const char* kBidsDescription = "dataset_description.json";
 
@@ -15,4 +16,5 @@ inline constexpr const char* kBidsDescription = "dataset_description.json";
 // names that no batch has written.
 void write_bids(const BatchJob& job, const SequenceList& list, const ResultFolder& folder);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "io/archive/files.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -228,4 +229,5 @@ std::string bids_description(const fs::path& folder, const fs::path& output) {
   return text_of(out);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -14,6 +14,7 @@
 #include "io/tables/csv.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct BidsFile {
   std::string name;  // after the entities: "motion.tsv"
@@ -38,4 +39,5 @@ std::vector<std::string> bids_file_names();
 std::string bids_description(const std::filesystem::path& folder,
                              const std::filesystem::path& output);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -102,4 +103,5 @@ void ChildProcess::ask_to_stop() const {
   if (pid_ > 0) ::kill(pid_, SIGTERM);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

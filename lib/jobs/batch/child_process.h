@@ -8,6 +8,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace jobs {
 
 struct ChildLimits {
   double seconds = 0;    // of wall time; 0 = none
@@ -46,4 +47,5 @@ class ChildProcess {
   bool timed_out_ = false;
 };
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -20,6 +20,7 @@
 #include "io/archive/files.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -170,4 +171,5 @@ void FolderLock::renew() const {
   ::utimensat(AT_FDCWD, file_.c_str(), nullptr, 0);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

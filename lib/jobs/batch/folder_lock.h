@@ -8,6 +8,7 @@
 #include <optional>
 
 namespace walktrack {
+inline namespace jobs {
 
 inline constexpr double kStaleSeconds = 60;
 
@@ -37,4 +38,5 @@ class FolderLock {
   std::filesystem::path file_;  // empty = given away
 };
 
+}  // namespace jobs
 }  // namespace walktrack

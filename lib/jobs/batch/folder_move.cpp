@@ -17,6 +17,7 @@
 #include "io/archive/files.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -118,4 +119,5 @@ void move_folder(const fs::path& from, const fs::path& to, const fs::path& stage
   put_in_place(moved, to, last);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

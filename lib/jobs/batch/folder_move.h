@@ -6,6 +6,7 @@
 #include <string>
 
 namespace walktrack {
+inline namespace jobs {
 
 // Moves the folder `from` to `to`, where nothing or an empty folder is. On another file system its
 // files are copied into a new folder inside `stage` (a folder on that of `to`) and flushed, then
@@ -17,4 +18,5 @@ void move_folder(const std::filesystem::path& from, const std::filesystem::path&
                  const std::filesystem::path& stage, const std::string& last,
                  const std::function<void()>& alive = {});
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -19,6 +19,7 @@
 #include "jobs/batch/batch.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -213,4 +214,5 @@ bool Manifest::Reader::advance() {
   return false;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -18,6 +18,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace jobs {
 
 struct ManifestRow {
   std::filesystem::path file;  // absolute, lexically normal
@@ -71,4 +72,5 @@ class Manifest {
   size_t size_ = 0;
 };
 
+}  // namespace jobs
 }  // namespace walktrack

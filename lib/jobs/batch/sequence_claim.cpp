@@ -7,6 +7,7 @@
 #include "io/archive/sha256.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -65,4 +66,5 @@ void clear_dead_claim(const fs::path& result) {
   if (fs::exists(hidden_folder(result), none)) SequenceClaim::try_take(result);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "jobs/batch/folder_lock.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // Beside a result folder and for it: ".walktrack_for.<its name>".
 std::filesystem::path hidden_folder(const std::filesystem::path& result);
@@ -40,4 +41,5 @@ bool is_claimed(const std::filesystem::path& result);
 // Gives back what a worker that was killed has left, if there is such a claim.
 void clear_dead_claim(const std::filesystem::path& result);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -4,6 +4,7 @@
 #include "jobs/batch/bids_names.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -54,4 +55,5 @@ std::optional<Sequence> SequenceList::Cursor::next() {
   return std::nullopt;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "jobs/batch/manifest.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 class SequenceList {
  public:
@@ -47,4 +48,5 @@ class SequenceList {
   std::optional<Manifest> manifest_;
 };
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -102,4 +103,5 @@ Shard shard_from(const std::string& text, const Environment& environment) {
   return checked({*index, *count}, found);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

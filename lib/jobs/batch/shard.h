@@ -6,6 +6,7 @@
 #include <string>
 
 namespace walktrack {
+inline namespace jobs {
 
 struct Shard {
   int index = 1, count = 1;  // index from 1 to count
@@ -23,4 +24,5 @@ Environment process_environment();
 // UsageError for other words, and for "auto" where none of these says anything, or not all of it.
 Shard shard_from(const std::string& text, const Environment& environment);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "io/config/text.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -66,4 +67,5 @@ std::string subjects_html(const SubjectSums& sums) {
   return text + "</tbody>\n</table></div>\n<h2>Sequences</h2>\n";
 }
 
+}  // namespace jobs
 }  // namespace walktrack

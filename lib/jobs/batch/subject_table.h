@@ -8,6 +8,7 @@
 #include "jobs/batch/batch.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // Of a sequence's name: its label of BIDS ("sub-01" of "results/sub-01_task-walk_run-1"), else its
 // first folder ("anna" of "anna/monday/trial1"); "" for a name without either.
@@ -28,4 +29,5 @@ void add_to_subject(const std::string& name, const SequenceResult& result, Subje
 // sequences.
 std::string subjects_html(const SubjectSums& sums);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include "jobs/track/track_run.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -55,4 +56,5 @@ void clear_work(const BatchJob& job, const Sequence& sequence) {
   if (!fs::exists(folder / kCheckpointFile)) fs::remove_all(folder);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

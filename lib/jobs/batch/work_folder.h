@@ -13,6 +13,7 @@
 #include "jobs/batch/sequence_claim.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // Where the sequence is tracked: its result folder, or with a work folder one below that.
 std::filesystem::path tracked_in(const BatchJob& job, const Sequence& sequence);
@@ -31,4 +32,5 @@ void show_result(const BatchJob& job, const Sequence& sequence, const SequenceCl
 // Removes what nobody can go on with.
 void clear_work(const BatchJob& job, const Sequence& sequence);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -18,6 +18,7 @@
 #include "jobs/calibrate/calibrate_parts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -226,4 +227,5 @@ std::string calibrate_text(const CalibrateOutcome& outcome) {
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

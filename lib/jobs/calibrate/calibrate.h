@@ -19,6 +19,7 @@
 #include "observation/camera_fit.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct CalibrateJob {
   std::string name = "cam0";
@@ -58,4 +59,5 @@ CalibrateOutcome calibrate(const CalibrateJob& job, const JobControl& control);
 // The outcome for people.
 std::string calibrate_text(const CalibrateOutcome& outcome);
 
+}  // namespace jobs
 }  // namespace walktrack

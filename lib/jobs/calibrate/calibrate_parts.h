@@ -9,6 +9,7 @@
 #include "jobs/calibrate/calibrate.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // Views of the board that differ from each other.
 struct BoardViews {
@@ -38,4 +39,5 @@ cv::Mat lens_picture(const BoardViews& views, const LensFit& fit);
 // The given points, their projections, the ground grid and the axes.
 cv::Mat place_picture(const cv::Mat& picture, const PlaceFit& fit, const MeasuredPoints& points);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "jobs/calibrate/calibrate_parts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -74,4 +75,5 @@ cv::Mat place_picture(const cv::Mat& picture, const PlaceFit& fit, const Measure
   return image;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

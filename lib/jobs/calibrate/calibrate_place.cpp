@@ -6,6 +6,7 @@
 #include "jobs/calibrate/calibrate_parts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -68,4 +69,5 @@ PlaceFit checked_place(const Camera& lens, const MeasuredPoints& points, const s
   return *fit;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

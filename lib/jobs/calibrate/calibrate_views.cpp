@@ -7,6 +7,7 @@
 #include "jobs/calibrate/calibrate_parts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -105,4 +106,5 @@ BoardViews find_floor_board(const fs::path& source, const Board& board) {
   no_board(source, board, first);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

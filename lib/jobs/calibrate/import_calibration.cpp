@@ -11,6 +11,7 @@
 #include "io/archive/result_folder.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -127,4 +128,5 @@ std::string import_text(const ImportOutcome& outcome) {
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -14,6 +14,7 @@
 #include "io/calibration/calibration.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct ImportJob {
   std::filesystem::path file;
@@ -35,4 +36,5 @@ ImportOutcome import_calibration(const ImportJob& job);
 // The outcome for people.
 std::string import_text(const ImportOutcome& outcome);
 
+}  // namespace jobs
 }  // namespace walktrack

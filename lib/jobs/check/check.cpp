@@ -9,6 +9,7 @@
 #include "jobs/check/check_parts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -61,7 +62,7 @@ bool CheckReport::failed() const {
                      [](const Finding& finding) { return finding.failure; });
 }
 
-std::string one_line(const Finding& finding) {
+std::string finding_line(const Finding& finding) {
   return fmt::format("{}{}{}", finding.camera.empty() ? "" : finding.camera + ": ", finding.what,
                      finding.cure.empty() ? "" : "; cure: " + finding.cure);
 }
@@ -104,4 +105,5 @@ std::string check_text(const CheckReport& report) {
   return text;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -22,6 +22,7 @@
 #include "io/video/video_facts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct CheckJob {
   std::filesystem::path scene;
@@ -62,11 +63,12 @@ CheckReport check_scene(const CheckJob& job, const JobControl& control);
 CheckReport look_at_scene(const Scene& scene, const JobControl& control);
 
 // A finding as one line: "cam1: stands 3.20 m underground; cure: ...".
-std::string one_line(const Finding& finding);
+std::string finding_line(const Finding& finding);
 
 // The report for people, one paragraph a camera, findings last.
 std::string check_text(const CheckReport& report);
 // The same for programs.
 std::string check_json(const CheckReport& report);
 
+}  // namespace jobs
 }  // namespace walktrack

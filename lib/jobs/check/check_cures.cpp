@@ -10,6 +10,7 @@
 #include "jobs/check/check_parts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -217,4 +218,5 @@ void check_poses(const Scene& scene, CheckReport& report) {
   if (report.findings.size() == before) check_common_ground(scene, report);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

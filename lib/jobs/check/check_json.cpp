@@ -4,6 +4,7 @@
 #include "jobs/check/check.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -42,4 +43,5 @@ std::string check_json(const CheckReport& report) {
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -1,6 +1,7 @@
 #include "jobs/check/check_parts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 void check_keypoints(const Scene& scene, CheckReport& report) {
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
@@ -13,4 +14,5 @@ void check_keypoints(const Scene& scene, CheckReport& report) {
   }
 }
 
+}  // namespace jobs
 }  // namespace walktrack

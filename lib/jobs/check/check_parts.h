@@ -11,6 +11,7 @@
 #include "jobs/check/check.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // Cameras that cannot be: underground, upside down, too far, seeing nobody, or none of the others'
 // ground; and which single change of their file would put them right.
@@ -79,4 +80,5 @@ Outputs check_outputs(const Scene& scene, const std::filesystem::path& folder);
 void write_check_pictures(const Scene& scene, const CheckReport& report,
                           const std::filesystem::path& folder);
 
+}  // namespace jobs
 }  // namespace walktrack

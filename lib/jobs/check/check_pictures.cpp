@@ -8,6 +8,7 @@
 #include "jobs/check/check_parts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -57,4 +58,5 @@ void write_check_pictures(const Scene& scene, const CheckReport& report,
   }
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "jobs/check/check_parts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -212,4 +213,5 @@ void check_steps(const Scene& scene, const JobControl& control, CheckReport& rep
        cure + "; a negative number means to raise that of all others instead"});
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "jobs/check/check_parts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -183,4 +184,5 @@ void check_decoding(const Scene& scene, const JobControl& control, CheckReport& 
   }
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "jobs/check/check_parts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -192,4 +193,5 @@ SeenFigures figures_in(const Scene& scene, const JobControl& control) {
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

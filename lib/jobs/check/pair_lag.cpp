@@ -10,6 +10,7 @@
 #include "jobs/check/step_time.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -324,4 +325,5 @@ std::optional<PairLag> find_pair_lag(const std::vector<Camera>& cameras,
                  may_be_steps(cameras, paths, lag_of(best), frame_rate)};
 }
 
+}  // namespace jobs
 }  // namespace walktrack

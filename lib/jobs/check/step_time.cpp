@@ -5,6 +5,7 @@
 #include <utility>
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -72,4 +73,5 @@ bool is_whole_steps(double time, double step) {
   return steps > 0.5 && std::abs(steps - std::round(steps)) <= kNear;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

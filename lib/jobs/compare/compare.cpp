@@ -13,6 +13,7 @@
 #include "jobs/compare/compare_tables.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -86,4 +87,5 @@ CompareOutcome compare(const CompareJob& job) {
   return outcome;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -17,6 +17,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace jobs {
 
 struct CompareGroup {
   std::string name;                           // "" = after its folder
@@ -47,4 +48,5 @@ CompareGroup compare_group(const std::string& word);
 // UsageError for an output that may not be overwritten, and for groups of one name.
 CompareOutcome compare(const CompareJob& job);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include <optional>
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -118,4 +119,5 @@ ParameterDifference parameter_difference(const Sample& sample, const Sample& ref
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

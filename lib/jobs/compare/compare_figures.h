@@ -9,6 +9,7 @@
 #include "metrics/mean_difference.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 inline constexpr double kCompareLevel = 0.95;
 
@@ -43,4 +44,5 @@ struct ParameterDifference {
 ParameterDifference parameter_difference(const Sample& sample, const Sample& reference,
                                          size_t parameter, const CompareJob& job);
 
+}  // namespace jobs
 }  // namespace walktrack

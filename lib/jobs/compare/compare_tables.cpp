@@ -8,6 +8,7 @@
 #include "metrics/cycle_curve.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -179,4 +180,5 @@ CompareOutcome count_differences(const Json& compared) {
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

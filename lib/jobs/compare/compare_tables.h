@@ -24,6 +24,7 @@
 #include "jobs/compare/compare_figures.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 nlohmann::ordered_json compare_json(const std::vector<ComparedGroup>& groups,
                                     const CompareJob& job);
@@ -33,4 +34,5 @@ std::string compare_parameters_csv(const nlohmann::ordered_json& compared);
 std::string compare_curves_csv(const nlohmann::ordered_json& compared);
 CompareOutcome count_differences(const nlohmann::ordered_json& compared);
 
+}  // namespace jobs
 }  // namespace walktrack

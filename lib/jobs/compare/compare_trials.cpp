@@ -15,6 +15,7 @@
 #include "metrics/mean_difference.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -181,4 +182,5 @@ ComparedGroup read_group(const CompareGroup& group) {
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "jobs/compare/compare.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct ComparedAngle {
   std::string_view name;  // as report_curves.h has it
@@ -74,4 +75,5 @@ ComparedTrial read_trial(const std::filesystem::path& folder);
 // In order of the places, below a place by name. InputError where there is no result.
 ComparedGroup read_group(const CompareGroup& group);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -14,6 +14,7 @@
 #include "metrics/joint_error.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -92,4 +93,5 @@ AnalyseOutcome analyse(const AnalyseJob& job) {
   return {gait.steps.size(), gait.speed, report};
 }
 
+}  // namespace jobs
 }  // namespace walktrack

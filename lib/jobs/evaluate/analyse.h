@@ -13,6 +13,7 @@
 #include "io/config/config.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct AnalyseJob {
   std::filesystem::path motion;  // joints.csv, z up and the ground at z = 0, or a folder with one
@@ -33,4 +34,5 @@ struct AnalyseOutcome {
 // InputError for what is no motion, UsageError for an output that may not be overwritten.
 AnalyseOutcome analyse(const AnalyseJob& job);
 
+}  // namespace jobs
 }  // namespace walktrack

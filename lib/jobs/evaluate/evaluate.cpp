@@ -12,6 +12,7 @@
 #include "metrics/joint_error.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -154,4 +155,5 @@ std::vector<EvaluatedEstimate> evaluate(const EvaluateJob& job) {
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include "metrics/references.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // A truth is recognised by its header:
 //   t,pelvis_x,…                             joints (joints.csv)
@@ -66,4 +67,5 @@ struct EvaluateJob {
 
 std::vector<EvaluatedEstimate> evaluate(const EvaluateJob& job);
 
+}  // namespace jobs
 }  // namespace walktrack

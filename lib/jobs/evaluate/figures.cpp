@@ -12,6 +12,7 @@
 #include "metrics/plausibility.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -193,4 +194,5 @@ std::vector<Figure> force_figures(const GroundForces& truth, const GroundForces&
   return out.take();
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "jobs/evaluate/evaluate.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -92,4 +93,5 @@ Truth read_truth(const std::filesystem::path& path, std::optional<double> frame_
                             fmt::format("the columns {}", fmt::join(table.columns, ",")), kKinds));
 }
 
+}  // namespace jobs
 }  // namespace walktrack

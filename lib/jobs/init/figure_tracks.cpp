@@ -5,6 +5,7 @@
 #include <limits>
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -63,4 +64,5 @@ FigureTrack walker_of(const std::vector<FigureTrack>& tracks, double (*way)(cons
   return most == tracks.end() ? FigureTrack{} : *most;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace jobs {
 
 // Somebody in one frame, px of the video.
 struct SeenFigure {
@@ -34,4 +35,5 @@ double way_anywhere(const FigureTrack& track);
 // Who goes farthest: others stand about. Empty where there is nobody.
 FigureTrack walker_of(const std::vector<FigureTrack>& tracks, double (*way)(const FigureTrack&));
 
+}  // namespace jobs
 }  // namespace walktrack

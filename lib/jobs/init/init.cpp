@@ -22,6 +22,7 @@
 #include "jobs/init/seen_walker.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -233,4 +234,5 @@ std::string init_text(const InitOutcome& out) {
   return text + check_text(out.check);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -21,6 +21,7 @@
 #include "jobs/check/check.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct InitJob {
   std::filesystem::path video;
@@ -53,4 +54,5 @@ InitOutcome init_scene(const InitJob& job, const JobControl& control);
 // For people: what came of it, with bands, and what it may be used for.
 std::string init_text(const InitOutcome& outcome);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include "io/tables/table_notes.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -31,4 +32,5 @@ nlohmann::ordered_json measured_json(const Measured& of, double factor) {
   return {{"value", json_number(factor * of.value)}, {"sd", json_number(factor * of.sd)}};
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "camera/view_from_walker.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 inline constexpr const char *kInitScene = "scene.yaml", *kInitPicture = "init.png",
                             *kInitRecord = "init.json";
@@ -26,4 +27,5 @@ std::string subject_line(double height, const std::optional<double>& mass);
 // Value and standard deviation, in units of `factor`.
 nlohmann::ordered_json measured_json(const Measured& of, double factor = 1);
 
+}  // namespace jobs
 }  // namespace walktrack

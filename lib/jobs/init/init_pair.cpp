@@ -22,6 +22,7 @@
 #include "jobs/init/seen_person.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -230,4 +231,5 @@ std::string init_pair_text(const InitPairOutcome& out) {
   return text + check_text(out.check);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

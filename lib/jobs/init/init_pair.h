@@ -18,6 +18,7 @@
 #include "observation/two_views/two_views.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct InitPairJob {
   std::array<std::filesystem::path, 2> videos;
@@ -48,4 +49,5 @@ InitPairOutcome init_pair(const InitPairJob& job, const JobControl& control);
 // For people: what came of it, with bands, and what it may be used for.
 std::string init_pair_text(const InitPairOutcome& outcome);
 
+}  // namespace jobs
 }  // namespace walktrack

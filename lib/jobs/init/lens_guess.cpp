@@ -8,6 +8,7 @@
 #include "io/video/lens_facts.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -57,4 +58,5 @@ LensGuess lens_guess(const std::filesystem::path& video, double side_px,
                   "a usual telephone's; state yours with --fov-deg");
 }
 
+}  // namespace jobs
 }  // namespace walktrack

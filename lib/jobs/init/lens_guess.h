@@ -6,6 +6,7 @@
 #include <string>
 
 namespace walktrack {
+inline namespace jobs {
 
 struct LensGuess {
   double focal_px = 0, focal_sd = 0;
@@ -21,4 +22,5 @@ LensGuess lens_guess(const std::filesystem::path& video, double side_px,
 // The field of view of a focal length, along a side of the picture, degrees.
 double fov_deg_of(double side_px, double focal_px);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "jobs/track/pose_model.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -89,4 +90,5 @@ SeenPerson seen_person(const std::filesystem::path& video, const std::optional<d
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

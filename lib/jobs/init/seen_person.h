@@ -9,6 +9,7 @@
 #include "observation/two_views/two_views.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct SeenPerson {
   int width_px = 0, height_px = 0;
@@ -22,4 +23,5 @@ struct SeenPerson {
 SeenPerson seen_person(const std::filesystem::path& video, const std::optional<double>& frame_rate,
                        const JobControl& control);
 
+}  // namespace jobs
 }  // namespace walktrack

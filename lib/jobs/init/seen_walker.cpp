@@ -17,6 +17,7 @@
 #include "observation/shrink.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -296,4 +297,5 @@ std::vector<WalkerPosition> stride_positions(std::span<const SeenFigure> figures
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

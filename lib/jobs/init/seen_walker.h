@@ -15,6 +15,7 @@
 #include "jobs/init/init.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct SeenWalk {
   int width_px = 0, height_px = 0;
@@ -35,4 +36,5 @@ struct WalkerPosition {
 };
 std::vector<WalkerPosition> stride_positions(std::span<const SeenFigure> figures, double looks_hz);
 
+}  // namespace jobs
 }  // namespace walktrack

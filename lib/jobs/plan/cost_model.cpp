@@ -6,6 +6,7 @@
 #include "observation/terms.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -71,4 +72,5 @@ double usual_layers(int cameras, int max_layers) {
   return std::min(kLayers[many - 1], static_cast<double>(max_layers));
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -30,6 +30,7 @@
 #include "observation/observation_config.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct CameraWork {
   std::string name;
@@ -67,4 +68,5 @@ FrameCost frame_cost(const FrameWork& work);
 // grows with the evidence.
 double usual_layers(int cameras, int max_layers);
 
+}  // namespace jobs
 }  // namespace walktrack

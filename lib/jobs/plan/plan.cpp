@@ -14,6 +14,7 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -288,4 +289,5 @@ Plan plan_scene(const Scene& scene, const ConfigWithOrigin& given) {
   return plan;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

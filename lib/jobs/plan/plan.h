@@ -13,6 +13,7 @@
 #include "jobs/plan/plan_levels.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct PlanItem {
   std::string name;
@@ -48,4 +49,5 @@ Plan plan_scene(const Scene& scene, const ConfigWithOrigin& config);
 std::string plan_text(const Plan& plan);
 std::string plan_json(const Plan& plan);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -101,4 +102,5 @@ std::optional<SideView> side_view(const Scene& scene, const Camera& camera) {
                   std::atan2(eye.z() - 0.5 * scene.subject.height, sight.norm())};
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -17,6 +17,7 @@
 #include "io/scene/scene.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct PlanState {
   int walker = 0, place = 0, pose = 0, controls = 0;  // numbers that a particle carries
@@ -49,4 +50,5 @@ struct SideView {
 };
 std::optional<SideView> side_view(const Scene& scene, const Camera& camera);
 
+}  // namespace jobs
 }  // namespace walktrack

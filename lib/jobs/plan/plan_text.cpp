@@ -7,6 +7,7 @@
 #include "jobs/plan/plan.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -144,4 +145,5 @@ std::string plan_json(const Plan& plan) {
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -17,6 +17,7 @@
 #include "jobs/prior/prior_pictures.h"
 
 namespace walktrack {
+inline namespace jobs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -179,4 +180,5 @@ void report_straight_prior(const PriorReportJob& job, const JobControl& control)
   folder.write(kGaitsFile, gaits_table(prior, units));
 }
 
+}  // namespace jobs
 }  // namespace walktrack

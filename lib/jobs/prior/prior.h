@@ -7,6 +7,7 @@
 #include "gait/build_prior.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct PriorJob {
   PriorGrid grid;
@@ -42,4 +43,5 @@ void report_prior(const PriorReportJob& job, const JobControl& control);
 // gaits.csv, survival.csv and cost.svg of the anthropomorphic walker's table.
 void report_straight_prior(const PriorReportJob& job, const JobControl& control);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 namespace walktrack {
+inline namespace jobs {
 namespace {
 
 constexpr const char* kStance = "#0072b2";  // Okabe & Ito 2008, told apart by colour-blind people
@@ -196,4 +197,5 @@ std::string strips_picture(const GaitPrior& prior, const KneedParameters& walker
                  strip(prior, on_slope(kHill), 1.2, 850, "down 6 %"));
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "gait/gait_prior.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // What a table of gaits of any walker costs.
 struct CostNode {
@@ -41,4 +42,5 @@ std::string cheapest_picture(const std::vector<CheapestStep>& steps, const Walke
 // Stick figures through one stride: slow, normal, fast, uphill, downhill.
 std::string strips_picture(const GaitPrior& prior, const KneedParameters& walker);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "walker/linkage_walker.h"
 
 namespace walktrack {
+inline namespace jobs {
 namespace {
 
 // The speeds that a plan asks for at some time.
@@ -137,4 +138,5 @@ SimulateJob with_prior(SimulateJob job, const WalkPlan& plan) {
                "the kneed walker with a torso, the anthropomorphic walker that does not fly"));
 }
 
+}  // namespace jobs
 }  // namespace walktrack

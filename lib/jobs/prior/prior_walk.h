@@ -6,6 +6,7 @@
 #include "jobs/simulate/simulate_job.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // The job with start, controls and later steps out of the shipped table, for the parameters of
 // `job.model`; good for one walk, whose progress it keeps. UsageError where the model is neither
@@ -13,4 +14,5 @@ namespace walktrack {
 // a speed of the plan, for its step length or for the slope.
 SimulateJob with_prior(SimulateJob job, const WalkPlan& plan);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 namespace walktrack {
+inline namespace jobs {
 
 FrameWriter::FrameWriter(const ResultFolder& folder, const std::string& name, bool images,
                          cv::Size size_px, double frame_rate)
@@ -41,4 +42,5 @@ std::string video_files(const std::string& name, bool images) {
   return images ? numbered_files(name, ".png") : video_name(name, images);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

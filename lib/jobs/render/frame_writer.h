@@ -11,6 +11,7 @@
 #include "io/video/video_writer.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 class FrameWriter {
  public:
@@ -35,4 +36,5 @@ std::string video_name(const std::string& name, bool images);
 // What the result folder calls its file or files by.
 std::string video_files(const std::string& name, bool images);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -14,6 +14,7 @@
 #include "tracker/motion/planar_body.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -216,4 +217,5 @@ Kinetics ground_kinetics(const WalkedGait& walked, std::span<const double> times
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -19,6 +19,7 @@
 #include "kinetics/kinetics.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // One instant of the simulation, in the walking plane: (forward, up).
 struct GroundRecord {
@@ -45,4 +46,5 @@ WalkedGait walked_gait(const GaitWalk& walk, const Subject& subject, double slop
 // share as the walker does, are NaN.
 Kinetics ground_kinetics(const WalkedGait& walked, std::span<const double> times, double interval);
 
+}  // namespace jobs
 }  // namespace walktrack

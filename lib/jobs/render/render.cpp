@@ -24,6 +24,7 @@
 #include "synth/stage.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -298,4 +299,5 @@ size_t render_scene(const RenderJob& given, const JobControl& control) {
   return frames;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

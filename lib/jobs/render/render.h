@@ -16,6 +16,7 @@
 #include "synth/render_options.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct RenderJob {
   FilmedWalker walker;
@@ -32,4 +33,5 @@ struct RenderJob {
 // frames rendered, all cameras together.
 size_t render_scene(const RenderJob& job, const JobControl& control);
 
+}  // namespace jobs
 }  // namespace walktrack

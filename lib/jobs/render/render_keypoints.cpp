@@ -10,6 +10,7 @@
 #include "core/rng.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -126,4 +127,5 @@ std::string openpose_file_name(const std::string& camera, size_t frame) {
   return fmt::format("{}_{:012}{}", camera, frame, kOpenPoseEnding);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -14,6 +14,7 @@
 #include "synth/stage.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // The people in one frame of a camera, in a random order.
 DetectedPeople rendered_keypoints(const Stage& stage, const Camera& camera,
@@ -29,4 +30,5 @@ std::string keypoint_folder(const std::string& camera);
 inline constexpr const char* kOpenPoseEnding = "_keypoints.json";
 std::string openpose_file_name(const std::string& camera, size_t frame);
 
+}  // namespace jobs
 }  // namespace walktrack

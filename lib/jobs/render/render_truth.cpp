@@ -11,6 +11,7 @@
 #include "metrics/gait.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -61,4 +62,5 @@ void write_depth(const std::filesystem::path& file, const Plane<float>& depth) {
   write_file_atomically(file, out);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

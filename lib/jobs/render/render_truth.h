@@ -8,6 +8,7 @@
 #include "synth/view.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // t,side,event with side l or r and event strike or toe_off: those of the whole motion that lie
 // within the truth's time.
@@ -21,4 +22,5 @@ void write_flow(const std::filesystem::path& file, const Plane<Eigen::Vector2f>&
 // Portable float map, one channel, little-endian, rows bottom-up; infinite = sky.
 void write_depth(const std::filesystem::path& file, const Plane<float>& depth);
 
+}  // namespace jobs
 }  // namespace walktrack

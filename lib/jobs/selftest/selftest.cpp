@@ -16,6 +16,7 @@
 #include "jobs/batch/child_process.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -145,4 +146,5 @@ std::string selftest_table(const std::vector<TrialResult>& results) {
                              results.size(), counts[0], counts[1], counts[2], counts[3]);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -16,6 +16,7 @@
 #include "core/job_control.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 enum class TrialEnd { kTracked, kDegraded, kReported, kFailed };
 std::string_view trial_end_name(TrialEnd end);
@@ -56,4 +57,5 @@ std::vector<TrialResult> run_selftest(const SelftestJob& job, const JobControl& 
 // The table for a terminal, with a last line that counts how trials ended.
 std::string selftest_table(const std::vector<TrialResult>& results);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include "jobs/selftest/selftest_video.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -308,4 +309,5 @@ TrialResult run_trial(const std::string& name, const fs::path& folder) {
                                nearest_word(name, trial_names(true))));
 }
 
+}  // namespace jobs
 }  // namespace walktrack

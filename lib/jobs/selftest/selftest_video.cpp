@@ -19,6 +19,7 @@
 #include "synth/stage.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -267,4 +268,5 @@ TrialResult try_video(const TestVideo& video, const fs::path& folder) {
   }
 }
 
+}  // namespace jobs
 }  // namespace walktrack

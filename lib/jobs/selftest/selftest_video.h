@@ -15,6 +15,7 @@
 #include "synth/render_options.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 using Frames = std::vector<cv::Mat>;
 
@@ -43,4 +44,5 @@ TestVideo video_of_standing(double speed, double turn_rate);
 // Renders, writes `folder`, tracks, and judges the result.
 TrialResult try_video(const TestVideo& video, const std::filesystem::path& folder);
 
+}  // namespace jobs
 }  // namespace walktrack

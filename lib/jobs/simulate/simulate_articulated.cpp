@@ -15,6 +15,7 @@
 #include "jobs/simulate/simulate_job.h"
 
 namespace walktrack {
+inline namespace jobs {
 namespace {
 
 using Eigen::Vector2d;
@@ -276,4 +277,5 @@ SimulationEnd simulate_articulated_into(const std::filesystem::path& path, bool 
           fmt::format("articulated: {:.3f} s, {}", recording.samples.back().time, name_of(health))};
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "walker/model_spec.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct ArticulatedSpec {
   double height = 1.75;               // m
@@ -69,4 +70,5 @@ SimulationEnd simulate_articulated_into(const std::filesystem::path& folder, boo
                                         const ArticulatedJob& job,
                                         const std::vector<std::string>& command_line);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -14,6 +14,7 @@
 #include "jobs/simulate/simulate_job.h"
 
 namespace walktrack {
+inline namespace jobs {
 namespace {
 
 using Eigen::VectorXd;
@@ -223,4 +224,5 @@ std::string cycle_text(const FoundCycle& found) {
   return text;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "walker/model_spec.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct CycleJob {
   ModelSpec model;
@@ -36,4 +37,5 @@ FoundCycle find_cycle(const CycleJob& job);
 std::string cycle_json(const FoundCycle& found);
 std::string cycle_text(const FoundCycle& found);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "io/scene/model_file.h"
 
 namespace walktrack {
+inline namespace jobs {
 namespace {
 
 constexpr int kStripFigures = 12;
@@ -224,4 +225,5 @@ SimulationEnd simulate_into(const std::filesystem::path& path, bool overwrite,
                               recording.end.time, name_of(health))};
 }
 
+}  // namespace jobs
 }  // namespace walktrack

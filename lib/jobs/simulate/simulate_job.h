@@ -12,6 +12,7 @@
 #include "walker/simulate.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // The walker that takes over after a step that ended in this state; it may have other controls.
 using NextWalker = std::function<std::unique_ptr<Walker>(const WalkerState&)>;
@@ -68,4 +69,5 @@ SimulationEnd simulate_into(const std::filesystem::path& folder, bool overwrite,
 const char* name_of(EventKind kind);
 const char* name_of(Health health);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "walker/simulate.h"
 
 namespace walktrack {
+inline namespace jobs {
 namespace {
 
 struct Scenario {
@@ -142,4 +143,5 @@ std::string stability_csv(const StabilityJob& job, const std::vector<StabilityRo
   return csv;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

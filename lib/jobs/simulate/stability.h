@@ -11,6 +11,7 @@
 #include "mechanics/integrator.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct StabilityJob {
   std::vector<double> steps{1e-5, 1e-4, 1e-3, 1.0 / 240, 1.0 / 60, 1.0 / 30, 1.0 / 15};  // s
@@ -32,4 +33,5 @@ std::vector<StabilityRow> stability_table(const StabilityJob& job);
 // Scenario, integrator, then the word and the error of every step size.
 std::string stability_csv(const StabilityJob& job, const std::vector<StabilityRow>& rows);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -23,6 +23,7 @@
 #include "metrics/statistics.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -270,4 +271,5 @@ void summarise_sweep(std::vector<SweepRow>& rows, double most_lost_share) {
   for (size_t i = 0; i < rows.size(); ++i) rows[i].on_front = front[i];
 }
 
+}  // namespace jobs
 }  // namespace walktrack

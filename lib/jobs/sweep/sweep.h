@@ -21,6 +21,7 @@
 #include "jobs/sweep/sweep_grid.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct SweepJob {
   Scene scene;
@@ -90,4 +91,5 @@ Outputs sweep_outputs(const SweepJob& job);
 void write_sweep(const SweepReport& report, const std::vector<std::string>& advice,
                  const SweepJob& job);
 
+}  // namespace jobs
 }  // namespace walktrack

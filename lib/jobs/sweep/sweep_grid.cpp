@@ -13,6 +13,7 @@
 #include "observation/terms.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -218,4 +219,5 @@ SettingWords setting_words(const std::vector<SweptParameter>& parameters,
   return words;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -19,6 +19,7 @@
 #include "io/scene/scene.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct SweptParameter {
   std::string name;                 // as it was asked for
@@ -56,4 +57,5 @@ struct SettingWords {
 SettingWords setting_words(const std::vector<SweptParameter>& parameters,
                            const SweepSetting& setting);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "jobs/sweep/sweep.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -224,4 +225,5 @@ void write_sweep(const SweepReport& report, const std::vector<std::string>& advi
                trade_plot_svg("Speed and accuracy: " + report.scene, report.error_is, points));
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "jobs/track/track_setup.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -129,4 +130,5 @@ DetectedPeople Detections::seen_by_network(Viewer& viewer, const FrameToLookAt& 
   return {viewer.net->detect(frame.picture, cut_out_around(frame.region, viewer.shrink, height_))};
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -15,6 +15,7 @@
 #include "jobs/track/person_finder.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // Cameras up to which left and right may be in doubt without keypoints: from two sides silhouettes
 // tell by themselves.
@@ -83,4 +84,5 @@ class Detections {
   bool network_ = false;
 };
 
+}  // namespace jobs
 }  // namespace walktrack

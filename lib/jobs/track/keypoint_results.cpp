@@ -9,6 +9,7 @@
 #include "observation/shrink.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -97,4 +98,5 @@ void draw_keypoints(const KeypointEvidence& seen, int shrink, const OverlayView&
         draw_cross(image, in_view(view, picture_px(person[i].px, shrink)), colour_of(i), arm_px);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -17,6 +17,7 @@
 #include "observation/keypoint_term.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // The median distance of a frame's points from a pose, px of the picture as recorded: of the person
 // whom the pose fits best, by names as they were given; NaN where nobody was seen.
@@ -42,4 +43,5 @@ std::vector<std::pair<std::string, double>> keypoint_numbers(
 void draw_keypoints(const KeypointEvidence& seen, int shrink, const OverlayView& view,
                     cv::Mat& image);
 
+}  // namespace jobs
 }  // namespace walktrack

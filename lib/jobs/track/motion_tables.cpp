@@ -11,6 +11,7 @@
 #include "io/tables/opensim.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -100,7 +101,7 @@ TableTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsCo
   const Gait events = gait_from_motion(analysed.motion);
   const auto contacts = foot_contacts(events);
   const auto forces = [&](const Motion& motion) {
-    return kinetics(motion, contacts, analysed.subject, analysed.gravity, config);
+    return kinetics_of(motion, contacts, analysed.subject, analysed.gravity, config);
   };
   const Kinetics result = forces(analysed.motion);
   write_c3d(analysed, events, result, folder);
@@ -117,4 +118,5 @@ TableTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsCo
   return {result.totals, walk_summary(gait)};
 }
 
+}  // namespace jobs
 }  // namespace walktrack

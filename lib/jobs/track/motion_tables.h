@@ -15,6 +15,7 @@
 #include "metrics/gait_error.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct AnalysedMotion {
   Motion motion;
@@ -47,4 +48,5 @@ struct TableTotals {
 TableTotals write_motion_tables(const AnalysedMotion& analysed, const KineticsConfig& config,
                                 const ResultFolder& folder);
 
+}  // namespace jobs
 }  // namespace walktrack

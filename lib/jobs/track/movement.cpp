@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -31,4 +32,5 @@ double MovementWatch::newly_covered(const SceneEvidence& evidence) {
   return most;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

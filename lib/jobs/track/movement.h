@@ -9,6 +9,7 @@
 #include "tracker/tracker_scene.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // How much of the pictures somebody newly covers, m^2 on the body, in the camera that sees most of
 // it.
@@ -29,4 +30,5 @@ class MovementWatch {
   std::deque<std::vector<ForegroundGrid>> before_;  // oldest first
 };
 
+}  // namespace jobs
 }  // namespace walktrack

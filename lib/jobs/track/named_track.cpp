@@ -6,6 +6,7 @@
 #include "tracker/smooth/leg_labels.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 bool says_names(const TrackedFrames& frames) {
   for (const FrameRecord& record : frames.records)
@@ -31,4 +32,5 @@ TrackedFrames named(const TrackedFrames& frames, const Body& body,
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "jobs/track/track_results.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // Whether any frame says anything of the names.
 bool says_names(const TrackedFrames& frames);
@@ -16,4 +17,5 @@ bool says_names(const TrackedFrames& frames);
 TrackedFrames named(const TrackedFrames& frames, const Body& body,
                     const std::filesystem::path& file);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "core/parallel_for.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -81,4 +82,5 @@ void NextFrame::close() {
   there_ = false;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

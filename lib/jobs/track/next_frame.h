@@ -13,6 +13,7 @@
 #include "tracker/tracker_scene.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 class NextFrame {
  public:
@@ -54,4 +55,5 @@ class NextFrame {
   bool fetched_ = false, there_ = false;
 };
 
+}  // namespace jobs
 }  // namespace walktrack

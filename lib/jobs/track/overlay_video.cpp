@@ -15,6 +15,7 @@
 #include "jobs/track/track_setup.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -130,4 +131,5 @@ std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames&
   return clips;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

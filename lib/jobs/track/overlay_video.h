@@ -16,6 +16,7 @@
 #include "jobs/track/track_results.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 std::string overlay_name(const SceneCamera& camera);
 
@@ -25,4 +26,5 @@ std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames&
                                        const ResultFolder& folder, int threads,
                                        const JobControl& control);
 
+}  // namespace jobs
 }  // namespace walktrack

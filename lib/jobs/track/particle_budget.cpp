@@ -7,6 +7,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -41,4 +42,5 @@ int ParticleBudget::next(int particles, double fixed_seconds, double filter_seco
   return bounded(whole);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

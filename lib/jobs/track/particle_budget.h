@@ -7,6 +7,7 @@
 #include "io/config/config.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 class ParticleBudget {
  public:
@@ -28,4 +29,5 @@ class ParticleBudget {
   double fixed_ = -1, each_ = 0;  // s, averages; negative before the first frame
 };
 
+}  // namespace jobs
 }  // namespace walktrack

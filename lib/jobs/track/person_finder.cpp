@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -105,4 +106,5 @@ DetectedPeople PersonFinder::look(PoseNet& net, const cv::Mat& picture, int fram
   return people;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "observation/pose_net/pose_net.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // How much larger than a person the square around them is.
 inline constexpr double kCutOutMargin = 1.35;
@@ -41,4 +42,5 @@ class PersonFinder {
   std::vector<CutOut> squares_, followed_;
 };
 
+}  // namespace jobs
 }  // namespace walktrack

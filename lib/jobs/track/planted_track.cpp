@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -68,4 +69,5 @@ TrackedFrames planted(const TrackedFrames& frames, const std::filesystem::path& 
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

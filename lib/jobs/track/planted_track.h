@@ -9,6 +9,7 @@
 #include "tracker/smooth/planting.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // The rows of the motion in which soles lie flat (metrics/gait.h: kFlatFrom, kFlatTo). Of a stance
 // that an end of the motion cuts, the rows in which they would if it lasted as long as the whole
@@ -19,4 +20,5 @@ std::vector<FlatFoot> flat_feet(const Motion& motion, const Gait& gait);
 // file of that name, which the folder does not show any more.
 TrackedFrames planted(const TrackedFrames& frames, const std::filesystem::path& file);
 
+}  // namespace jobs
 }  // namespace walktrack

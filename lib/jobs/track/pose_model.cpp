@@ -3,6 +3,7 @@
 #include <array>
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -18,4 +19,5 @@ std::optional<fs::path> pose_model_file(const std::string& model) {
   return std::nullopt;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

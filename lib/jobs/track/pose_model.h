@@ -7,6 +7,7 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace jobs {
 
 // What observation.keypoints.model says by default: the network that comes with the program.
 inline constexpr std::string_view kShippedModel = "movenet_lightning";
@@ -17,4 +18,5 @@ inline constexpr size_t kMaxModelBytes = size_t{256} << 20;
 // was built in, or a path. Nothing when the shipped one is not there.
 std::optional<std::filesystem::path> pose_model_file(const std::string& model);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -110,4 +111,5 @@ QualityMeasure quality_measure(std::string_view name, double value) {
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

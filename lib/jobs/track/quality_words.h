@@ -7,6 +7,7 @@
 #include "io/archive/run_record.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct QualityWords {
   std::string_view name, what, unit;
@@ -21,4 +22,5 @@ std::span<const QualityWords> quality_words();
 // A measure of that name with its words, without a limit. std::out_of_range for an unknown name.
 QualityMeasure quality_measure(std::string_view name, double value);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "jobs/track/report_curves.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -114,4 +115,5 @@ std::filesystem::path write_report(const ResultFolder& folder, const ReportInput
   return folder.file(kReportFile);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

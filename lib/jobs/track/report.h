@@ -18,6 +18,7 @@
 #include "metrics/coverage.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 inline constexpr const char* kReportFile = "report.html";
 
@@ -33,4 +34,5 @@ struct ReportInput {
 // Writes report.html into the folder, with the tables that are there; returns its path.
 std::filesystem::path write_report(const ResultFolder& folder, const ReportInput& input);
 
+}  // namespace jobs
 }  // namespace walktrack

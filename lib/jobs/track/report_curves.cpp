@@ -10,6 +10,7 @@
 #include "metrics/cycle_curve.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -140,4 +141,5 @@ Json cycles_json(const std::vector<Signal>& signals, const Gait& gait) {
   return out;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

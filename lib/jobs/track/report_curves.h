@@ -12,6 +12,7 @@
 #include "metrics/gait.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // A number over time and its 5-95 % band; NaN where unknown.
 struct Signal {
@@ -34,4 +35,5 @@ std::vector<Signal> load_signals(const ResultFolder& folder, const AnalysedMotio
 // each signal cut at the strikes of its side. Bands are means of the strides' bands.
 nlohmann::ordered_json cycles_json(const std::vector<Signal>& signals, const Gait& gait);
 
+}  // namespace jobs
 }  // namespace walktrack

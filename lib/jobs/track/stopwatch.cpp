@@ -3,6 +3,7 @@
 #include <ctime>
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -40,4 +41,5 @@ void Stopwatch::add(std::string_view stage, const Elapsed& spent) {
   grow(cpu_stages_, stage, spent.cpu);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

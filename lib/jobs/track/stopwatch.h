@@ -8,6 +8,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace jobs {
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start);
@@ -39,4 +40,5 @@ class Stopwatch {
   Stages stages_, cpu_stages_;
 };
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -24,6 +24,7 @@
 #include "jobs/track/track_run.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -271,9 +272,10 @@ LookedAt looked_at(const TrackJob& job, const JobControl& control) {
   std::string failure;
   int more = -1;
   for (const Finding& finding : report.findings) {
-    if (finding.failure && failure.empty()) failure = one_line(finding);
+    if (finding.failure && failure.empty()) failure = finding_line(finding);
     if (finding.failure) ++more;
-    notes.push_back((finding.failure ? "a failed check was ignored: " : "") + one_line(finding));
+    notes.push_back((finding.failure ? "a failed check was ignored: " : "") +
+                    finding_line(finding));
   }
   if (!failure.empty() && !job.ignore_checks) {
     throw InputError(fmt::format(
@@ -417,4 +419,5 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   return outcome;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -25,6 +25,7 @@
 #include "jobs/track/walk_summary.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct TrackJob {
   Scene scene;
@@ -66,4 +67,5 @@ std::string_view status_word(TrackStatus status);
 // and for a scene whose checks fail.
 TrackOutcome track_scene(const TrackJob& job, const JobControl& control);
 
+}  // namespace jobs
 }  // namespace walktrack

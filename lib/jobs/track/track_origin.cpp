@@ -13,6 +13,7 @@
 #include "jobs/track/track_run.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace fs = std::filesystem;
 
@@ -80,4 +81,5 @@ std::string changes_since(const fs::path& folder, const Origin& wanted) {
   return differences(origin_in(read_text_file(folder / kRunFile, kMaxRecordBytes)), wanted);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -7,6 +7,7 @@
 #include "io/scene/scene.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // The scene's file, calibrations and videos, named from the scene's folder, with their digests
 // (io/video/video_digest.h), and where keypoints are used their files and the pose network. The
@@ -24,4 +25,5 @@ Origin origin_of_track(const Scene& scene, ConfigWithOrigin config);
 // of its checkpoint where it is not complete. "" = nothing, or there is neither.
 std::string changes_since(const std::filesystem::path& folder, const Origin& wanted);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "metrics/plausibility.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -160,4 +161,5 @@ std::string first_failure(const Quality& quality) {
   return failed.empty() ? std::string() : failure_text(failed.front());
 }
 
+}  // namespace jobs
 }  // namespace walktrack

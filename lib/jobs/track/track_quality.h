@@ -13,6 +13,7 @@
 #include "observation/keypoint_term.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 using Quality = std::vector<QualityMeasure>;
 
@@ -48,4 +49,5 @@ std::string failure_text(const QualityMeasure& failed);
 // What the first failed check says against the result; empty if all passed.
 std::string first_failure(const Quality& quality);
 
+}  // namespace jobs
 }  // namespace walktrack

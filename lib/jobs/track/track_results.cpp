@@ -15,6 +15,7 @@
 #include "tracker/smooth/model_error.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -217,4 +218,5 @@ int foot_changes(const TrackedFrames& frames) {
   return changes;
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "tracker/tracker.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // The frames of a track.
 struct TrackedFrames {
@@ -54,4 +55,5 @@ WrittenTables write_tables(const AnalysedMotion& analysed, const JointUncertaint
 // Feet that took over from each other: how often the likelier stance side changed while walking.
 int foot_changes(const TrackedFrames& frames);
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "jobs/track/why_nobody.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -264,4 +265,5 @@ void TrackRun::write_checkpoint() {
   watch_.add("checkpoints", elapsed_since(start));
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -22,6 +22,7 @@
 #include "jobs/track/track_setup.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 // The files of unfinished work in a result folder.
 inline constexpr std::string_view kCheckpointFile = "checkpoint.bin", kFramesFile = "frames.bin";
@@ -124,4 +125,5 @@ class TrackRun {
   std::vector<double> particles_used_;
 };
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -16,6 +16,7 @@
 #include "tracker/motion/planar_body.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -167,4 +168,5 @@ Region search_region(const Camera& camera, double subject_height) {
   return whole_image(camera, scales[scales.size() / 2]);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "tracker/tracker_scene.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct TrackSetup {
   std::vector<Observer> observers;  // by camera
@@ -42,4 +43,5 @@ void require_room_for_search(const Scene& scene, const Config& config, double fr
 // Where to look in the next frame: around the walker once tracked, everywhere before.
 Region search_region(const Camera& camera, double subject_height);
 
+}  // namespace jobs
 }  // namespace walktrack

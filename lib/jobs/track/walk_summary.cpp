@@ -9,6 +9,7 @@
 #include "jobs/track/track_quality.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -90,4 +91,5 @@ std::string summary_json(const TrackOutcome& outcome, const std::string& result,
   return line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "metrics/gait_table.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct TrackOutcome;
 
@@ -31,4 +32,5 @@ std::string summary_text(const TrackOutcome& outcome);
 // "p05", "p95"}, null where there is none.
 std::string summary_json(const TrackOutcome& outcome, const std::string& result, int exit_code);
 
+}  // namespace jobs
 }  // namespace walktrack

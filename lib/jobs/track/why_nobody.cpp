@@ -10,6 +10,7 @@
 #include "tracker/tracker_scene.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 namespace {
 
@@ -149,4 +150,5 @@ std::string why_nobody(const SearchedVideo& searched, TrackSetup& setup, double 
   return in_words(looker.look(control), looker, searched.config);
 }
 
+}  // namespace jobs
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "tracker/detect/detector.h"
 
 namespace walktrack {
+inline namespace jobs {
 
 struct SearchedVideo {
   const Scene& scene;
@@ -26,4 +27,5 @@ struct SearchedVideo {
 std::string why_nobody(const SearchedVideo& searched, TrackSetup& setup, double seconds,
                        const JobControl& control);
 
+}  // namespace jobs
 }  // namespace walktrack

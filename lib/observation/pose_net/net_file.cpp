@@ -9,6 +9,7 @@
 #include "core/errors.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -176,4 +177,5 @@ NetFile widened_net(std::string_view file, const std::string& name) {
   return out;
 }
 
+}  // namespace observation
 }  // namespace walktrack

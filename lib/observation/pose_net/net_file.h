@@ -7,6 +7,7 @@
 #include <string_view>
 
 namespace walktrack {
+inline namespace observation {
 
 struct NetFile {
   std::string onnx;  // with 32-bit weights
@@ -16,4 +17,5 @@ struct NetFile {
 // InputError naming `name` where that is no ONNX file of a network with one square input.
 NetFile widened_net(std::string_view file, const std::string& name);
 
+}  // namespace observation
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include "observation/pose_net/pose_net.h"
 
 namespace walktrack {
+inline namespace observation {
 
 struct PoseNet::Net {};
 
@@ -18,4 +19,5 @@ PoseNet::~PoseNet() = default;
 
 DetectedPerson PoseNet::detect(const cv::Mat&, const CutOut&) { return {}; }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -59,4 +60,5 @@ DetectedPerson decoded(const PoseMaps& maps, const CutOut& cut_out) {
   return person;
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -16,6 +16,7 @@
 #include "observation/keypoints.h"
 
 namespace walktrack {
+inline namespace observation {
 
 inline constexpr size_t kCocoPoints = 17;
 inline constexpr int kCell_px = 4;
@@ -33,4 +34,5 @@ struct CutOut {
 // In pixels of the picture that the cut-out is of.
 DetectedPerson decoded(const PoseMaps& maps, const CutOut& cut_out);
 
+}  // namespace observation
 }  // namespace walktrack

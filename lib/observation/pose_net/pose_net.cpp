@@ -10,6 +10,7 @@
 #include "observation/pose_net/net_file.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -93,4 +94,5 @@ DetectedPerson PoseNet::detect(const cv::Mat& picture, const CutOut& cut_out) {
                  cut_out);
 }
 
+}  // namespace observation
 }  // namespace walktrack

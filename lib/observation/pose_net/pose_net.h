@@ -14,6 +14,7 @@
 #include "observation/pose_net/pose_maps.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // Whether this program was built with OpenCV's dnn module.
 bool has_pose_net();
@@ -36,4 +37,5 @@ class PoseNet {
   std::unique_ptr<Net> net_;
 };
 
+}  // namespace observation
 }  // namespace walktrack

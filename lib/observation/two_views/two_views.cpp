@@ -14,6 +14,7 @@
 #include "observation/two_views/walker_rays.h"
 
 namespace walktrack {
+inline namespace observation {
 
 namespace {
 
@@ -193,4 +194,5 @@ TwoViews two_views(std::span<const SeenMoment> first, std::span<const SeenMoment
   return out;
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -22,6 +22,7 @@
 #include "observation/keypoints.h"
 
 namespace walktrack {
+inline namespace observation {
 
 // One person at one time of a video.
 struct SeenMoment {
@@ -58,4 +59,5 @@ struct TwoViews {
 TwoViews two_views(std::span<const SeenMoment> first, std::span<const SeenMoment> second,
                    const TwoViewAssumptions& assumptions);
 
+}  // namespace observation
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace observation {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -109,4 +110,5 @@ WalkerFloor FloorFit::floor(const Vector2d& more_lean) const {
   return {up, ankles - kAnkle * stature_ - kSole_m, metres};
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "observation/two_views/walker_rays.h"
 
 namespace walktrack {
+inline namespace observation {
 
 struct WalkerFloor {
   Eigen::Vector3d up;  // in the first camera's axes
@@ -41,4 +42,5 @@ class FloorFit {
 // What the share of the stature that eyes and ears are above the ankles is uncertain by, share.
 inline constexpr double kEyesSd = 0.017;
 
+}  // namespace observation
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace observation {
 
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
@@ -313,4 +314,5 @@ LeastSquaresFit WalkerRays::adjusted(const VectorXd& start) const {
   return minimise_squares([this](const VectorXd& x) { return residuals(x); }, start);
 }
 
+}  // namespace observation
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "observation/two_views/two_views.h"
 
 namespace walktrack {
+inline namespace observation {
 
 inline constexpr size_t kSharedPoints = 17;  // those of COCO
 
@@ -88,4 +89,5 @@ class WalkerRays {
   double weight_;
 };
 
+}  // namespace observation
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "core/parallel_for.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -386,4 +387,5 @@ double independent_looks(size_t frames, double dt) {
   return std::max(1.0, dt * double(frames) / kIndependent_s);
 }
 
+}  // namespace tracker
 }  // namespace walktrack

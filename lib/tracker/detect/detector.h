@@ -16,6 +16,7 @@
 #include "camera/camera.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // By hand; sensitivity not measured.
 struct DetectorConfig {
@@ -98,4 +99,5 @@ double independent_looks(size_t frames, double dt);
 // to 0.15 m and 0.1 to 0.3 m/s along the ray).
 inline constexpr double kStrangeFigure = 2;
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -169,4 +170,5 @@ std::vector<KeypointLine> keypoint_lines(std::span<const KeypointEvidence* const
   return out;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

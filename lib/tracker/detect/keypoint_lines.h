@@ -17,6 +17,7 @@
 #include "observation/keypoint_term.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Ground position, m, of a person of that height; nullopt where too little of them was seen, or
 // where no place explains it. `camera` is that of the image that the points are of.
@@ -35,4 +36,5 @@ std::vector<KeypointLine> keypoint_lines(std::span<const KeypointEvidence* const
                                          const Camera& camera, double height, double dt,
                                          double least_seconds);
 
+}  // namespace tracker
 }  // namespace walktrack

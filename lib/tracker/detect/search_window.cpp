@@ -8,6 +8,7 @@
 #include "tracker/detect/keypoint_lines.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -101,4 +102,5 @@ SizedWalk best_size(const SearchWindow& window, const DetectedWalk& found) {
   });
 }
 
+}  // namespace tracker
 }  // namespace walktrack

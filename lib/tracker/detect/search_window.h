@@ -12,6 +12,7 @@
 #include "tracker/subject_model.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 struct SearchWindow {
   const TrackContext& context;
@@ -43,4 +44,5 @@ SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double 
 // so it is looked for with others, too.
 SizedWalk best_size(const SearchWindow& window, const DetectedWalk& found);
 
+}  // namespace tracker
 }  // namespace walktrack

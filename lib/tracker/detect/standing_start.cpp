@@ -8,6 +8,7 @@
 #include "tracker/motion/standing.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -73,4 +74,5 @@ std::optional<StandingStart> standing_before(const DetectedWalk& walk, const Sta
   return out;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

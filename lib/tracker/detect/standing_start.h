@@ -7,6 +7,7 @@
 #include "tracker/motion/particle.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Somebody of that body on straight legs, the root above the origin, heading 0.
 Pose standing_pose(const BodyModel& model);
@@ -27,4 +28,5 @@ struct StandingStart {
 std::optional<StandingStart> standing_before(const DetectedWalk& walk, const StandingScore& score,
                                              double dt, const DetectorConfig& config);
 
+}  // namespace tracker
 }  // namespace walktrack

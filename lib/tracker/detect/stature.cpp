@@ -7,6 +7,7 @@
 #include "tracker/motion/planar_body.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -71,4 +72,5 @@ BodyModel with_height(const BodyModel& model, double height) {
   return out;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "tracker/motion/particle.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 struct Stature {
   double height, sd;  // m
@@ -33,4 +34,5 @@ SizedWalk size_up(const DetectedWalk& walk, double height, size_t frames, const 
 // The same person, all in proportion; lengths that a scene states stay, and so does the mass.
 BodyModel with_height(const BodyModel& model, double height);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include <utility>
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -120,4 +121,5 @@ std::deque<SceneEvidence> WalkSearch::take() {
   return std::exchange(window_, {});
 }
 
+}  // namespace tracker
 }  // namespace walktrack

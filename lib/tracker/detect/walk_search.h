@@ -10,6 +10,7 @@
 #include "tracker/detect/standing_start.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // When and where the window is: number of its first frame, and where a subject who was lost was
 // last seen.
@@ -61,4 +62,5 @@ class WalkSearch {
   size_t slight_walks_ = 0;  // windows in a row that show somebody who may as well stand
 };
 
+}  // namespace tracker
 }  // namespace walktrack

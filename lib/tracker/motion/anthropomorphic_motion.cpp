@@ -11,6 +11,7 @@
 #include "tracker/motion/support.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -217,4 +218,5 @@ std::span<const NoiseGroup> AnthropomorphicMotion::noise_groups(Path path) const
   return path == Path::kSpatial ? kLinkageGroups : kLinkageGroupsInPlane;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "tracker/motion/motion_model.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 class AnthropomorphicMotion : public MotionModel {
  public:
@@ -37,4 +38,5 @@ class AnthropomorphicMotion : public MotionModel {
   StraightPrior prior_;
 };
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "walker/kneed_batch.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -129,4 +130,5 @@ std::span<const NoiseGroup> KneedMotion::noise_groups(Path path) const {
   return path == Path::kSpatial ? kKneedGroups : kKneedGroupsInPlane;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

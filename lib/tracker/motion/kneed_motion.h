@@ -8,6 +8,7 @@
 #include "tracker/motion/step_library.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // The walker at a share of a step of a gait of the prior, on the gait's slope.
 KneedState state_in_gait(const BodyModel& model, const PriorGait& gait, double phase);
@@ -33,4 +34,5 @@ class KneedMotion : public MotionModel {
   StepLibrary steps_;  // what rephasing reads poses as
 };
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "tracker/motion/propagate.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -162,4 +163,5 @@ std::span<const NoiseGroup> MarkovMotion::noise_groups(Path path) const {
   return path == Path::kSpatial ? kMarkovGroups : kMarkovGroupsInPlane;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

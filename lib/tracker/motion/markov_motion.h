@@ -14,6 +14,7 @@
 #include "tracker/motion/motion_model.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Coordinates without a walker, in the places of the residual angles that belong to one. A pair's
 // right side follows the left.
@@ -49,4 +50,5 @@ class MarkovMotion : public MotionModel {
   double leg_;  // m
 };
 
+}  // namespace tracker
 }  // namespace walktrack

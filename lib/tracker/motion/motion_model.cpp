@@ -5,6 +5,7 @@
 #include "tracker/motion/markov_motion.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 double MotionModel::start_spread(const MotionConfig&, ResidualAngle residual) const {
   return row_of(residual).process.spread;
@@ -23,4 +24,5 @@ std::unique_ptr<const MotionModel> make_motion_model(MotionKind kind, const Body
   return std::make_unique<KneedMotion>(model, prior);
 }
 
+}  // namespace tracker
 }  // namespace walktrack

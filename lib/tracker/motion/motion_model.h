@@ -16,6 +16,7 @@
 #include "tracker/motion/particle.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 struct MotionConfig;
 struct MotionContext;
@@ -68,4 +69,5 @@ class MotionModel {
 std::unique_ptr<const MotionModel> make_motion_model(MotionKind kind, const BodyModel& model,
                                                      const GaitPrior& prior);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include "tracker/motion/particle.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 constexpr int noise_of(ResidualAngle residual) { return int{kResidualNoise} + int{residual}; }
 
@@ -52,4 +53,5 @@ constexpr std::array<NoiseGroup, 6> groups_with(const BodyNoise& body, NoiseGrou
   return {body.trunk, body.left_leg, body.right_leg, walker, body.left_arm, body.right_arm};
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "tracker/motion/stride.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -171,4 +172,5 @@ size_t table_heading(const Eigen::Vector2d& downhill, double heading) {
   return static_cast<size_t>(std::lround((share + 1) / 2 * (kTableSlopes - 1)));
 }
 
+}  // namespace tracker
 }  // namespace walktrack

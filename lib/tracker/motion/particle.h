@@ -20,6 +20,7 @@
 #include "walker/kneed_walker.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Where walkers may go and what shows of them:
 //   spatial   anywhere over the ground, turning
@@ -158,4 +159,5 @@ std::vector<double> table_headings(const Eigen::Vector2d& downhill);
 // Which of them meets about the slope that `heading` meets.
 size_t table_heading(const Eigen::Vector2d& downhill, double heading);
 
+}  // namespace tracker
 }  // namespace walktrack

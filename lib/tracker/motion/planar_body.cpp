@@ -3,6 +3,7 @@
 #include "core/anthropometry.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 KneedParameters kneed_parameters(const Subject& subject, double gravity) {
   const BodyLengths lengths = body_lengths(subject);
@@ -28,4 +29,5 @@ KneedParameters kneed_parameters(const Subject& subject, double gravity) {
   return p;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

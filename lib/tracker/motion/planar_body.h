@@ -10,8 +10,10 @@
 #include "walker/kneed_walker.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // `gravity` in m/s^2. Level ground; a slope is set by tilting the model's gravity.
 KneedParameters kneed_parameters(const Subject& subject, double gravity);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -12,6 +12,7 @@
 #include "tracker/motion/standing.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -195,4 +196,5 @@ void perturb(const MotionContext& context, double step_size, WalkerParticle& par
   context.moves.apply_noise(context, particle);
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -18,6 +18,7 @@
 #include "tracker/motion/motion_model.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // For an adult of kAdultHeight. By hand where nothing else is said.
 struct MotionConfig {
@@ -99,4 +100,5 @@ Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& r
 // Changes some of the frame's noise, reversibly with respect to its prior, and realises it.
 void perturb(const MotionContext& context, double step_size, WalkerParticle& particle, Rng& rng);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include <limits>
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -84,4 +85,5 @@ bool try_reading(const MotionContext& context, WalkerParticle reading, WalkerPar
   return true;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include "tracker/motion/propagate.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // -log of the residuals' own density (tracker/motion/propagate.h), but for a constant; infinite
 // beyond their limits.
@@ -25,4 +26,5 @@ void stand_under(const BodyModel& model, const Pose& pose, WalkerParticle& readi
 bool try_reading(const MotionContext& context, WalkerParticle reading, WalkerParticle& particle,
                  Rng& rng);
 
+}  // namespace tracker
 }  // namespace walktrack

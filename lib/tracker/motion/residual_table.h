@@ -18,6 +18,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 enum ResidualAngle {
   kHeading,
@@ -149,4 +150,5 @@ inline constexpr ResidualList kAllResiduals =
 inline constexpr ResidualList kStraying =
     residuals_where([](const ResidualRow& row) { return row.strays; });
 
+}  // namespace tracker
 }  // namespace walktrack

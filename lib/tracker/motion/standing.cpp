@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -81,4 +82,5 @@ bool change_regime(const MotionContext& context, const StepLibrary& steps, Walke
   return rng.uniform() < kStops * context.dt && stops(context, particle, rng);
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -13,6 +13,7 @@
 #include "tracker/motion/step_library.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Of the residual angles of those who stand.
 struct StandingProcess {
@@ -28,4 +29,5 @@ void stand(WalkerParticle& particle);
 bool change_regime(const MotionContext& context, const StepLibrary& steps, WalkerParticle& particle,
                    Rng& rng);
 
+}  // namespace tracker
 }  // namespace walktrack

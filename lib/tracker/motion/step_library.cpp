@@ -3,6 +3,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -55,4 +56,5 @@ const LibraryStep* StepLibrary::near(const StepAim& aim, double heading, Rng& rn
   return &steps_[slope * kSpeeds * kLengths + static_cast<size_t>(i * kLengths + j)];
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "tracker/motion/particle.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 struct LibraryStep {
   static constexpr size_t kMoments = 24;  // of a step; by hand
@@ -37,4 +38,5 @@ class StepLibrary {
   std::vector<LibraryStep> steps_;  // by slope, speed and step length, which runs fastest
 };
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -34,4 +35,5 @@ LegDifference leg_difference(double phase) {
           rad_from_deg(interpolated(kShank_deg, phase))};
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #pragma once
 
 namespace walktrack {
+inline namespace tracker {
 
 // Added to the angles of the walker's thigh and shank (walker/kneed_walker.h), rad.
 struct LegDifference {
@@ -20,4 +21,5 @@ struct LegDifference {
 // At a phase of the leg's own stride: 0 when its foot strikes, 1/2 when the other does. Periodic.
 LegDifference leg_difference(double phase);
 
+}  // namespace tracker
 }  // namespace walktrack

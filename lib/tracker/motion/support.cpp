@@ -5,6 +5,7 @@
 #include "body/kinematics.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 Eigen::Vector2d foot_sigma(const MotionContext& context, const WalkerParticle& particle) {
   const MotionConfig& config = context.config;
@@ -40,4 +41,5 @@ void perturb_step_target(const MotionConfig& config, StepAim& aim, Rng& rng) {
   aim.step_length *= std::exp(config.aim_drift * rng.truncated_normal(3));
 }
 
+}  // namespace tracker
 }  // namespace walktrack

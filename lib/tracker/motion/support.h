@@ -5,6 +5,7 @@
 #include "tracker/motion/propagate.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Standard deviations of the standing foot's place in a frame, along and across the heading, m.
 Eigen::Vector2d foot_sigma(const MotionContext& context, const WalkerParticle& particle);
@@ -16,4 +17,5 @@ void change_feet(const BodyModel& model, const KneedState& shown, WalkerParticle
 // A new step aims a little differently from the last.
 void perturb_step_target(const MotionConfig& config, StepAim& aim, Rng& rng);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "walker/kneed_batch.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -141,4 +142,5 @@ void walk_on(const MotionContext& context, std::span<WalkerParticle> particles, 
   }
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -8,10 +8,12 @@
 #include "tracker/motion/propagate.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Moves particles[i].walker on by a frame, as long as its pace makes it, with numbers of rngs[i].
 // outcomes[i] becomes kAlive, or what befell the walker before it was caught. Spans of one size.
 void walk_on(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,
              std::span<Outcome> outcomes);
 
+}  // namespace tracker
 }  // namespace walktrack

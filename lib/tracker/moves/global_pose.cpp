@@ -7,6 +7,7 @@
 #include "core/log_weights.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -92,4 +93,5 @@ void move_global_pose(const MotionContext& context, const CourseSpread& spread, 
   follow(was, particle.pose, particle.pose_before);
 }
 
+}  // namespace tracker
 }  // namespace walktrack

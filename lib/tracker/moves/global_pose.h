@@ -17,6 +17,7 @@
 #include "tracker/motion/propagate.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Root x, y (m), heading, crouch, tilt (rad).
 using GlobalPose = Eigen::Matrix<double, 5, 1>;
@@ -34,4 +35,5 @@ CourseSpread course_spread(std::span<const WalkerParticle> particles,
 void move_global_pose(const MotionContext& context, const CourseSpread& spread, double step_size,
                       WalkerParticle& particle, Rng& rng);
 
+}  // namespace tracker
 }  // namespace walktrack

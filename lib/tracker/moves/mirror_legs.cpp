@@ -5,6 +5,7 @@
 #include <utility>
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -109,4 +110,5 @@ void mirror_legs(const Body& body, FrameRecord& record) {
   record.modes.phase = std::fmod(record.modes.phase + 0.5, 1.0);
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 Pose mirrored_legs(const Body& body, const Pose& pose);
 
@@ -21,4 +22,5 @@ void mirror_legs(const MotionContext& context, WalkerFilter& filter);
 // What was estimated of a frame, its samples, and its place in the stride.
 void mirror_legs(const Body& body, FrameRecord& record);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -3,6 +3,7 @@
 #include "tracker/motion/residual_angles.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 bool try_phase_jump(const MotionContext& context, const StepLibrary& steps,
                     WalkerParticle& particle, Rng& rng) {
@@ -16,4 +17,5 @@ bool try_phase_jump(const MotionContext& context, const StepLibrary& steps,
   return try_reading(context, reading, particle, rng);
 }
 
+}  // namespace tracker
 }  // namespace walktrack

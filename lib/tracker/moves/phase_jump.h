@@ -20,6 +20,7 @@
 #include "tracker/motion/step_library.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Reads it as a moment of one of `steps`. Whether the proposal was accepted; then walker, stance,
 // controls, aim, ball and the residuals that stray (residual and residual_before)
@@ -28,4 +29,5 @@ namespace walktrack {
 bool try_phase_jump(const MotionContext& context, const StepLibrary& steps,
                     WalkerParticle& particle, Rng& rng);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -11,6 +11,7 @@
 #include "core/scratch.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -145,4 +146,5 @@ FrameEstimate estimate_frame(const BodyModel& model, std::span<const WalkerParti
   return out;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -10,6 +10,7 @@
 #include "tracker/motion/particle.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Weighted distribution of one number.
 struct Spread {
@@ -39,4 +40,5 @@ void shift_bands(const FrameEstimate& from, FrameEstimate& to);
 // Mean, standard deviation and weighted 5 % and 95 % quantiles of `values`.
 Spread weighted_spread(std::span<const double> values, std::span<const double> weights);
 
+}  // namespace tracker
 }  // namespace walktrack

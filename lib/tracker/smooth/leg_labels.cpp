@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -50,4 +51,5 @@ std::vector<double> swapped_probabilities(std::span<const NamedFrame> frames, do
   return out;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -8,6 +8,7 @@
 #include <vector>
 
 namespace walktrack {
+inline namespace tracker {
 
 struct NamedFrame {
   bool tracked = false;
@@ -24,4 +25,5 @@ inline constexpr double kSwapsPerSecond = 0.02;
 // nothing is tracked. Tracks before and after a loss know nothing of each other.
 std::vector<double> swapped_probabilities(std::span<const NamedFrame> frames, double dt);
 
+}  // namespace tracker
 }  // namespace walktrack

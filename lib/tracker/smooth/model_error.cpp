@@ -8,6 +8,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -120,4 +121,5 @@ void add_model_error(std::span<const Camera> cameras, double scale, FrameEstimat
   for (size_t k = 0; k < kJointAngleCount; ++k) widen(scale * angle_error(k), estimate.angles[k]);
 }
 
+}  // namespace tracker
 }  // namespace walktrack

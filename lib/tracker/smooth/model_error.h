@@ -20,6 +20,7 @@
 #include "tracker/smooth/estimate.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Covariance of the figure's place, m^2, for a person whose ends are at `head` and `feet`.
 Eigen::Matrix3d figure_covariance(std::span<const Camera> cameras, const Eigen::Vector3d& head,
@@ -28,4 +29,5 @@ Eigen::Matrix3d figure_covariance(std::span<const Camera> cameras, const Eigen::
 // Widens the spreads of joints and angles by `scale` times the sizes measured. Means stay.
 void add_model_error(std::span<const Camera> cameras, double scale, FrameEstimate& estimate);
 
+}  // namespace tracker
 }  // namespace walktrack

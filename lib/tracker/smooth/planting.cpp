@@ -12,6 +12,7 @@
 #include "core/conventions.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -137,4 +138,5 @@ void plant_feet(const FootShifts& by, FrameRecord& record) {
   for (JointPositions& sample : record.samples) move_feet(by, sample);
 }
 
+}  // namespace tracker
 }  // namespace walktrack

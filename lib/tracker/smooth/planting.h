@@ -20,6 +20,7 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Frames [first, last] in which the sole of that foot lies flat.
 struct FlatFoot {
@@ -41,4 +42,5 @@ std::vector<FootShifts> planting_shifts(const Motion& motion, std::span<const Fl
 // pose and bands.
 void plant_feet(const FootShifts& by, FrameRecord& record);
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 #include "tracker/frame_likelihood.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -92,4 +93,5 @@ void refine(const TrackerScene& scene, const SceneEvidence& evidence, int thread
   for (JointPositions& sample : record.samples) move(from, to, before.joint_count, sample);
 }
 
+}  // namespace tracker
 }  // namespace walktrack

@@ -14,9 +14,11 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 // Moves a tracked frame's estimate there: pose, joints, bands and samples.
 void refine(const TrackerScene& scene, const SceneEvidence& evidence, int threads,
             FrameRecord& record);
 
+}  // namespace tracker
 }  // namespace walktrack

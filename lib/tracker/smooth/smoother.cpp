@@ -9,6 +9,7 @@
 #include "body/pose_numbers.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 namespace {
 
@@ -101,4 +102,5 @@ FrameRecord Smoother::smoothed(size_t at) const {
   return out;
 }
 
+}  // namespace tracker
 }  // namespace walktrack

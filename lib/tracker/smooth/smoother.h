@@ -20,6 +20,7 @@
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
+inline namespace tracker {
 
 struct SmoothingConfig {
   double lag = 0.2;   // s of frames before and after a frame that count; 0 = off
@@ -51,4 +52,5 @@ class Smoother {
   size_t waiting_ = 0;  // the newest of the window that have not come out
 };
 
+}  // namespace tracker
 }  // namespace walktrack
