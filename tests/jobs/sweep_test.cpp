@@ -110,6 +110,13 @@ TEST_F(Sweep, MeasuresEverySettingWithEverySeedOnce) {
   // Again: nothing is tracked, a report a run and no more; and one with more values reuses these.
   EXPECT_EQ(errors_of(run_sweep(each, again.control())), errors_of(report));
   EXPECT_EQ(again.reports, 8u);
+  // A run of which somebody has removed a part is tracked again.
+  for (const auto& entry : fs::recursive_directory_iterator(each.output / "runs"))
+    if (entry.path().filename() == "joints.csv") {
+      fs::remove(entry.path());
+      break;
+    }
+  EXPECT_EQ(errors_of(run_sweep(each, {})), errors_of(report));
 }
 
 TEST_F(Sweep, GoesOnWhereItWasInterruptedAndErrorsAreThoseOfOneGo) {

@@ -33,6 +33,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kNoResult = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t kMaxBytes = size_t{1} << 28;
 constexpr size_t kMostRuns = 100'000;
+constexpr const char* kJoints = "joints.csv";
 
 // The headline figure of `evaluate` for each kind of truth.
 constexpr std::array<std::string_view, 3> kHeadlines{"joint_error_mean_mm", "plant_error_mean_mm",
@@ -93,7 +94,7 @@ class Sweep {
   Json record(const SweepTrial& trial) const {
     return Json::parse(read_text_file(folder(trial) / "run.json", kMaxBytes));
   }
-  Motion joints(const SweepTrial& trial) const { return read_motion(folder(trial) / "joints.csv"); }
+  Motion joints(const SweepTrial& trial) const { return read_motion(folder(trial) / kJoints); }
 
  private:
   TrackJob track_job(const SweepTrial& trial) const {
@@ -111,7 +112,8 @@ class Sweep {
 
   // Whether the run's folder holds what this program would measure now.
   bool measured(const TrackJob& track) const {
-    if (!is_complete_result(track.output)) return false;
+    // Somebody may have removed a part of it.
+    if (!is_complete_result(track.output) || !fs::exists(track.output / kJoints)) return false;
     const std::string changed =
         changes_since(track.output, origin_of_track(track.scene, track.config));
     if (changed.empty()) return true;
