@@ -111,13 +111,13 @@ int run_one(const CommandLine& line, const InitOptions& options, const Arguments
   check_count("fov-deg", options.fovs.size(), "one", options.fovs.size() <= 1);
   check_count("background", options.backgrounds.size(), "one", options.backgrounds.size() <= 1);
   InitJob job;
-  set_common(job, line, options, arguments);
   job.video = options.video;
   if (!options.backgrounds.empty()) job.background = options.backgrounds[0];
   job.fov_deg = field_of_view(line, options, 0);
   job.tilt_deg = within(line, "tilt-deg", options.tilt, -45, 45);
   for (const std::string& length : options.floor) job.floor.push_back(floor_length(length));
   job.threads = line.config().values.threads;
+  set_common(job, line, options, arguments);
   Terminal terminal(line.common());
   const InitOutcome outcome = init_scene(job, terminal.control());
   return ended(line, terminal, init_text(outcome), outcome.scene, outcome.check);
@@ -129,10 +129,10 @@ int run_pair(const CommandLine& line, const InitOptions& options, const Argument
   check_count("background", options.backgrounds.size(), "none or two, one for each video",
               options.backgrounds.empty() || options.backgrounds.size() == 2);
   InitPairJob job;
-  set_common(job, line, options, arguments);
   job.videos = {options.video, options.second};
   job.backgrounds.assign(options.backgrounds.begin(), options.backgrounds.end());
   job.fov_deg = {field_of_view(line, options, 0), field_of_view(line, options, 1)};
+  set_common(job, line, options, arguments);
   Terminal terminal(line.common());
   const InitPairOutcome outcome = init_pair(job, terminal.control());
   return ended(line, terminal, init_pair_text(outcome), outcome.scene, outcome.check);

@@ -119,8 +119,7 @@ cv::Mat view_of(const InitPairJob& job, const InitPairOutcome& out, size_t c, in
     draw_line(frame, camera, out.views.places[k],
               out.views.places[k] + Eigen::Vector3d(0, 0, job.height), right_colour(),
               2 * line_thickness(frame));
-  draw_caption(frame, fmt::format("{}: {:.2f} m high, {:.1f} m away; 1 m grid", kNames[c],
-                                  out.views.height[c].value, out.views.distance[c].value));
+  draw_caption(frame, fmt::format("{}, {:.2f} m high", kNames[c], out.views.height[c].value));
   return frame;
 }
 
