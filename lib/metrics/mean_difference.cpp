@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/log_gamma.h"
 #include "core/rng.h"
 #include "metrics/statistics.h"
 
@@ -104,8 +105,8 @@ SampleSpread sample_spread(std::span<const double> values) {
 // integral of cos^(n-1) from 0 to phi: smooth, by Simpson's rule.
 double students_t(double tail, double degrees) {
   constexpr int kPieces = 400;  // of the integral
-  const double scale = std::exp(std::lgamma((degrees + 1) / 2) - std::lgamma(degrees / 2)) /
-                       std::sqrt(std::numbers::pi);
+  const double scale =
+      std::exp(log_gamma((degrees + 1) / 2) - log_gamma(degrees / 2)) / std::sqrt(std::numbers::pi);
   const auto share_below = [&](double phi) {
     double sum = 0;
     for (int i = 0; i <= kPieces; ++i) {

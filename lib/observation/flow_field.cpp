@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/conventions.h"
+#include "core/log_gamma.h"
 #include "observation/flow.h"
 
 namespace walktrack {
@@ -100,7 +101,7 @@ void keep_before(const cv::Mat& past, FlowField& out) {
 
 double log_t_peak(double dof) {
   constexpr double kAnything = 0.1;  // share of pixels; by hand
-  return std::log(1 - kAnything) + std::lgamma(0.5 * (dof + 1)) - std::lgamma(0.5 * dof) -
+  return std::log(1 - kAnything) + log_gamma(0.5 * (dof + 1)) - log_gamma(0.5 * dof) -
          0.5 * std::log(kPi) + 0.5 * dof * std::log(dof);
 }
 
