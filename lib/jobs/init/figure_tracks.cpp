@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "core/median.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -13,12 +16,6 @@ namespace {
 constexpr double kLongestGap_s = 0.6, kFarthestSideways = 0.6, kFarthestUpwards = 0.2;
 
 }  // namespace
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double median_size(const FigureTrack& track) {
   std::vector<double> sizes;

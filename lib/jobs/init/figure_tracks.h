@@ -20,7 +20,6 @@ inline double size_of(const SeenFigure& figure) { return figure.bottom_px - figu
 // One person's figures through the frames, at least one.
 using FigureTrack = std::vector<SeenFigure>;
 
-double median_of(std::vector<double> values);  // at least one
 double median_size(const FigureTrack& track);
 
 // Adds the figure to the track of whoever was last seen where it is now, else begins one.

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
 #include "core/conventions.h"
+#include "core/median.h"
 
 namespace walktrack {
 inline namespace observation {
@@ -53,9 +56,7 @@ template <typename Of>
 double median_over(std::span<const BodyPoints> bodies, const Of& of) {
   std::vector<double> values;
   for (const BodyPoints& body : bodies) values.push_back(of(body));
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median_of(std::move(values));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "core/conventions.h"
+#include "core/median.h"
 
 namespace walktrack {
 inline namespace observation {
@@ -100,12 +101,6 @@ Vector3d ray_of(const Vector2d& at, const LensAssumption& lens, double focal_px)
 // Its square grows like that of small misses and like the size of large ones (Charbonnier 1997).
 double robust(double miss) {
   return std::copysign(std::sqrt(2 * (std::sqrt(1 + 0.5 * miss * miss) - 1)), miss);
-}
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

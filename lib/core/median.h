@@ -1,0 +1,19 @@
+// The middle of a set of numbers.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace walktrack {
+inline namespace core {
+
+// Of at least one; the upper one of two in the middle.
+inline double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace core
+}  // namespace walktrack
