@@ -11,7 +11,7 @@
 #include "jobs/batch/batch.h"
 #include "jobs/batch/batch_changes.h"
 #include "jobs/batch/sequence_list.h"
-#include "jobs/batch/shard.h"
+#include "jobs/batch/workers/shard.h"
 #include "terminal.h"
 
 namespace walktrack {

@@ -3,7 +3,7 @@
 
 #include "commands.h"
 #include "core/errors.h"
-#include "gait/build_straight_prior.h"
+#include "gait/prior/build_straight_prior.h"
 #include "jobs/prior/prior.h"
 #include "terminal.h"
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "gait/prior_table.h"
+#include "gait/prior/prior_table.h"
 #include "gait/step_map.h"
 
 namespace walktrack {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/dense.h"
-#include "gait/prior_table.h"
+#include "gait/prior/prior_table.h"
 
 namespace walktrack {
 inline namespace gait {

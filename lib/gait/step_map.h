@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "walker/kneed_advance.h"
+#include "walker/kneed/kneed_advance.h"
 
 namespace walktrack {
 inline namespace gait {

@@ -11,8 +11,8 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "gait/prior_table.h"
-#include "walker/straight_batch.h"
+#include "gait/prior/prior_table.h"
+#include "walker/straight/straight_batch.h"
 
 namespace walktrack {
 inline namespace gait {

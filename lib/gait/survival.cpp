@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/parallel_for.h"
-#include "walker/kneed_batch.h"
+#include "walker/kneed/kneed_batch.h"
 
 namespace walktrack {
 inline namespace gait {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "gait/gait_prior.h"
-#include "gait/straight_prior.h"
+#include "gait/prior/gait_prior.h"
+#include "gait/prior/straight_prior.h"
 
 namespace walktrack {
 inline namespace gait {

@@ -7,7 +7,7 @@
 // L, centre 5 cm ahead of the shank at a stature of 1.75 m) is ours; McGeer found 0.3 as well.
 #pragma once
 
-#include "walker/kneed_walker.h"
+#include "walker/kneed/kneed_walker.h"
 
 namespace walktrack {
 inline namespace gait {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "metrics/statistics.h"
+#include "metrics/statistics/statistics.h"
 
 namespace walktrack {
 inline namespace metrics {

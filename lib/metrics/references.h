@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "body/motion.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/statistics.h"
 
 namespace walktrack {
 inline namespace metrics {

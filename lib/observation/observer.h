@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "observation/background.h"
-#include "observation/keypoints.h"
+#include "observation/background/background.h"
+#include "observation/keypoints/keypoints.h"
 #include "observation/observation_config.h"
-#include "observation/planes.h"
+#include "observation/silhouette/planes.h"
 #include "observation/terms.h"
 
 namespace walktrack {

@@ -7,10 +7,10 @@
 #include <array>
 #include <cstddef>
 
-#include "observation/flow_term.h"
-#include "observation/keypoint_term.h"
-#include "observation/leg_order_term.h"
-#include "observation/silhouette_term.h"
+#include "observation/flow/flow_term.h"
+#include "observation/flow/leg_order_term.h"
+#include "observation/keypoints/keypoint_term.h"
+#include "observation/silhouette/silhouette_term.h"
 
 namespace walktrack {
 inline namespace observation {

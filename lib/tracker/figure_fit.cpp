@@ -6,8 +6,8 @@
 
 #include "body/kinematics.h"
 #include "core/conventions.h"
-#include "observation/overlap.h"
-#include "observation/silhouette_term.h"
+#include "observation/silhouette/overlap.h"
+#include "observation/silhouette/silhouette_term.h"
 
 namespace walktrack {
 inline namespace tracker {

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "tracker/motion/particle.h"
+#include "tracker/state/particle.h"
 
 namespace walktrack {
 inline namespace tracker {

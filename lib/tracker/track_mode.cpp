@@ -6,10 +6,10 @@
 
 #include "core/log_weights.h"
 #include "tracker/frame_likelihood.h"
-#include "tracker/leg_label_evidence.h"
 #include "tracker/loss.h"
 #include "tracker/moves/mirror_legs.h"
 #include "tracker/smooth/refinement.h"
+#include "tracker/start/leg_label_evidence.h"
 
 namespace walktrack {
 inline namespace tracker {

@@ -5,7 +5,7 @@
 //       ^------- none explains the images ------'                             |
 //       ^--------------------- the monitor says: lost -----------------------'
 //
-// A mode that is tried is a copy; to take the trial back is to drop it (tracker/trial.h).
+// A mode that is tried is a copy; to take the trial back is to drop it (tracker/start/trial.h).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "tracker/monitor.h"
-#include "tracker/start_hypotheses.h"
+#include "tracker/start/start_hypotheses.h"
 #include "tracker/subject_model.h"
 #include "tracker/walker_filter.h"
 

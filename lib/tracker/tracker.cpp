@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "tracker/trial.h"
+#include "tracker/start/trial.h"
 
 namespace walktrack {
 inline namespace tracker {

@@ -1,10 +1,11 @@
 // The tracker: frames of evidence in, poses with their uncertainty out.
 //
 //   searching  for a walk in a sliding window of frames (tracker/detect/walk_search.h)
-//              which is tried out on the window (tracker/trial.h). A person of unknown size is
-//              sized up by the same window (tracker/detect/stature.h), once.
-//   starting   hypotheses over phase and side compete for a while     (tracker/start_hypotheses.h)
-//   tracking   for every frame: propagate, weigh, resample, estimate  (tracker/walker_filter.h)
+//              which is tried out on the window (tracker/start/trial.h). A person of unknown size
+//              is sized up by the same window (tracker/detect/stature.h), once.
+//   starting   hypotheses over phase and side compete for a while
+//              (tracker/start/start_hypotheses.h)
+//   tracking   for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h)
 //   lost       the monitor says so (tracker/monitor.h); searching again, for a while only where the
 //              subject can be
 //

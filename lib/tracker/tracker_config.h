@@ -5,7 +5,7 @@
 #include "tracker/detect/detector.h"
 #include "tracker/monitor.h"
 #include "tracker/motion/propagate.h"
-#include "tracker/start.h"
+#include "tracker/start/start.h"
 
 namespace walktrack {
 inline namespace tracker {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "gait/gait_prior.h"
+#include "gait/prior/gait_prior.h"
 #include "observation/observer.h"
 #include "tracker/detect/detector.h"
-#include "tracker/motion/particle.h"
+#include "tracker/state/particle.h"
 
 namespace walktrack {
 inline namespace tracker {

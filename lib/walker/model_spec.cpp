@@ -5,7 +5,7 @@
 
 #include "core/conventions.h"
 #include "core/errors.h"
-#include "walker/linkage_walker.h"
+#include "walker/linkage/linkage_walker.h"
 
 namespace walktrack {
 inline namespace walker {

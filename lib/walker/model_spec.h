@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "walker/models.h"
+#include "walker/linkage/models.h"
 #include "walker/monopode.h"
 
 namespace walktrack {

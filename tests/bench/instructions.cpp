@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "body/kinematics.h"
-#include "observation/silhouette.h"
+#include "observation/silhouette/silhouette.h"
 #include "tests/bench/scenes.h"
-#include "walker/kneed_batch.h"
+#include "walker/kneed/kneed_batch.h"
 
 namespace walktrack {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tests/bench/limits.h"
-#include "walker/straight_batch.h"
+#include "walker/straight/straight_batch.h"
 
 namespace walktrack {
 namespace {

@@ -8,12 +8,12 @@
 #include <stdexcept>
 
 #include "body/kinematics.h"
-#include "observation/silhouette.h"
+#include "observation/silhouette/silhouette.h"
 #include "tests/bench/legs.h"
 #include "tests/bench/limits.h"
 #include "tests/bench/peers.h"
 #include "tests/bench/scenes.h"
-#include "walker/kneed_batch.h"
+#include "walker/kneed/kneed_batch.h"
 
 namespace walktrack {
 namespace {

@@ -4,9 +4,9 @@
 #include <array>
 #include <memory>
 
-#include "observation/capsules.h"
-#include "observation/planes.h"
-#include "walker/kneed_points.h"
+#include "observation/silhouette/capsules.h"
+#include "observation/silhouette/planes.h"
+#include "walker/kneed/kneed_points.h"
 
 namespace walktrack {
 

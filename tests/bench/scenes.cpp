@@ -7,7 +7,7 @@
 #include "core/conventions.h"
 #include "tests/camera/made_camera.h"
 #include "tracker/motion/planar_body.h"
-#include "tracker/start.h"
+#include "tracker/start/start.h"
 
 namespace walktrack {
 namespace {

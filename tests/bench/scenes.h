@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "gait/gait_prior.h"
-#include "observation/capsules.h"
-#include "observation/planes.h"
+#include "gait/prior/gait_prior.h"
+#include "observation/silhouette/capsules.h"
+#include "observation/silhouette/planes.h"
 #include "tests/motion_context.h"
 #include "tracker/motion/propagate.h"
 

@@ -1,4 +1,4 @@
-#include "gait/prior_file.h"
+#include "gait/prior/prior_file.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {

@@ -1,4 +1,4 @@
-#include "gait/gait_prior.h"
+#include "gait/prior/gait_prior.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gait/build_prior.h"
+#include "gait/prior/build_prior.h"
 
 namespace walktrack {
 namespace {

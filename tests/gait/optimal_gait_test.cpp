@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gait/gait_prior.h"
+#include "gait/prior/gait_prior.h"
 
 namespace walktrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "gait/prior_file.h"
+#include "gait/prior/prior_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

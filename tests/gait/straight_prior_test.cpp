@@ -1,4 +1,4 @@
-#include "gait/straight_prior.h"
+#include "gait/prior/straight_prior.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <vector>
 
-#include "gait/build_straight_prior.h"
+#include "gait/prior/build_straight_prior.h"
 #include "gait/survival.h"
-#include "walker/linkage_walker.h"
+#include "walker/linkage/linkage_walker.h"
 #include "walker/simulate.h"
 
 namespace walktrack {

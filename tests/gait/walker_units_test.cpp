@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/walker/kneed_files.h"
-#include "walker/kneed_advance.h"
+#include "walker/kneed/kneed_advance.h"
 
 namespace walktrack {
 namespace {

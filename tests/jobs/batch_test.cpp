@@ -15,9 +15,9 @@
 
 #include "core/errors.h"
 #include "jobs/batch/batch_changes.h"
-#include "jobs/batch/folder_lock.h"
-#include "jobs/batch/sequence_claim.h"
 #include "jobs/batch/sequence_list.h"
+#include "jobs/batch/workers/folder_lock.h"
+#include "jobs/batch/workers/sequence_claim.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 

@@ -1,11 +1,11 @@
-#include "jobs/track/detections.h"
+#include "jobs/track/input/detections.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 
-#include "jobs/track/pose_model.h"
+#include "jobs/track/input/pose_model.h"
 #include "tests/io/sample_files.h"
 #include "tests/message_of.h"
 

@@ -11,7 +11,7 @@
 
 #include "core/conventions.h"
 #include "io/tables/motion_file.h"
-#include "jobs/track/motion_tables.h"
+#include "jobs/track/results/motion_tables.h"
 #include "tests/data_folders.h"
 
 namespace walktrack {

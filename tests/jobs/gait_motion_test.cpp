@@ -8,7 +8,7 @@
 #include "body/body.h"
 #include "core/conventions.h"
 #include "core/errors.h"
-#include "jobs/track/motion_tables.h"
+#include "jobs/track/results/motion_tables.h"
 #include "kinetics/force_error.h"
 #include "metrics/gait.h"
 

@@ -1,5 +1,5 @@
 // Left and right in front of one camera, which silhouettes from the side do not tell.
-#include "tracker/leg_label_evidence.h"
+#include "tracker/start/leg_label_evidence.h"
 
 #include <filesystem>
 

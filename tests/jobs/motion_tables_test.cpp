@@ -1,4 +1,4 @@
-#include "jobs/track/motion_tables.h"
+#include "jobs/track/results/motion_tables.h"
 
 #include <filesystem>
 #include <map>

@@ -1,4 +1,4 @@
-#include "jobs/track/movement.h"
+#include "jobs/track/input/movement.h"
 
 #include <gtest/gtest.h>
 

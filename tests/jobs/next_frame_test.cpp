@@ -1,4 +1,4 @@
-#include "jobs/track/next_frame.h"
+#include "jobs/track/input/next_frame.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "jobs/track/overlay_video.h"
+#include "jobs/track/results/overlay_video.h"
 
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-#include "jobs/track/person_finder.h"
+#include "jobs/track/input/person_finder.h"
 
 #include <algorithm>
 

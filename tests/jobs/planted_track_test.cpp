@@ -1,4 +1,4 @@
-#include "jobs/track/planted_track.h"
+#include "jobs/track/results/planted_track.h"
 
 #include <algorithm>
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "core/errors.h"
-#include "gait/prior_file.h"
+#include "gait/prior/prior_file.h"
 #include "io/archive/files.h"
 #include "jobs/prior/prior_pictures.h"
 

@@ -1,4 +1,4 @@
-#include "jobs/track/report_curves.h"
+#include "jobs/track/report/report_curves.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "jobs/batch/shard.h"
+#include "jobs/batch/workers/shard.h"
 
 #include <map>
 

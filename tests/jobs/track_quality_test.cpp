@@ -1,4 +1,4 @@
-#include "jobs/track/track_quality.h"
+#include "jobs/track/report/track_quality.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "io/archive/files.h"
-#include "jobs/track/quality_words.h"
+#include "jobs/track/report/quality_words.h"
 #include "tests/metrics/test_walk.h"
 #include "tests/run_program.h"
 

@@ -1,6 +1,6 @@
 // `batch --work`: results appear whole in the output, whatever happens to the worker, with a small
 // script in the place of `walktrack track`.
-#include "jobs/batch/work_folder.h"
+#include "jobs/batch/workers/work_folder.h"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,8 +13,8 @@
 
 #include "core/errors.h"
 #include "io/archive/files.h"
-#include "jobs/batch/batch_work.h"
-#include "jobs/batch/folder_move.h"
+#include "jobs/batch/workers/batch_work.h"
+#include "jobs/batch/workers/folder_move.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 

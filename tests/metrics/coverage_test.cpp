@@ -1,4 +1,4 @@
-#include "metrics/coverage.h"
+#include "metrics/statistics/coverage.h"
 
 #include <cmath>
 

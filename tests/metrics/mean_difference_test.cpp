@@ -1,4 +1,4 @@
-#include "metrics/mean_difference.h"
+#include "metrics/statistics/mean_difference.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "metrics/pareto.h"
+#include "metrics/statistics/pareto.h"
 
 #include <cmath>
 #include <limits>

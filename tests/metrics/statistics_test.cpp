@@ -1,4 +1,4 @@
-#include "metrics/statistics.h"
+#include "metrics/statistics/statistics.h"
 
 #include <gtest/gtest.h>
 

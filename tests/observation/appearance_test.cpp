@@ -1,4 +1,4 @@
-#include "observation/appearance.h"
+#include "observation/background/appearance.h"
 
 #include <cmath>
 

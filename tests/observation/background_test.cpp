@@ -1,4 +1,4 @@
-#include "observation/background_sampler.h"
+#include "observation/background/background_sampler.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "core/conventions.h"
 #include "core/errors.h"
 #include "core/rng.h"
-#include "observation/appearance.h"
+#include "observation/background/appearance.h"
 
 namespace walktrack {
 namespace {

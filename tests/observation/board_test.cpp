@@ -1,4 +1,4 @@
-#include "observation/board.h"
+#include "observation/calibration/board.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "camera/camera.h"
-#include "observation/board.h"
+#include "observation/calibration/board.h"
 
 namespace walktrack {
 
@@ -16,8 +16,8 @@ class BoardVideo {
  public:
   explicit BoardVideo(const Camera& lens);
 
-  // The picture of a board whose frame (observation/board.h) is placed by camera_from_board: a
-  // white sheet with a margin of one and a half spacings, before grey.
+  // The picture of a board whose frame (observation/calibration/board.h) is placed by
+  // camera_from_board: a white sheet with a margin of one and a half spacings, before grey.
   cv::Mat picture(const Board& board, const Eigen::Matrix3d& rotation,
                   const Eigen::Vector3d& translation) const;
 

@@ -1,4 +1,4 @@
-#include "observation/camera_fit.h"
+#include "observation/calibration/camera_fit.h"
 
 #include <array>
 #include <cmath>

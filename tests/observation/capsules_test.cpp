@@ -1,4 +1,4 @@
-#include "observation/capsules.h"
+#include "observation/silhouette/capsules.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "observation/colour.h"
+#include "observation/background/colour.h"
 
 #include <cmath>
 

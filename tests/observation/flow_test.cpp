@@ -1,4 +1,4 @@
-#include "observation/flow.h"
+#include "observation/flow/flow.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "observation/foreground_grid.h"
+#include "observation/background/foreground_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "observation/keypoint_term.h"
+#include "observation/keypoints/keypoint_term.h"
 
 #include <cmath>
 #include <functional>

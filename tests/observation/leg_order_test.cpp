@@ -1,11 +1,11 @@
-#include "observation/leg_order.h"
+#include "observation/flow/leg_order.h"
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "observation/leg_order_term.h"
+#include "observation/flow/leg_order_term.h"
 #include "observation/terms.h"
 #include "tests/observation/scenes.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/errors.h"
 #include "core/parallel_for.h"
-#include "observation/background_sampler.h"
+#include "observation/background/background_sampler.h"
 #include "tests/observation/picture_terms.h"
 #include "tests/observation/rendered.h"
 #include "tests/observation/scenes.h"

@@ -1,4 +1,4 @@
-#include "observation/overlap.h"
+#include "observation/silhouette/overlap.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "observation/part_discs.h"
+#include "observation/silhouette/part_discs.h"
 
 #include <algorithm>
 #include <optional>
@@ -14,8 +14,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// The formula of observation/capsules.h for one end, in world axes, by the camera's own project():
-// nothing of it is shared with the vector code.
+// The formula of observation/silhouette/capsules.h for one end, in world axes, by the camera's own
+// project(): nothing of it is shared with the vector code.
 struct PlainDisc {
   Vector2d centre;
   double radius;

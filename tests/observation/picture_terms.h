@@ -3,7 +3,7 @@
 #pragma once
 
 #include "observation/observer.h"
-#include "observation/silhouette.h"
+#include "observation/silhouette/silhouette.h"
 
 namespace walktrack {
 

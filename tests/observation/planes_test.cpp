@@ -1,4 +1,4 @@
-#include "observation/planes.h"
+#include "observation/silhouette/planes.h"
 
 #include <gtest/gtest.h>
 

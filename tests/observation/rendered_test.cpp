@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "observation/background_sampler.h"
+#include "observation/background/background_sampler.h"
 #include "tests/observation/perturbed.h"
 #include "tests/observation/scenes.h"
 

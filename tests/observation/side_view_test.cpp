@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "observation/background_sampler.h"
+#include "observation/background/background_sampler.h"
 #include "observation/shrink.h"
 #include "tests/observation/perturbed.h"
 #include "tests/observation/picture_terms.h"

@@ -1,4 +1,4 @@
-#include "observation/silhouette.h"
+#include "observation/silhouette/silhouette.h"
 
 #include <algorithm>
 #include <set>

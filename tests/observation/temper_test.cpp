@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "observation/background_sampler.h"
+#include "observation/background/background_sampler.h"
 #include "tests/observation/perturbed.h"
 #include "tests/observation/picture_terms.h"
 #include "tests/observation/rendered.h"

@@ -8,7 +8,7 @@
 
 #include "core/errors.h"
 #include "io/tables/csv.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/statistics.h"
 
 namespace walktrack {
 

@@ -13,7 +13,7 @@
 #include "io/tables/motion_file.h"
 #include "jobs/evaluate/evaluate.h"
 #include "jobs/render/render.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/statistics.h"
 
 namespace walktrack {
 

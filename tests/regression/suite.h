@@ -12,7 +12,7 @@
 #include "body/motion.h"
 #include "jobs/evaluate/evaluate.h"
 #include "jobs/track/track.h"
-#include "metrics/coverage.h"
+#include "metrics/statistics/coverage.h"
 #include "tests/regression/bands.h"
 
 namespace walktrack {

@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/conventions.h"
-#include "observation/background_sampler.h"
+#include "observation/background/background_sampler.h"
 #include "observation/observer.h"
 #include "synth/made_walk.h"
 #include "synth/sensor.h"

@@ -14,9 +14,9 @@
 
 #include "body/kinematics.h"
 #include "body/pose_from_joints.h"
-#include "observation/background_sampler.h"
-#include "observation/capsules.h"
-#include "observation/flow.h"
+#include "observation/background/background_sampler.h"
+#include "observation/flow/flow.h"
+#include "observation/silhouette/capsules.h"
 #include "synth/made_walk.h"
 #include "synth/stage.h"
 #include "tests/synth/filmed.h"

@@ -13,8 +13,8 @@
 
 #include "body/kinematics.h"
 #include "core/conventions.h"
-#include "observation/background_sampler.h"
-#include "observation/capsules.h"
+#include "observation/background/background_sampler.h"
+#include "observation/silhouette/capsules.h"
 #include "synth/sensor.h"
 #include "synth/view.h"
 #include "tests/observation/picture_terms.h"

@@ -7,7 +7,7 @@
 #include "tracker/motion/kneed_motion.h"
 #include "tracker/motion/planar_body.h"
 #include "tracker/motion/propagate.h"
-#include "tracker/start.h"
+#include "tracker/start/start.h"
 #include "tracker/tracker_scene.h"
 #include "tracker/walker_filter.h"
 

@@ -6,7 +6,7 @@
 
 #include "body/kinematics.h"
 #include "observation/observer.h"
-#include "observation/silhouette.h"
+#include "observation/silhouette/silhouette.h"
 
 namespace walktrack {
 

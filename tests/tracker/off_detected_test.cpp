@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
-#include "observation/keypoint_points.h"
+#include "observation/keypoints/keypoint_points.h"
 #include "tests/tracker/frame_time.h"
 #include "tests/tracker/side_camera.h"
 #include "tracker/tracker.h"

@@ -1,4 +1,4 @@
-#include "tracker/motion/particle.h"
+#include "tracker/state/particle.h"
 
 #include <cmath>
 

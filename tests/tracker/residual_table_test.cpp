@@ -1,5 +1,5 @@
 // The table of a particle's residual angles.
-#include "tracker/motion/residual_table.h"
+#include "tracker/state/residual_table.h"
 
 #include <cmath>
 #include <set>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
-#include "tracker/motion/noise_groups.h"
+#include "tracker/state/noise_groups.h"
 
 namespace walktrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "tracker/start_hypotheses.h"
+#include "tracker/start/start_hypotheses.h"
 
 #include <cmath>
 

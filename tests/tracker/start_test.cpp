@@ -1,4 +1,4 @@
-#include "tracker/start.h"
+#include "tracker/start/start.h"
 
 #include <gtest/gtest.h>
 

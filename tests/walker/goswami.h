@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/conventions.h"
-#include "walker/models.h"
+#include "walker/linkage/models.h"
 
 namespace walktrack {
 

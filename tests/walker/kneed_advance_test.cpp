@@ -1,4 +1,4 @@
-#include "walker/kneed_advance.h"
+#include "walker/kneed/kneed_advance.h"
 
 #include <cmath>
 #include <limits>

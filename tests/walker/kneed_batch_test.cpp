@@ -1,4 +1,4 @@
-#include "walker/kneed_batch.h"
+#include "walker/kneed/kneed_batch.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

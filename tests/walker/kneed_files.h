@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "walker/kneed_walker.h"
+#include "walker/kneed/kneed_walker.h"
 
 namespace walktrack {
 

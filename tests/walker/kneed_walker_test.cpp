@@ -1,4 +1,4 @@
-#include "walker/kneed_walker.h"
+#include "walker/kneed/kneed_walker.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "core/conventions.h"
 #include "tests/walker/kneed_files.h"
-#include "walker/kneed_advance.h"
+#include "walker/kneed/kneed_advance.h"
 
 namespace walktrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "walker/linkage_walker.h"
+#include "walker/linkage/linkage_walker.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include "tests/walker/find_gait.h"
 #include "tests/walker/goswami.h"
 #include "tests/walker/kneed_files.h"
-#include "walker/kneed_advance.h"
-#include "walker/models.h"
+#include "walker/kneed/kneed_advance.h"
+#include "walker/linkage/models.h"
 
 namespace walktrack {
 namespace {

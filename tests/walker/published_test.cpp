@@ -10,8 +10,8 @@
 #include "core/conventions.h"
 #include "tests/walker/find_gait.h"
 #include "tests/walker/goswami.h"
-#include "walker/linkage_walker.h"
-#include "walker/models.h"
+#include "walker/linkage/linkage_walker.h"
+#include "walker/linkage/models.h"
 #include "walker/monopode.h"
 
 namespace walktrack {

@@ -8,8 +8,8 @@
 #include "tests/mechanics/random_state.h"
 #include "tests/simbody/tree.h"
 #include "tests/walker/kneed_files.h"
-#include "walker/linkage_walker.h"
-#include "walker/models.h"
+#include "walker/linkage/linkage_walker.h"
+#include "walker/linkage/models.h"
 
 #if WALKTRACK_HAS_SIMBODY
 

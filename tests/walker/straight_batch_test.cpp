@@ -1,4 +1,4 @@
-#include "walker/straight_batch.h"
+#include "walker/straight/straight_batch.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
@@ -10,7 +10,7 @@
 
 #include "core/parallel_for.h"
 #include "core/rng.h"
-#include "walker/linkage_walker.h"
+#include "walker/linkage/linkage_walker.h"
 #include "walker/simulate.h"
 
 namespace walktrack {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "observation/keypoints.h"
+#include "observation/keypoints/keypoints.h"
 
 namespace walktrack {
 inline namespace io {

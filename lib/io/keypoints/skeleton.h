@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "observation/keypoints.h"
+#include "observation/keypoints/keypoints.h"
 
 namespace walktrack {
 inline namespace io {

@@ -12,7 +12,7 @@
 
 #include "body/motion.h"
 #include "camera/world_frame.h"
-#include "metrics/coverage.h"
+#include "metrics/statistics/coverage.h"
 
 namespace walktrack {
 inline namespace io {

@@ -11,10 +11,10 @@
 #include "core/errors.h"
 #include "io/archive/result_folder.h"
 #include "jobs/batch/batch_changes.h"
-#include "jobs/batch/batch_work.h"
-#include "jobs/batch/sequence_claim.h"
 #include "jobs/batch/sequence_list.h"
-#include "jobs/batch/work_folder.h"
+#include "jobs/batch/workers/batch_work.h"
+#include "jobs/batch/workers/sequence_claim.h"
+#include "jobs/batch/workers/work_folder.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -19,7 +19,7 @@
 #include "io/archive/result_folder.h"
 #include "io/config/config.h"
 #include "jobs/batch/batch_figures.h"
-#include "jobs/batch/child_process.h"
+#include "jobs/batch/workers/child_process.h"
 
 namespace walktrack {
 inline namespace jobs {

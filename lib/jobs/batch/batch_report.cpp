@@ -8,10 +8,10 @@
 #include "io/config/text.h"
 #include "io/drawing/report_page.h"
 #include "jobs/batch/batch.h"
-#include "jobs/batch/bids_report.h"
-#include "jobs/batch/folder_lock.h"
+#include "jobs/batch/bids/bids_report.h"
 #include "jobs/batch/sequence_list.h"
 #include "jobs/batch/subject_table.h"
+#include "jobs/batch/workers/folder_lock.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -1,7 +1,7 @@
 #include "jobs/batch/sequence_list.h"
 
 #include "core/errors.h"
-#include "jobs/batch/bids_names.h"
+#include "jobs/batch/bids/bids_names.h"
 
 namespace walktrack {
 inline namespace jobs {

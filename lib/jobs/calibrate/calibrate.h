@@ -5,8 +5,8 @@
 //   <name>_lens.png       all views' points and their misses; <name>_place.png the ground seen
 //   <name>_run.json       how the files came about
 //
-// World axes: with a board on the floor its first point (observation/board.h) is the origin, x runs
-// along its rows, z is up. With measured points they are those of the points.
+// World axes: with a board on the floor its first point (observation/calibration/board.h) is the
+// origin, x runs along its rows, z is up. With measured points they are those of the points.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "core/job_control.h"
-#include "observation/board.h"
-#include "observation/camera_fit.h"
+#include "observation/calibration/board.h"
+#include "observation/calibration/camera_fit.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -3,12 +3,12 @@
 // parameters, as a page, JSON and tables.
 //
 // Differences are a group's mean minus the first group's. Bands and intervals are bootstrapped over
-// strides, or over results where these are of several people or days (metrics/mean_difference.h).
-// What a difference has to exceed to be more than the scatter of strides and the tracker's own
-// uncertainty together is the minimal detectable change, t sqrt(SEM_a^2 + SEM_b^2), where SEM^2
-// of a group = SD^2 / n over its strides + (SD by the results' own bands)^2 / number of results,
-// and t is Student's at 97.5 % (1.96 with many strides) with the degrees of freedom that Welch
-// gives the strides.
+// strides, or over results where these are of several people or days
+// (metrics/statistics/mean_difference.h). What a difference has to exceed to be more than the
+// scatter of strides and the tracker's own uncertainty together is the minimal detectable change, t
+// sqrt(SEM_a^2 + SEM_b^2), where SEM^2 of a group = SD^2 / n over its strides + (SD by the results'
+// own bands)^2 / number of results, and t is Student's at 97.5 % (1.96 with many strides) with the
+// degrees of freedom that Welch gives the strides.
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "jobs/compare/compare_trials.h"
-#include "metrics/mean_difference.h"
+#include "metrics/statistics/mean_difference.h"
 
 namespace walktrack {
 inline namespace jobs {

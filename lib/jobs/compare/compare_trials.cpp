@@ -10,9 +10,9 @@
 #include "core/errors.h"
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
-#include "jobs/track/report_curves.h"
+#include "jobs/track/report/report_curves.h"
 #include "metrics/cycle_curve.h"
-#include "metrics/mean_difference.h"
+#include "metrics/statistics/mean_difference.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -9,8 +9,8 @@
 #include "io/archive/run_record.h"
 #include "io/archive/sha256.h"
 #include "io/tables/motion_file.h"
-#include "jobs/track/report.h"
-#include "jobs/track/track_quality.h"
+#include "jobs/track/report/report.h"
+#include "jobs/track/report/track_quality.h"
 #include "metrics/joint_error.h"
 
 namespace walktrack {

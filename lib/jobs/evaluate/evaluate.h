@@ -11,8 +11,8 @@
 #include "body/motion.h"
 #include "io/drawing/error_plot.h"
 #include "kinetics/force_error.h"
-#include "metrics/coverage.h"
 #include "metrics/references.h"
+#include "metrics/statistics/coverage.h"
 
 namespace walktrack {
 inline namespace jobs {

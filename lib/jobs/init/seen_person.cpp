@@ -7,8 +7,8 @@
 #include "io/archive/files.h"
 #include "io/video/video.h"
 #include "jobs/init/figure_tracks.h"
-#include "jobs/track/person_finder.h"
-#include "jobs/track/pose_model.h"
+#include "jobs/track/input/person_finder.h"
+#include "jobs/track/input/pose_model.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -10,9 +10,9 @@
 #include "io/archive/files.h"
 #include "io/video/video.h"
 #include "jobs/init/figure_tracks.h"
-#include "jobs/track/person_finder.h"
-#include "jobs/track/pose_model.h"
-#include "observation/background_sampler.h"
+#include "jobs/track/input/person_finder.h"
+#include "jobs/track/input/pose_model.h"
+#include "observation/background/background_sampler.h"
 #include "observation/observer.h"
 #include "observation/shrink.h"
 

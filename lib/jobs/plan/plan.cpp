@@ -9,7 +9,7 @@
 
 #include "core/conventions.h"
 #include "io/video/scene_video.h"
-#include "jobs/track/detections.h"
+#include "jobs/track/input/detections.h"
 #include "jobs/track/track_setup.h"
 #include "tracker/walker_filter.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/job_control.h"
-#include "gait/build_prior.h"
+#include "gait/prior/build_prior.h"
 
 namespace walktrack {
 inline namespace jobs {

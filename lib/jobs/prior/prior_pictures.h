@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gait/gait_prior.h"
+#include "gait/prior/gait_prior.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.h"
-#include "walker/linkage_walker.h"
+#include "walker/linkage/linkage_walker.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -10,8 +10,8 @@
 #include "core/conventions.h"
 #include "core/errors.h"
 #include "jobs/prior/prior_walk.h"
-#include "tracker/motion/particle.h"
 #include "tracker/motion/planar_body.h"
+#include "tracker/state/particle.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -2,7 +2,7 @@
 // motion of `walktrack render` whose truth includes forces.
 //
 // The walker walks in a vertical plane. Hips and feet are half a hip width to either side of it,
-// feet lie where its round feet roll (rolled_ankle of tracker/motion/particle.h), a swinging foot
+// feet lie where its round feet roll (rolled_ankle of tracker/state/particle.h), a swinging foot
 // as it would stand. Arms swing against the legs; their mass is in the walker's torso. One foot
 // stands at a time: support passes over in an instant, by the impulses of toe-off and strike.
 #pragma once

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <string>
 
-#include "observation/keypoints.h"
+#include "observation/keypoints/keypoints.h"
 #include "synth/stage.h"
 
 namespace walktrack {

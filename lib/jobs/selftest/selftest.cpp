@@ -13,7 +13,7 @@
 
 #include "io/archive/files.h"
 #include "io/config/text.h"
-#include "jobs/batch/child_process.h"
+#include "jobs/batch/workers/child_process.h"
 
 namespace walktrack {
 inline namespace jobs {

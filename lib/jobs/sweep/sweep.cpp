@@ -19,8 +19,8 @@
 #include "jobs/track/track.h"
 #include "jobs/track/track_origin.h"
 #include "metrics/joint_error.h"
-#include "metrics/pareto.h"
-#include "metrics/statistics.h"
+#include "metrics/statistics/pareto.h"
+#include "metrics/statistics/statistics.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -1,6 +1,6 @@
 // `walktrack track`: one scene becomes a result folder:
-//   joints.csv, uncertainty.csv, the tables of jobs/track/motion_tables.h, overlay_<camera>.mp4,
-//   report.html, run.json
+//   joints.csv, uncertainty.csv, the tables of jobs/track/results/motion_tables.h,
+//   overlay_<camera>.mp4, report.html, run.json
 // Frames are streamed and their records kept in a file (io/archive/frame_file.h): what grows in
 // memory with the video is what the tables are made of, some kilobytes a frame, at the end.
 //
@@ -22,7 +22,7 @@
 #include "io/config/config.h"
 #include "io/scene/scene.h"
 #include "jobs/check/check.h"
-#include "jobs/track/walk_summary.h"
+#include "jobs/track/report/walk_summary.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -8,8 +8,8 @@
 #include "io/archive/run_record.h"
 #include "io/archive/sha256.h"
 #include "io/video/video_digest.h"
-#include "jobs/track/detections.h"
-#include "jobs/track/pose_model.h"
+#include "jobs/track/input/detections.h"
+#include "jobs/track/input/pose_model.h"
 #include "jobs/track/track_run.h"
 
 namespace walktrack {

@@ -10,7 +10,7 @@
 #include "body/kinematics.h"
 #include "core/errors.h"
 #include "core/parallel_for.h"
-#include "jobs/track/why_nobody.h"
+#include "jobs/track/report/why_nobody.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -13,12 +13,12 @@
 
 #include "io/archive/checkpoint_file.h"
 #include "io/archive/result_folder.h"
-#include "jobs/track/movement.h"
-#include "jobs/track/next_frame.h"
+#include "jobs/track/input/movement.h"
+#include "jobs/track/input/next_frame.h"
 #include "jobs/track/particle_budget.h"
+#include "jobs/track/results/track_results.h"
 #include "jobs/track/stopwatch.h"
 #include "jobs/track/track.h"
-#include "jobs/track/track_results.h"
 #include "jobs/track/track_setup.h"
 
 namespace walktrack {

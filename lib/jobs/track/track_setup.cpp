@@ -10,8 +10,8 @@
 #include "core/errors.h"
 #include "core/parallel_for.h"
 #include "io/video/video.h"
-#include "observation/background_sampler.h"
-#include "observation/flow.h"
+#include "observation/background/background_sampler.h"
+#include "observation/flow/flow.h"
 #include "observation/shrink.h"
 #include "tracker/motion/planar_body.h"
 

@@ -8,7 +8,7 @@
 #include "core/job_control.h"
 #include "io/config/config.h"
 #include "io/scene/scene.h"
-#include "jobs/track/detections.h"
+#include "jobs/track/input/detections.h"
 #include "observation/observer.h"
 #include "tracker/tracker_scene.h"
 

@@ -13,7 +13,7 @@
 
 #include <span>
 
-#include "observation/keypoints.h"
+#include "observation/keypoints/keypoints.h"
 
 namespace walktrack {
 inline namespace observation {

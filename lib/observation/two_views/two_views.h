@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "camera/view_from_walker.h"
-#include "observation/keypoints.h"
+#include "observation/keypoints/keypoints.h"
 
 namespace walktrack {
 inline namespace observation {

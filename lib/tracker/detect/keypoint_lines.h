@@ -14,7 +14,7 @@
 
 #include <Eigen/Core>
 
-#include "observation/keypoint_term.h"
+#include "observation/keypoints/keypoint_term.h"
 
 namespace walktrack {
 inline namespace tracker {

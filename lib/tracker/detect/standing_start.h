@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "tracker/detect/detector.h"
-#include "tracker/motion/particle.h"
+#include "tracker/state/particle.h"
 
 namespace walktrack {
 inline namespace tracker {

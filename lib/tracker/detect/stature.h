@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "tracker/detect/detector.h"
-#include "tracker/motion/particle.h"
+#include "tracker/state/particle.h"
 
 namespace walktrack {
 inline namespace tracker {

@@ -7,8 +7,8 @@
 #include "core/conventions.h"
 #include "tracker/motion/kneed_motion.h"
 #include "tracker/motion/markov_motion.h"
-#include "tracker/motion/noise_groups.h"
 #include "tracker/motion/support.h"
+#include "tracker/state/noise_groups.h"
 
 namespace walktrack {
 inline namespace tracker {

@@ -5,12 +5,12 @@
 #include <Eigen/Cholesky>
 
 #include "core/conventions.h"
-#include "tracker/motion/noise_groups.h"
 #include "tracker/motion/standing.h"
 #include "tracker/motion/support.h"
 #include "tracker/motion/walk_on.h"
 #include "tracker/moves/phase_jump.h"
-#include "walker/kneed_batch.h"
+#include "tracker/state/noise_groups.h"
+#include "walker/kneed/kneed_batch.h"
 
 namespace walktrack {
 inline namespace tracker {

@@ -3,7 +3,7 @@
 // anew (tracker/moves/phase_jump.h).
 #pragma once
 
-#include "gait/gait_prior.h"
+#include "gait/prior/gait_prior.h"
 #include "tracker/motion/motion_model.h"
 #include "tracker/motion/step_library.h"
 

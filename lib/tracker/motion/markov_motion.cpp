@@ -6,8 +6,8 @@
 #include "body/kinematics.h"
 #include "core/conventions.h"
 #include "tracker/motion/kneed_motion.h"
-#include "tracker/motion/noise_groups.h"
 #include "tracker/motion/propagate.h"
+#include "tracker/state/noise_groups.h"
 
 namespace walktrack {
 inline namespace tracker {

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "body/subject.h"
-#include "walker/kneed_walker.h"
+#include "walker/kneed/kneed_walker.h"
 
 namespace walktrack {
 inline namespace tracker {

@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "core/conventions.h"
-#include "tracker/motion/noise_groups.h"
 #include "tracker/motion/standing.h"
+#include "tracker/state/noise_groups.h"
 
 namespace walktrack {
 inline namespace tracker {

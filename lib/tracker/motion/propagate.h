@@ -14,7 +14,7 @@
 #include <array>
 #include <span>
 
-#include "gait/gait_prior.h"
+#include "gait/prior/gait_prior.h"
 #include "tracker/motion/motion_model.h"
 
 namespace walktrack {
@@ -41,7 +41,7 @@ struct MotionConfig {
   double footfall_decay = 0.05;  // s after the strike in which that uncertainty dies away
   double start_position_sd = 0.15;  // m, the same when a walker is first found
   double given_position_sd = 0.1;   // m, the same when the scene says where
-  double control_noise = 0.05;      // relative, per step (gait/gait_prior.h)
+  double control_noise = 0.05;      // relative, per step (gait/prior/gait_prior.h)
   double feedback = 1;              // strength of the correction of controls at a support transfer
   double aim_drift = 0.06;          // relative, per step, of the speed and the step length aimed at
   double phase_jump_rate =

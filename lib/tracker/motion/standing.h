@@ -6,11 +6,11 @@
 // clock, no steps, no torques. A particle that sets off takes the pose as an early moment of a step
 // of either leg, slower at first than the step will be; one that stops takes it as standing, with
 // residuals that take the swinging leg in. Both keep the pose as it is
-// (tracker/motion/residual_angles.h).
+// (tracker/state/residual_angles.h).
 #pragma once
 
-#include "tracker/motion/residual_angles.h"
 #include "tracker/motion/step_library.h"
+#include "tracker/state/residual_angles.h"
 
 namespace walktrack {
 inline namespace tracker {

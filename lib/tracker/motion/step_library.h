@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/rng.h"
-#include "gait/gait_prior.h"
-#include "tracker/motion/particle.h"
+#include "gait/prior/gait_prior.h"
+#include "tracker/state/particle.h"
 
 namespace walktrack {
 inline namespace tracker {

@@ -13,7 +13,7 @@
 namespace walktrack {
 inline namespace tracker {
 
-// Added to the angles of the walker's thigh and shank (walker/kneed_walker.h), rad.
+// Added to the angles of the walker's thigh and shank (walker/kneed/kneed_walker.h), rad.
 struct LegDifference {
   double thigh, shank;
 };

@@ -7,7 +7,7 @@
 #include "core/scratch.h"
 #include "tracker/motion/kneed_motion.h"
 #include "tracker/motion/support.h"
-#include "walker/kneed_batch.h"
+#include "walker/kneed/kneed_batch.h"
 
 namespace walktrack {
 inline namespace tracker {

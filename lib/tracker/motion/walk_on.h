@@ -1,6 +1,6 @@
 // The physics of a frame: kneed walkers under their springs, with new controls and another standing
-// foot at every support transfer. Walkers share vectors (walker/kneed_batch.h); what happens to one
-// does not depend on the others.
+// foot at every support transfer. Walkers share vectors (walker/kneed/kneed_batch.h); what happens
+// to one does not depend on the others.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
 #include "tracker/moves/phase_jump.h"
 
-#include "tracker/motion/residual_angles.h"
+#include "tracker/state/residual_angles.h"
 
 namespace walktrack {
 inline namespace tracker {

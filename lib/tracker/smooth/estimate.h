@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "body/joint_angles.h"
-#include "tracker/motion/particle.h"
+#include "tracker/state/particle.h"
 
 namespace walktrack {
 inline namespace tracker {

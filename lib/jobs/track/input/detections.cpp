@@ -1,0 +1,134 @@
+#include "jobs/track/input/detections.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/errors.h"
+#include "io/archive/files.h"
+#include "jobs/track/input/pose_model.h"
+#include "jobs/track/track_setup.h"
+
+namespace walktrack {
+inline namespace jobs {
+
+namespace {
+
+bool all_have_files(const Scene& scene) {
+  return std::all_of(scene.cameras.begin(), scene.cameras.end(),
+                     [](const SceneCamera& camera) { return !camera.keypoints.path.empty(); });
+}
+
+// A camera without a video has no pictures to look into.
+bool wants_network(const SceneCamera& camera) {
+  return camera.keypoints.path.empty() && !camera.video.empty();
+}
+
+KeypointFrames checked_keypoints(const SceneCamera& camera) {
+  KeypointFrames frames = read_keypoints(camera.keypoints);
+  check_image_size(frames, camera.keypoints, camera.camera);
+  return frames;
+}
+
+[[noreturn]] void fail_without_network(const KeypointConfig& config) {
+  throw UsageError(describe({"", 0, "observation.keypoints.enabled"},
+                            has_pose_net() ? "no file of the model " + config.model
+                                           : "a program that was built without a pose detector",
+                            "off, or keypoint files for every camera"));
+}
+
+bool has_network(const KeypointConfig& config) {
+  return has_pose_net() && pose_model_file(config.model);
+}
+
+// Whether one camera alone sees people large enough for the network.
+bool network_would_tell(const Scene& scene, const Config& config) {
+  return scene.cameras.size() <= kCamerasInDoubt &&
+         std::all_of(scene.cameras.begin(), scene.cameras.end(), [&](const SceneCamera& camera) {
+           return wants_network(camera) &&
+                  working_scale(scene, camera.camera, config).person_px >= kLeastPerson_px;
+         });
+}
+
+}  // namespace
+
+bool keypoints_wanted(const Scene& scene, const Config& config) {
+  const KeypointConfig& keypoints = config.observation.keypoints;
+  if (keypoints.enabled != TermSetting::kAuto) return keypoints.enabled == TermSetting::kOn;
+  return all_have_files(scene) || (has_network(keypoints) && network_would_tell(scene, config));
+}
+
+std::string missing_network_note(const Scene& scene, const Config& config) {
+  const KeypointConfig& keypoints = config.observation.keypoints;
+  if (keypoints.enabled != TermSetting::kAuto || all_have_files(scene) || has_network(keypoints) ||
+      !network_would_tell(scene, config))
+    return "";
+  return fmt::format(
+      "without keypoints: {}; with one camera left and right then rest on outlines alone",
+      has_pose_net() ? "the network '" + keypoints.model + "' is not beside the program"
+                     : "the program was built without a pose detector");
+}
+
+bool flow_wanted(const Config& config) {
+  return config.observation.flow.enabled == TermSetting::kOn;
+}
+
+ObservationConfig decided_terms(const Scene& scene, const Config& config) {
+  ObservationConfig out = config.observation;
+  const auto setting = [](bool on) { return on ? TermSetting::kOn : TermSetting::kOff; };
+  out.flow.enabled = setting(flow_wanted(config));
+  out.keypoints.enabled = setting(keypoints_wanted(scene, config));
+  return out;
+}
+
+Detections::Detections(const Scene& scene, const KeypointConfig& config,
+                       std::span<const WorkingScale> scales)
+    : every_(config.every), height_(scene.subject.height) {
+  std::string model;
+  const auto file = pose_model_file(config.model);
+  for (const SceneCamera& camera : scene.cameras) {
+    const size_t c = cameras_.size();
+    Viewer viewer;
+    viewer.name = camera.name;
+    viewer.shrink = scales[c].shrink;
+    if (!camera.keypoints.path.empty()) viewer.file = checked_keypoints(camera);
+    if (wants_network(camera)) {
+      if (!has_pose_net() || !file) fail_without_network(config);
+      if (model.empty()) model = read_text_file(*file, kMaxModelBytes);
+      viewer.net.emplace(model, file->string());
+      viewer.finder.emplace(camera.camera.width_px, camera.camera.height_px, scales[c].person_px);
+      network_ = true;
+    }
+    cameras_.push_back(std::move(viewer));
+  }
+}
+
+std::vector<std::string> Detections::notes(const std::vector<int>& video_frames) const {
+  std::vector<std::string> out;
+  for (size_t c = 0; c < cameras_.size(); ++c) {
+    if (!cameras_[c].file) continue;
+    for (const std::string& note : keypoint_notes(*cameras_[c].file, video_frames[c]))
+      out.push_back(fmt::format("keypoints of camera {}: {}", cameras_[c].name, note));
+  }
+  return out;
+}
+
+DetectedPeople Detections::look(size_t camera, const FrameToLookAt& frame) {
+  if (!on()) return {};
+  Viewer& viewer = cameras_[camera];
+  if (!viewer.file) return viewer.net ? seen_by_network(viewer, frame) : DetectedPeople{};
+  const auto found = viewer.file->people.find(frame.source);
+  return found == viewer.file->people.end() ? DetectedPeople{} : found->second;
+}
+
+DetectedPeople Detections::seen_by_network(Viewer& viewer, const FrameToLookAt& frame) const {
+  if (frame.around) viewer.finder->forget();
+  if (frame.scene_frame % every_ != 0) return {};
+  if (!frame.around)
+    return viewer.finder->look(*viewer.net, frame.picture, frame.scene_frame / every_);
+  if (frame.region.area.empty()) return {};
+  return {viewer.net->detect(frame.picture, cut_out_around(frame.region, viewer.shrink, height_))};
+}
+
+}  // namespace jobs
+}  // namespace walktrack

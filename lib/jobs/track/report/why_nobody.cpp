@@ -1,0 +1,154 @@
+#include "jobs/track/report/why_nobody.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/anthropometry.h"
+#include "io/video/scene_video.h"
+#include "tracker/tracker_scene.h"
+
+namespace walktrack {
+inline namespace jobs {
+
+namespace {
+
+using anthropometry::kUsualSpeed;
+using Eigen::Vector2d;
+
+constexpr double kShortest = 0.5;  // s, of what is searched
+constexpr double kBetween = 0.4;   // s between frames that are looked at
+constexpr int kMostLooks = 40;     // frames
+constexpr double kFar = 4;         // how many times smaller figures are tried, too
+
+// The best figure of a frame, nats; 0 = none is better than an empty scene.
+struct Seen {
+  double score = 0;
+  Vector2d place = Vector2d::Zero();
+};
+
+struct Account {
+  Seen best, best_small;
+  double speed = 0;  // m/s, where the best figure was
+};
+
+class Looker {
+ public:
+  Looker(const SearchedVideo& searched, TrackSetup& setup)
+      : searched_(searched),
+        setup_(setup),
+        figures_(setup.scene.model, searched.prior),
+        near_(standing_places(setup.scene.cameras, height(), searched.config)) {
+    for (const Vector2d& place :
+         standing_places(setup.scene.cameras, kFar * height(), searched.config)) {
+      if (px(place) < least_px()) far_.push_back(place);
+    }
+  }
+
+  double height() const { return setup_.scene.model.body.subject.height; }
+  // In the first camera's video.
+  double px(const Vector2d& place) const {
+    return height_px(searched_.scene.cameras[0].camera, place, height());
+  }
+  // The lowest figure that is looked for; 0 if none is.
+  double least_px() const {
+    double least = near_.empty() ? 0 : px(near_[0]);
+    for (const Vector2d& place : near_) least = std::min(least, px(place));
+    return least;
+  }
+
+  Account look(const JobControl& control) {
+    SceneVideo video(searched_.scene);
+    const int all = std::max(1, video.frame_count());
+    const int step =
+        std::max(all / kMostLooks, static_cast<int>(std::lround(kBetween * video.frame_rate())));
+    Account account;
+    Seen before;
+    SceneFrames images;
+    for (int n = 0; !control.stopping() && video.read(images); ++n) {
+      if (n % std::max(1, step) != 0) continue;
+      control.progress("looking again", static_cast<size_t>(n), static_cast<size_t>(all));
+      const SceneEvidence evidence = evidence_of(images);
+      const Seen seen = best_of(evidence, near_);
+      if (std::min(seen.score, before.score) > 0 && seen.score > account.best.score)
+        account.speed = (seen.place - before.place).norm() * video.frame_rate() / step;
+      if (seen.score > account.best.score) account.best = seen;
+      const Seen small = best_of(evidence, far_);
+      if (small.score > account.best_small.score) account.best_small = small;
+      before = seen;
+    }
+    return account;
+  }
+
+ private:
+  SceneEvidence evidence_of(const SceneFrames& images) {
+    SceneEvidence evidence(setup_.observers.size());
+    for (size_t c = 0; c < setup_.observers.size(); ++c)
+      setup_.observers[c].observe(images.images[c], searched_.everywhere[c], evidence[c]);
+    return evidence;
+  }
+
+  Seen best_of(const SceneEvidence& evidence, std::span<const Vector2d> places) const {
+    const auto score = [&](const Vector2d& place) {
+      const double heading = side_on_heading(setup_.scene.cameras[0], place);
+      return place_score(setup_.scene, evidence, setup_.scene.model.body,
+                         figures_.at(kUsualSpeed, heading), place, heading);
+    };
+    const std::vector<Place> found =
+        find_figures(score, places, searched_.config, searched_.threads);
+    return found.empty() ? Seen{} : Seen{found[0].score, found[0].position};
+  }
+
+  const SearchedVideo& searched_;
+  TrackSetup& setup_;
+  PoseTemplates figures_;
+  std::vector<Vector2d> near_, far_;  // places where figures are large enough, and smaller
+};
+
+std::string in_words(const Account& seen, const Looker& looker, const DetectorConfig& config) {
+  if (seen.best.score < config.least_score && seen.best_small.score >= config.least_score) {
+    return fmt::format(": who is there is about {:.0f} px high, at least {:.0f} px are needed",
+                       looker.px(seen.best_small.place), std::ceil(looker.least_px()));
+  }
+  if (seen.best.score < config.least_score) {
+    const std::string size =
+        seen.best.score > 0
+            ? fmt::format("; a person there is {:.0f} px high, and {:.0f} px are the least",
+                          looker.px(seen.best.place), looker.least_px())
+            : std::string();
+    return fmt::format(
+        ": no person stands out from the background; the best place has {:.1f} nats, {:g} are "
+        "needed{}",
+        seen.best.score, config.least_score, size);
+  }
+  if (seen.speed < config.slowest) {
+    return fmt::format(
+        ": a figure stands out ({:.0f} nats) but does not walk; it moves at {:.2f} m/s, {:g} m/s "
+        "are needed",
+        seen.best.score, seen.speed, config.slowest);
+  }
+  return fmt::format(
+      ": a figure stands out ({:.0f} nats), but no straight walk of {:g} to {:g} m/s explains "
+      "{:g} s of it: it may be hidden, cut off by the picture's edge, or turn",
+      seen.best.score, config.slowest, config.fastest, config.window);
+}
+
+}  // namespace
+
+std::string why_nobody(const SearchedVideo& searched, TrackSetup& setup, double seconds,
+                       const JobControl& control) {
+  if (searched.scene.initial) return {};
+  if (seconds < kShortest - 1e-9) {
+    return fmt::format(": the video lasts {:.2f} s, a walk takes at least {:g} s to be found",
+                       seconds, kShortest);
+  }
+  Looker looker(searched, setup);
+  if (looker.least_px() == 0) {
+    return ": no place on the ground shows a person whole and large enough in all cameras";
+  }
+  return in_words(looker.look(control), looker, searched.config);
+}
+
+}  // namespace jobs
+}  // namespace walktrack

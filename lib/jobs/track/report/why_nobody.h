@@ -1,0 +1,31 @@
+// Why nobody was found in a video, in words: which of length, size in the picture, foreground or
+// motion was missing, with its number. Frames of the video are looked at again for it.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/job_control.h"
+#include "gait/prior/gait_prior.h"
+#include "io/scene/scene.h"
+#include "jobs/track/track_setup.h"
+#include "tracker/detect/detector.h"
+
+namespace walktrack {
+inline namespace jobs {
+
+struct SearchedVideo {
+  const Scene& scene;
+  const DetectorConfig& config;
+  const GaitPrior& prior;
+  std::span<const Region> everywhere;  // by camera
+  int threads;
+};
+
+// `seconds`: how long the video is. Begins with ": "; empty where a start was given, which is no
+// matter of searching.
+std::string why_nobody(const SearchedVideo& searched, TrackSetup& setup, double seconds,
+                       const JobControl& control);
+
+}  // namespace jobs
+}  // namespace walktrack

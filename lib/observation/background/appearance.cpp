@@ -1,0 +1,135 @@
+#include "observation/background/appearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace walktrack {
+inline namespace observation {
+
+namespace {
+
+// Frames whose pixels make the anchor, with equal weights. By hand.
+constexpr int kAnchorFrames = 10;
+// A frame is learned from when at least so many pixels of the class, and such a share of those
+// seen, were probably foreground: otherwise the pose is off or the class is hidden. By
+// hand.
+constexpr double kLeastPixels = 8, kLeastShare = .3;
+
+// Chroma of clothes, skin and most other things: Laplace around grey with this scale, mixed with
+// any chroma at all. By hand; sensitivity not measured.
+constexpr double kChromaScale = 25, kAnyChroma = .2;
+
+double chroma_density(double chroma) {
+  const double laplace = std::exp(-std::abs(chroma) / kChromaScale) / (2 * kChromaScale);
+  return (1 - kAnyChroma) * laplace + kAnyChroma / 511;
+}
+
+double broad_density(const ColourBins& bins, int bin) {
+  return chroma_density(bins.middle(bin / kChromaBins % kChromaBins)) *
+         chroma_density(bins.middle(bin % kChromaBins)) / 256;
+}
+
+// [1 2 1] / 4 along one axis of the histogram, whose neighbours are `step` bins apart; the ends
+// keep what would fall off.
+void smooth(const std::vector<float>& histogram, int length, int step, std::vector<float>& out) {
+  for (int block = 0; block < kColourBins; block += length * step) {
+    for (int k = 0; k < length; ++k) {
+      const float* here = histogram.data() + block + k * step;
+      const float* before = k > 0 ? here - step : here;
+      const float* after = k < length - 1 ? here + step : here;
+      float* to = out.data() + block + k * step;
+      for (int i = 0; i < step; ++i) to[i] = 0.25F * before[i] + 0.5F * here[i] + 0.25F * after[i];
+    }
+  }
+}
+
+std::vector<float> smoothed(std::vector<float> histogram) {
+  std::vector<float> other(histogram.size());
+  smooth(histogram, kLumaBins, kChromaBins * kChromaBins, other);
+  smooth(other, kChromaBins, kChromaBins, histogram);
+  smooth(histogram, kChromaBins, 1, other);
+  return other;
+}
+
+void blend(std::vector<float>& into, const std::vector<float>& from, double share) {
+  const auto s = static_cast<float>(share);
+  for (size_t i = 0; i < into.size(); ++i) into[i] += s * (from[i] - into[i]);
+}
+
+}  // namespace
+
+ColourTable broad_table(const ColourBins& bins) {
+  ColourTable table(kColourBins);
+  for (int bin = 0; bin < kColourBins; ++bin)
+    table[static_cast<size_t>(bin)] = static_cast<float>(std::log(broad_density(bins, bin)));
+  return table;
+}
+
+AppearanceModel::AppearanceModel(const ForegroundConfig& config,
+                                 const std::array<bool, kAppearanceCount>& used)
+    : config_(config) {
+  std::vector<int> labels;  // of the classes in use, in the order of the appearances
+  for (size_t a = 0; a < used.size(); ++a) {
+    if (!used[a]) continue;
+    const auto known = std::find(labels.begin(), labels.end(), config.classes[a]);
+    class_of_[a] = static_cast<int>(known - labels.begin());
+    if (known == labels.end()) labels.push_back(config.classes[a]);
+  }
+  const ColourBins bins;
+  AppearanceState fresh;
+  log_broad_ = broad_table(bins);
+  fresh.log_density = log_broad_;
+  states_.assign(labels.size(), fresh);
+  for (int bin = 0; bin < kColourBins; ++bin)
+    broad_.push_back(static_cast<float>(broad_density(bins, bin) * bins.volume(bin)));
+}
+
+bool AppearanceModel::any_learned() const {
+  return std::any_of(states_.begin(), states_.end(),
+                     [](const AppearanceState& s) { return s.frames > 0; });
+}
+
+AppearanceModel::Counts AppearanceModel::empty_counts() const {
+  return {std::vector<std::vector<float>>(states_.size(), std::vector<float>(kColourBins, 0)),
+          std::vector<double>(states_.size(), 0)};
+}
+
+void AppearanceModel::learn(const ColourBins& bins, const Counts& counts) {
+  for (size_t c = 0; c < states_.size(); ++c) {
+    std::vector<float> histogram = counts.weights[c];
+    const double total = std::accumulate(histogram.begin(), histogram.end(), 0.0);
+    if (total < kLeastPixels || total < kLeastShare * counts.seen[c]) continue;
+    for (float& share : histogram) share = static_cast<float>(share / total);
+    histogram = smoothed(std::move(histogram));
+    AppearanceState& state = states_[c];
+    if (state.frames++ == 0) {
+      state.anchor = state.recent = histogram;
+    } else {
+      if (state.frames <= kAnchorFrames) blend(state.anchor, histogram, 1.0 / state.frames);
+      blend(state.recent, histogram, std::max(config_.learning_rate, 1.0 / state.frames));
+    }
+    if (state.frames <= kAnchorFrames) state.anchor_pixels += total;
+    refresh(bins, state);
+  }
+}
+
+void AppearanceModel::refresh(const ColourBins& bins, AppearanceState& state) const {
+  const double trust = state.anchor_pixels / (state.anchor_pixels + config_.prior_pixels);
+  const double own = (1 - config_.broad_share) * trust;
+  const auto others = static_cast<float>(std::log(1 - own));
+  for (int bin = 0; bin < kColourBins; ++bin) {
+    const auto i = static_cast<size_t>(bin);
+    if (state.anchor[i] == 0 && state.recent[i] == 0) {  // most of them
+      state.log_density[i] = others + log_broad_[i];
+      continue;
+    }
+    const double seen = config_.anchor_share * static_cast<double>(state.anchor[i]) +
+                        (1 - config_.anchor_share) * static_cast<double>(state.recent[i]);
+    const double share = own * seen + (1 - own) * static_cast<double>(broad_[i]);
+    state.log_density[i] = static_cast<float>(std::log(share / bins.volume(bin)));
+  }
+}
+
+}  // namespace observation
+}  // namespace walktrack

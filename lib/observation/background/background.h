@@ -1,0 +1,54 @@
+// What each pixel looks like without the walker, and how probable a frame's pixels are under that.
+//
+// Per pixel: mean of (Y, Co, Cg), a variance of luma and one of chroma, and the luma gradient
+// of the mean image. With I the observed pixel, mu the mean times the frame's gain:
+//   p(I | background) = max of
+//     (1 - s - e) N(I; mu, variances)                             the place itself
+//     s  U(a; darkest..1) N(chroma; a mu, tint)                   in a cast shadow, I_Y = a mu_Y
+//     e  U(colour cube)                                           something never seen
+// the first two times the density of the luma gradient, normal around that of the mean (times a),
+// or anything for the one pixel in ten that lies beside an edge. The maximum stands for the sum:
+// the parts hardly overlap.
+//
+// Variances are at least those of the sensor noise plus what an edge does that shakes by
+// `jitter_px`, so a model can be made of a single image.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "observation/background/colour.h"
+#include "observation/observation_config.h"
+
+namespace walktrack {
+inline namespace observation {
+
+struct BackgroundModel {
+  int width = 0, height = 0;
+  std::vector<float> luma, orange, green;               // means
+  std::vector<float> luma_precision, chroma_precision;  // 1 / variance
+};
+
+// Where the light is measured: points of a grid over the image.
+struct LightPoint {
+  int x, y;
+  size_t pixel;  // in row order
+};
+std::vector<LightPoint> light_points(int width, int height);
+
+// Strength of the light in `bgr` relative to the model: the median ratio of luma over those points.
+double light_gain(const BackgroundModel& model, const cv::Mat& bgr);
+
+// Logs of densities of one row of pixels, area.x0 <= x < area.x1, per cubed grey level. The
+// gradient's density is relative to that of the foreground, which cancels from every log-ratio.
+void background_log_density(const BackgroundModel& model, const BackgroundConfig& config,
+                            const ColourPatch& patch, const PixelRect& area, int y, double gain,
+                            std::span<float> out);
+
+// Moves the means of every `skip`-th row, from row `phase` on, towards the pixels of the frame that
+// the model explains: slow drift of the light is followed, a body never taken in.
+void follow_drift(BackgroundModel& model, const BackgroundConfig& config, const cv::Mat& bgr,
+                  double gain, int phase, int skip);
+
+}  // namespace observation
+}  // namespace walktrack

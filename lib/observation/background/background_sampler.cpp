@@ -1,0 +1,283 @@
+#include "observation/background/background_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <opencv2/core.hpp>
+
+#include "core/errors.h"
+#include "core/parallel_for.h"
+#include "observation/shrink.h"
+
+namespace walktrack {
+inline namespace observation {
+
+namespace {
+
+// Grey levels from a pixel's densest colour within which its samples are of the background.
+// By hand.
+constexpr float kNeighbourhood = 18;
+
+struct Statistics {
+  float luma, orange, green, luma_variance, chroma_variance;
+};
+
+struct Sample {
+  float luma, orange, green;
+};
+
+using Channel = float Sample::*;
+
+// The channel in which samples differ most, by what the same noise in red, green and blue makes of
+// each: people differ from what is behind them in lightness, or in hue alone.
+Channel most_telling(const std::vector<Sample>& samples) {
+  constexpr std::pair<Channel, float> kChannels[] = {
+      {&Sample::luma, 0.612F}, {&Sample::orange, 1.414F}, {&Sample::green, 1.225F}};
+  Channel best = &Sample::luma;
+  float widest = -1;
+  for (const auto& [channel, noise] : kChannels) {
+    const auto [low, high] = std::minmax_element(
+        samples.begin(), samples.end(),
+        [c = channel](const Sample& a, const Sample& b) { return a.*c < b.*c; });
+    const float width = ((*high).*channel - (*low).*channel) / noise;
+    if (width <= widest) continue;
+    widest = width;
+    best = channel;
+  }
+  return best;
+}
+
+// Where most samples crowd: the middle of the shortest run of sorted values that holds `share` of
+// them (the shorth). Breaks down only when another colour fills a larger share.
+size_t densest_run(const std::vector<Sample>& sorted, Channel channel, size_t length) {
+  const auto spread = [&](size_t i) {
+    return sorted[i + length - 1].*channel - sorted[i].*channel;
+  };
+  size_t best = 0;
+  for (size_t i = 1; i + length <= sorted.size(); ++i)
+    if (spread(i) < spread(best)) best = i;
+  return best;
+}
+
+float median_of(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Mean and variances of the samples within reach of the densest colour.
+Statistics robust_statistics(std::vector<Sample>& samples, std::vector<float>& scratch) {
+  const Channel telling = most_telling(samples);
+  std::sort(samples.begin(), samples.end(),
+            [=](const Sample& a, const Sample& b) { return a.*telling < b.*telling; });
+  const size_t length = (2 * samples.size() + 4) / 5;
+  const size_t begin = densest_run(samples, telling, length);
+  const auto middle = [&](Channel channel) {
+    scratch.clear();
+    for (size_t i = begin; i < begin + length; ++i) scratch.push_back(samples[i].*channel);
+    return median_of(scratch);
+  };
+  const Sample mode{middle(&Sample::luma), middle(&Sample::orange), middle(&Sample::green)};
+  float n = 0, s[3] = {}, q[3] = {};
+  for (const Sample& x : samples) {
+    const float d[3] = {x.luma - mode.luma, x.orange - mode.orange, x.green - mode.green};
+    if (std::abs(d[0]) > kNeighbourhood || std::abs(d[1]) > kNeighbourhood ||
+        std::abs(d[2]) > kNeighbourhood)
+      continue;
+    n += 1;
+    for (int c = 0; c < 3; ++c) {
+      s[c] += d[c];
+      q[c] += d[c] * d[c];
+    }
+  }
+  const auto variance = [&](int c) { return (q[c] - s[c] * s[c] / n) / std::max(1.F, n - 1); };
+  return {mode.luma + s[0] / n, mode.orange + s[1] / n, mode.green + s[2] / n, variance(0),
+          0.5F * (variance(1) + variance(2))};
+}
+
+Sample sample_at(const std::vector<uint8_t>& bgr, size_t pixel, float gain) {
+  const float b = bgr[3 * pixel], g = bgr[3 * pixel + 1], r = bgr[3 * pixel + 2];
+  return {0.25F * (r + 2 * g + b) / gain, (r - b) / gain, (g - 0.5F * (r + b)) / gain};
+}
+
+BackgroundModel sized(int width, int height) {
+  BackgroundModel model;
+  model.width = width;
+  model.height = height;
+  const size_t size = static_cast<size_t>(width) * static_cast<size_t>(height);
+  for (auto* plane :
+       {&model.luma, &model.orange, &model.green, &model.luma_precision, &model.chroma_precision})
+    plane->assign(size, 0);
+  return model;
+}
+
+// What was kept of the frames: BGR, and the strength of the light in each.
+struct Frames {
+  int width, height;
+  const std::vector<std::vector<uint8_t>>& bgr;
+  std::vector<float> gains;
+
+  cv::Mat image(size_t frame) const {
+    return {height, width, CV_8UC3, const_cast<uint8_t*>(bgr[frame].data())};
+  }
+};
+
+// Puts variances in the place of precisions, until floor_variances.
+void set_pixel(BackgroundModel& model, size_t pixel, const Statistics& s) {
+  model.luma[pixel] = s.luma;
+  model.orange[pixel] = s.orange;
+  model.green[pixel] = s.green;
+  model.luma_precision[pixel] = s.luma_variance;
+  model.chroma_precision[pixel] = s.chroma_variance;
+}
+
+// Works out pixels one after the other, whatever they show.
+class PixelStatistics {
+ public:
+  explicit PixelStatistics(const Frames& frames) : frames_(frames), samples_(frames.bgr.size()) {}
+
+  Statistics of(size_t pixel) {
+    for (size_t f = 0; f < samples_.size(); ++f)
+      samples_[f] = sample_at(frames_.bgr[f], pixel, frames_.gains[f]);
+    return robust_statistics(samples_, scratch_);
+  }
+
+ private:
+  const Frames& frames_;
+  std::vector<Sample> samples_;
+  std::vector<float> scratch_;
+};
+
+// Sums over the frames for a row of one channel, about the first frame's values.
+class ChannelSums {
+ public:
+  void add(const std::vector<float>& row, float gain, bool first) {
+    const size_t width = row.size();
+    if (first) {
+      for (auto* values : {&low_, &high_, &sum_, &squares_}) values->assign(width, 0);
+      origin_.resize(width);
+      for (size_t x = 0; x < width; ++x) origin_[x] = row[x] / gain;
+      return;
+    }
+    for (size_t x = 0; x < width; ++x) {
+      const float d = row[x] / gain - origin_[x];
+      low_[x] = std::min(low_[x], d);
+      high_[x] = std::max(high_[x], d);
+      sum_[x] += d;
+      squares_[x] += d * d;
+    }
+  }
+  float range(size_t x) const { return high_[x] - low_[x]; }
+  float mean(size_t x, float n) const { return origin_[x] + sum_[x] / n; }
+  float variance(size_t x, float n) const {
+    return std::max(0.F, squares_[x] - sum_[x] * sum_[x] / n) / std::max(1.F, n - 1);
+  }
+
+ private:
+  std::vector<float> origin_, low_, high_, sum_, squares_;
+};
+
+// The same for a row of pixels together. Where all samples are within reach of each other they are
+// within reach of the densest colour, wherever it is: nothing has to be sorted to find it.
+void fill_row(const Frames& frames, size_t y, BackgroundModel& model) {
+  ColourPatch row;
+  ChannelSums luma, orange, green;
+  const auto at = static_cast<int>(y);
+  for (size_t f = 0; f < frames.bgr.size(); ++f) {
+    read_colours(frames.image(f), {0, at, frames.width, at + 1}, row);
+    luma.add(row.luma, frames.gains[f], f == 0);
+    orange.add(row.orange, frames.gains[f], f == 0);
+    green.add(row.green, frames.gains[f], f == 0);
+  }
+  PixelStatistics each(frames);
+  const auto n = static_cast<float>(frames.bgr.size());
+  const auto width = static_cast<size_t>(frames.width);
+  for (size_t x = 0; x < width; ++x) {
+    const bool still = std::max({luma.range(x), orange.range(x), green.range(x)}) <= kNeighbourhood;
+    set_pixel(model, y * width + x,
+              still ? Statistics{luma.mean(x, n), orange.mean(x, n), green.mean(x, n),
+                                 luma.variance(x, n),
+                                 0.5F * (orange.variance(x, n) + green.variance(x, n))}
+                    : each.of(y * width + x));
+  }
+}
+
+// The strength of the light in each frame, against what the points look like throughout.
+void measure_light(Frames& frames) {
+  BackgroundModel model = sized(frames.width, frames.height);
+  PixelStatistics statistics(frames);
+  for (const LightPoint& point : light_points(frames.width, frames.height))
+    set_pixel(model, point.pixel, statistics.of(point.pixel));
+  for (size_t f = 0; f < frames.bgr.size(); ++f)
+    frames.gains[f] = static_cast<float>(light_gain(model, frames.image(f)));
+}
+
+// Square of the largest step of a channel to the four neighbours: what a shake by a pixel changes.
+float squared_step(const std::vector<float>& channel, int x, int y, int width, int height) {
+  const auto at = [&](int column, int row) {
+    return channel[static_cast<size_t>(row) * static_cast<size_t>(width) +
+                   static_cast<size_t>(column)];
+  };
+  const float here = at(x, y);
+  const float dx = std::max(std::abs(here - at(std::max(x - 1, 0), y)),
+                            std::abs(here - at(std::min(x + 1, width - 1), y)));
+  const float dy = std::max(std::abs(here - at(x, std::max(y - 1, 0))),
+                            std::abs(here - at(x, std::min(y + 1, height - 1))));
+  return dx * dx + dy * dy;
+}
+
+void floor_variances(const BackgroundConfig& config, BackgroundModel& model) {
+  const auto noise = static_cast<float>(config.noise * config.noise);
+  const auto jitter = static_cast<float>(config.jitter_px * config.jitter_px);
+  size_t i = 0;
+  for (int y = 0; y < model.height; ++y) {
+    for (int x = 0; x < model.width; ++x, ++i) {
+      const auto step = [&](const std::vector<float>& channel) {
+        return jitter * squared_step(channel, x, y, model.width, model.height);
+      };
+      const float luma = std::max(model.luma_precision[i], noise + step(model.luma));
+      const float chroma = std::max(model.chroma_precision[i],
+                                    noise + 0.5F * (step(model.orange) + step(model.green)));
+      model.luma_precision[i] = 1 / luma;
+      model.chroma_precision[i] = 1 / chroma;
+    }
+  }
+}
+
+}  // namespace
+
+BackgroundSampler::BackgroundSampler(const BackgroundConfig& config, int shrink)
+    : config_(config), shrink_(shrink) {}
+
+void BackgroundSampler::add(const cv::Mat& frame_bgr) {
+  if (seen_++ % stride_ != 0) return;
+  if (static_cast<int>(kept_.size()) >= std::max(2, config_.samples)) {
+    size_t half = 0;
+    for (size_t i = 0; i < kept_.size(); i += 2) kept_[half++].swap(kept_[i]);
+    kept_.resize(half);
+    stride_ *= 2;
+    if ((seen_ - 1) % stride_ != 0) return;
+  }
+  const cv::Mat small = shrunk(frame_bgr, shrink_);
+  width_ = small.cols;
+  height_ = small.rows;
+  kept_.emplace_back();
+  for (int y = 0; y < small.rows; ++y)
+    kept_.back().insert(kept_.back().end(), small.ptr<uint8_t>(y),
+                        small.ptr<uint8_t>(y) + 3 * small.cols);
+}
+
+BackgroundModel BackgroundSampler::model(int threads) const {
+  if (kept_.empty()) throw InputError("background: no frame to learn it from");
+  Frames frames{width_, height_, kept_, std::vector<float>(kept_.size(), 1)};
+  if (kept_.size() > 1) measure_light(frames);
+  BackgroundModel model = sized(width_, height_);
+  parallel_for(static_cast<size_t>(height_), threads,
+               [&](size_t y) { fill_row(frames, y, model); });
+  floor_variances(config_, model);
+  return model;
+}
+
+}  // namespace observation
+}  // namespace walktrack

@@ -1,0 +1,25 @@
+// A frame's foreground in coarse cells: enough to tell whether somebody moves.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "observation/silhouette/planes.h"
+
+namespace walktrack {
+inline namespace observation {
+
+struct ForegroundGrid {
+  int columns = 0, rows = 0;
+  std::vector<uint8_t> covered;  // by row: whether most of the cell's pixels speak for a body
+};
+
+// Cells are squares of `cell_px`; what is left over at the right and below is left out. No cells
+// without planes.
+ForegroundGrid foreground_grid(const LogRatioPlanes& planes, int cell_px);
+
+// Cells that are covered now and were not before; 0 if the grids are of different areas.
+int newly_covered(const ForegroundGrid& now, const ForegroundGrid& before);
+
+}  // namespace observation
+}  // namespace walktrack

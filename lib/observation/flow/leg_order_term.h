@@ -1,0 +1,57 @@
+// Which leg is in front, by how the pictures move where the legs overlap (leg_order.h). Particles
+// are not asked: one picture more a frame is only held while a walk is looked for, and whole tracks
+// are asked once whether their legs bear the right names.
+#pragma once
+
+#include <array>
+
+#include "observation/flow/frame_pair.h"
+#include "observation/term.h"
+
+namespace walktrack {
+inline namespace observation {
+
+struct LegOrderTerm {
+  static constexpr std::string_view kName = "leg order";
+  static constexpr TermStage kStage = TermStage::kTracks;
+  static constexpr bool kAsksBefore = true;
+  static constexpr std::array<TermSwitch, 0> kSwitches{};
+
+  struct Evidence {
+    GreyImage picture;  // the whole image; empty unless Region::picture
+  };
+
+  struct State {};
+  struct Prepared {};
+
+  class Memory {
+   public:
+    Memory(const ObserverSetting&, ObserverInput&) {}
+    void prepare(const ObserverSetting& setting, ObservedFrame& frame, int threads,
+                 Prepared& out) const;
+    void complete(const ObserverSetting& setting, ObservedFrame& frame, Prepared& prepared,
+                  CameraEvidence& out);
+    void forget() {}
+    static bool learns(const ObservationConfig&) { return false; }
+    void learn(const ObserverSetting&, const CameraEvidence&, const FoundPose&) {}
+    State state() const { return {}; }
+    bool fits(const ObserverSetting&, const State&) const { return true; }
+    void resume(const ObserverSetting&, State) {}
+  };
+
+  template <typename Groups>
+  static void describe(Groups&) {}
+
+  static bool says(const CameraEvidence& evidence);
+  static TermCosts cost(const ObservationConfig&, const TermWork&) { return {}; }
+
+  // How much more two successive frames of one camera speak for the legs' names than for the same
+  // poses with left and right swapped, nats; not tempered over frames.
+  static double names_log_odds(const ObservationConfig& config, const Body& body,
+                               const Camera& camera, const CameraEvidence& evidence_before,
+                               const CameraEvidence& evidence, const PosedBody& before,
+                               const PosedBody& now);
+};
+
+}  // namespace observation
+}  // namespace walktrack

@@ -1,0 +1,151 @@
+// Keypoints: points of a pose network, from a file or the built-in one, against a pose.
+//
+// With r_j the distance of a detected point j from where the pose puts it (keypoint_points.h), a
+// person's points say, relative to the same points being anywhere near the person,
+//   l_j = log p(r_j) - log u,   p = Student-t of two coordinates of scale s_j,   u = 1 / (pi R^2),
+//   s_j = scale of its kind x height of the person in the image / sqrt(confidence),
+//   R = outlier x that height.
+// Left and right are labels, which a detector confuses for both legs together, or for both arms: of
+// the points G of either group, and with m(j) the same point of the other side,
+//   l_G = log[ (1 - flip) exp(w sum of l_j) + flip exp(w sum of l_m(j)) ],
+// w tempering points that err together, from joint to joint and from frame to frame. Of the people
+// in a picture one is the subject, or none of them:
+//   log p = log[ 1 + sum over people of exp(w l_head + l_arms + l_legs) ] + constant,
+// so that whoever is far from a pose changes nothing. Missing points are no evidence.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "observation/keypoints/keypoint_errors.h"
+#include "observation/term.h"
+
+namespace walktrack {
+inline namespace observation {
+
+// What a frame's keypoints say, in pixels of the shrunk image.
+struct KeypointEvidence {
+  struct Point {
+    Eigen::Vector2d px = Eigen::Vector2d::Zero();
+    double precision = 0;  // 1 / (dof s^2); 0 = missing
+    double at_best = 0;    // l_j for r = 0
+  };
+  using Person = std::array<Point, kBodyPoints>;
+
+  std::vector<Person> people;
+  PointOffsets offsets;
+};
+
+// Of a person's points from where a pose has them, px; NaN where none was seen.
+double median_distance(const KeypointEvidence::Person& person, const PointPixels& predicted);
+
+// Of one camera: counts for the run's record.
+struct KeypointUse {
+  int64_t frames = 0;        // tracked frames with people in them
+  int64_t matched = 0;       // in which one of them is the subject
+  int64_t legs_flipped = 0;  // with the names of the legs swapped
+};
+
+inline bool is_on(const KeypointConfig& config) { return config.enabled == TermSetting::kOn; }
+
+struct KeypointTerm {
+  static constexpr std::string_view kName = "keypoints";
+  static constexpr TermStage kStage = TermStage::kEarly;
+  static constexpr bool kAsksBefore = false;
+  static constexpr std::array kSwitches{
+      TermSwitch{"keypoints", "keypoints", "points of the body that a pose network has found",
+                 [](const ObservationConfig& c) { return is_on(c.keypoints); }}};
+
+  struct Evidence {
+    KeypointEvidence keypoints;  // nobody when the term is off or the detector saw nobody
+  };
+
+  struct State {
+    KeypointErrors errors = initial_errors();
+    KeypointUse use;
+  };
+
+  struct Prepared {
+    std::vector<SeenPoints> people;
+  };
+
+  class Memory {
+   public:
+    Memory(const ObserverSetting& setting, ObserverInput& input);
+    void prepare(const ObserverSetting& setting, ObservedFrame& frame, int threads,
+                 Prepared& out) const;
+    void complete(const ObserverSetting& setting, ObservedFrame& frame, Prepared& prepared,
+                  CameraEvidence& out);
+    void forget() {}
+    static bool learns(const ObservationConfig& config) { return is_on(config.keypoints); }
+    void learn(const ObserverSetting& setting, const CameraEvidence& evidence,
+               const FoundPose& found);
+    State state() const { return state_; }
+    bool fits(const ObserverSetting&, const State&) const { return true; }
+    void resume(const ObserverSetting&, State state) { state_ = state; }
+
+   private:
+    bool arms_;
+    State state_;
+  };
+
+  template <typename Groups>
+  static void describe(Groups& groups);
+
+  static bool says(const CameraEvidence& evidence);
+  static double log_likelihood(const ObservationConfig& config, const CameraEvidence& evidence,
+                               const Camera& camera, const PosedBody& now, const PosedBody* before);
+  static TermCosts cost(const ObservationConfig& config, const TermWork& work);
+
+  // Whether a pose lies on one of the people whose points were seen; nullopt where nobody's were
+  // seen near it: whoever is further away than half the figure's height is known to be another one.
+  static std::optional<bool> on_somebody(const ObservationConfig& config,
+                                         const CameraEvidence& evidence, const Camera& camera,
+                                         const PosedBody& now);
+
+  // How much more this frame's points speak for the legs' names than for the same pose with left
+  // and right swapped, nats.
+  static double names_log_odds(const ObservationConfig& config, const Body& body,
+                               const Camera& camera, const CameraEvidence& evidence_before,
+                               const CameraEvidence& evidence, const PosedBody& before,
+                               const PosedBody& now);
+};
+
+template <typename Groups>
+void KeypointTerm::describe(Groups& groups) {
+  using K = KeypointConfig;
+  auto k = groups.group("keypoints", "points of a pose detector", &ObservationConfig::keypoints);
+  k.choice(
+      "enabled", &K::enabled,
+      {{"auto", TermSetting::kAuto},
+       {"on", TermSetting::kOn},
+       {"off", TermSetting::kOff},
+       {"true", TermSetting::kOn},
+       {"false", TermSetting::kOff}},
+      "on: from the scene's files, from the built-in network where a camera has none; auto: where "
+      "every camera has a file, and the network for one camera alone");
+  k.integer("every", &K::every, 1, 1000, "the network is asked at every so many frames");
+  k.text("model", &K::model, "the shipped network, or the ONNX file of one of the same family");
+  k.number("weight", &K::weight, 0, 10,
+           "weight of a point; below 1 because points err together and for several frames");
+  k.number("flip", &K::flip, 1e-6, 0.5, "probability that a frame's left and right are swapped");
+  k.number("dof", &K::dof, 0.5, 1000,
+           "degrees of freedom of the Student-t; fewer expect more outliers");
+  k.number("outlier", &K::outlier, 0.01, 10,
+           "radius in which outliers lie, as a share of the subject's height");
+}
+
+template <typename Archive, typename T>
+requires std::is_same_v<std::remove_const_t<T>, KeypointTerm::State>
+void fields(Archive& archive, T& value) {
+  auto& [errors, use] = value;
+  auto& [scale, seen, information, pull] = errors;
+  auto& [frames, matched, legs_flipped] = use;
+  archive(scale, seen, information, pull, frames, matched, legs_flipped);
+}
+
+}  // namespace observation
+}  // namespace walktrack

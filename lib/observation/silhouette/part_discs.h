@@ -1,0 +1,31 @@
+// The two discs that stand for a part's ends in the image (observation/silhouette/capsules.h), for
+// all parts of a body at once.
+//
+// Parts are the lanes of vectors: compiled for every instruction set and chosen when the program
+// runs (Highway). Only sums, products, quotients and roots are used, each rounded as IEEE 754 says,
+// so that every instruction set gives the same discs.
+#pragma once
+
+#include <span>
+
+#include "camera/camera.h"
+#include "observation/silhouette/part_table.h"
+
+namespace walktrack {
+inline namespace observation {
+
+// By part. Pixels of the camera given; depth along the optical axis, m.
+struct PartDiscs {
+  struct Ends {
+    alignas(64) double x[kMaxParts], y[kMaxParts], radius[kMaxParts];  // px
+  };
+  Ends lower, upper;
+  alignas(64) double depth[kMaxParts];    // of the middle of the axis
+  alignas(64) double nearest[kMaxParts];  // of the discs; below kMinDepth nothing else holds
+};
+
+// Throws std::length_error for more than kMaxParts parts.
+void find_discs(const Camera& camera, std::span<const PosedPart> parts, PartDiscs& out);
+
+}  // namespace observation
+}  // namespace walktrack

@@ -1,0 +1,100 @@
+// The visible silhouette of a body, run by run: which pixels of a row are seen of which capsule.
+//
+// A pixel belongs to the nearest capsule that covers its centre. Rows are worked on in blocks, as
+// vectors (row_intervals.h); nothing is allocated.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "observation/silhouette/row_intervals.h"
+
+namespace walktrack {
+inline namespace observation {
+
+// Every capsule of a list, nearest first, and the rows that it covers of one block.
+struct SilhouetteBlock {
+  std::array<Outline, kMaxCapsules> outlines;
+  std::array<RowIntervals, kMaxCapsules> covered;
+  std::array<BlockRows, kMaxCapsules> rows;
+  int first_row;  // of the block, in the image
+};
+
+inline BlockRows rows_of_block(const Outline& outline, int block_row) {
+  return {std::max(outline.first_row - block_row, 0),
+          std::min(outline.end_row - block_row, kBlockRows)};
+}
+
+// Calls visit(begin, end) for what capsule `i` shows of row k, however often it is interrupted.
+template <typename Visit>
+void visit_pieces_of_row(const SilhouetteBlock& block, size_t i, int k, Visit&& visit) {
+  struct Piece {
+    int begin, end;
+  };
+  std::array<Piece, kMaxCapsules + 1> pieces;
+  pieces[0] = {block.covered[i].begin[k], block.covered[i].end[k]};
+  size_t count = 1;
+  for (size_t j = 0; j < i; ++j) {
+    if (k < block.rows[j].from || k >= block.rows[j].to) continue;
+    const int from = block.covered[j].begin[k], to = block.covered[j].end[k];
+    if (from >= to) continue;
+    for (size_t p = 0, known = count; p < known; ++p) {
+      auto& [begin, end] = pieces[p];
+      if (to <= begin || from >= end) continue;
+      if (to < end && from > begin) pieces[count++] = {to, end};
+      from > begin ? end = from : begin = std::min(to, end);
+    }
+  }
+  for (size_t p = 0; p < count; ++p) visit(pieces[p].begin, pieces[p].end);
+}
+
+// Calls visit(k, begin, end) for what is seen of capsule `i` in the rows of the block; also for
+// rows in which nothing is left of it, with begin >= end.
+template <typename Visit>
+void visit_seen_rows(const SilhouetteBlock& block, size_t i, Visit&& visit) {
+  const BlockRows own = block.rows[i];
+  SeenRows seen;
+  show_rows(block.covered[i], own, seen);
+  uint64_t too_many = 0;
+  for (size_t j = 0; j < i; ++j) {
+    const BlockRows shared{std::max(own.from, block.rows[j].from),
+                           std::min(own.to, block.rows[j].to)};
+    if (shared.from < shared.to) too_many |= hide_rows(block.covered[j], shared, seen);
+  }
+  for (; too_many != 0; too_many &= too_many - 1) {
+    const int k = std::countr_zero(too_many);
+    seen.first.end[k] = seen.first.begin[k];
+    seen.second.end[k] = seen.second.begin[k];
+    visit_pieces_of_row(block, i, k, [&](int begin, int end) { visit(k, begin, end); });
+  }
+  for (int k = own.from; k < own.to; ++k) visit(k, seen.first.begin[k], seen.first.end[k]);
+  if (!seen.two) return;
+  for (int k = own.from; k < own.to; ++k) visit(k, seen.second.begin[k], seen.second.end[k]);
+}
+
+// Calls visit(row, begin, end, capsule) for every visible run, columns counted from area.x0; also
+// for rows in which nothing is left of the capsule, with begin >= end.
+template <typename Visit>
+void visit_visible(const PixelRect& area, const CapsuleList& capsules, Visit&& visit) {
+  SilhouetteBlock block;
+  int first = area.y1, end = area.y0;
+  for (size_t i = 0; i < capsules.size(); ++i) {
+    block.outlines[i] = outline_of(capsules[i], area);
+    if (block.outlines[i].first_row >= block.outlines[i].end_row) continue;
+    first = std::min(first, block.outlines[i].first_row);
+    end = std::max(end, block.outlines[i].end_row);
+  }
+  for (block.first_row = first; block.first_row < end; block.first_row += kBlockRows) {
+    for (size_t i = 0; i < capsules.size(); ++i) {
+      block.rows[i] = rows_of_block(block.outlines[i], block.first_row);
+      if (block.rows[i].from >= block.rows[i].to) continue;
+      cover_rows(block.outlines[i], area, block.first_row, block.rows[i], block.covered[i]);
+      visit_seen_rows(block, i,
+                      [&](int k, int from, int to) { visit(block.first_row + k, from, to, i); });
+    }
+  }
+}
+
+}  // namespace observation
+}  // namespace walktrack

@@ -1,0 +1,227 @@
+// A walker's state lies in its KneedState between visits to a vector; inside a visit it is a lane
+// of `Lanes`. Who is served when: LaneQueues.
+#include "walker/kneed/kneed_batch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "walker/kneed/kneed_incidents.h"
+#include "walker/kneed/kneed_lane_walkers.h"
+
+namespace walktrack {
+inline namespace walker {
+namespace {
+
+struct BatchInput {
+  const KneedModel& model;
+  std::span<const KneedControls> controls;
+  std::span<const Vector5> noise;
+  std::span<const double> durations;
+  std::span<KneedState> states;
+  std::span<KneedAdvance> results;
+  const KneedLimits& limits;
+};
+
+struct Stepper {
+  const BatchInput& in;
+  const LaneModel model;
+  const LaneBounds bounds;
+  const size_t lane_limit = lane_count();
+  BatchScratch scratch;
+  std::pmr::vector<LaneProgress> progress;
+  LaneQueues queues;
+
+  explicit Stepper(const BatchInput& input)
+      : in(input),
+        model(lane_model(input.model)),
+        bounds{input.limits.min_hip_height * standing_hip_height(input.model.parameters),
+               input.limits.max_torso_lean},
+        progress(input.states.size(), scratch.memory()),
+        queues(input.states.size(), scratch.memory()) {
+    for (size_t i = progress.size(); i-- > 0;) {
+      in.results[i] = {};
+      if (0 < in.durations[i]) queues.ready.push_back(i);
+    }
+  }
+
+  void run() {
+    Lanes lanes;
+    const auto go_on = [&] {
+      take(queues.ready, lanes);
+      walk(lanes);
+    };
+    const auto meet = [&] {
+      take(queues.met, lanes);
+      resolve(lanes);
+    };
+    queues.serve(lane_limit, go_on, meet);
+  }
+
+  // The last walkers of a queue, evaluated.
+  void take(std::pmr::vector<size_t>& queue, Lanes& lanes) {
+    LaneQueues::seat(queue, lane_limit, lanes);
+    for (size_t lane = 0; lane < lane_limit; ++lane) {
+      const size_t i = lanes.index[lane];
+      lanes.duration[0][lane] = in.durations[i];
+      lanes.elapsed[0][lane] = progress[i].elapsed;
+      lanes.step[0][lane] = progress[i].step;
+      load_state(in.states[i], lane, lanes);
+      load_forces(in.controls[i], in.noise[i], lane, lanes);
+    }
+    evaluate_lanes(model, lanes);
+  }
+
+  void finish(Lanes& lanes, size_t lane, KneedEvent event) {
+    const size_t i = lanes.index[lane];
+    store_state(lanes, lane, in.states[i]);
+    in.results[i] = {.elapsed = lanes.elapsed[0][lane], .event = event};
+    lanes.live[0][lane] = 0;
+  }
+
+  void settle(size_t i) { settle_knee_stops(in.model, in.controls[i], in.noise[i], in.states[i]); }
+
+  // The first visit in a call: stops made consistent, sub-steps chosen, the impossible sorted out.
+  void begin(Lanes& lanes) {
+    bool changed = false;
+    for (size_t lane = 0; lane < lanes.count; ++lane) {
+      const size_t i = lanes.index[lane];
+      if (progress[i].step != 0 || is_settled(lanes, lane)) continue;
+      settle(i);
+      load_state(in.states[i], lane, lanes);
+      changed = true;
+    }
+    if (changed) evaluate_lanes(model, lanes);
+    LaneRows<1> steps;
+    lane_step_sizes(model, lanes, in.limits.max_step, steps[0]);
+    for (size_t lane = 0; lane < lanes.count; ++lane) {
+      LaneProgress& p = progress[lanes.index[lane]];
+      if (p.step != 0) continue;
+      p.step = lanes.step[0][lane] = steps[0][lane];
+      const bool sound = is_sound(lanes.at, lane) && p.step >= kMinStep;
+      if (!sound) finish(lanes, lane, KneedEvent::kDiverged);
+    }
+  }
+
+  void walk(Lanes& lanes) {
+    bool fresh = false;
+    for (size_t lane = 0; lane < lanes.count; ++lane)
+      fresh = fresh || progress[lanes.index[lane]].step == 0;
+    if (fresh) begin(lanes);
+    bool any = false;
+    for (size_t lane = 0; lane < lanes.count; ++lane) any = any || lanes.live[0][lane] != 0;
+    while (any) {
+      const LaneVerdict verdict = sub_step_lanes(model, bounds, lanes);
+      if ((verdict.diverged | verdict.event | verdict.ended) == 0) continue;
+      any = false;
+      for (size_t lane = 0; lane < lanes.count; ++lane) {
+        leave(lanes, lane, verdict);
+        any = any || lanes.live[0][lane] != 0;
+      }
+    }
+  }
+
+  void leave(Lanes& lanes, size_t lane, const LaneVerdict& verdict) {
+    const uint64_t bit = uint64_t{1} << lane;
+    const size_t i = lanes.index[lane];
+    if ((verdict.diverged & bit) != 0) {
+      finish(lanes, lane, KneedEvent::kDiverged);
+    } else if ((verdict.event & bit) != 0) {
+      store_state(lanes, lane, in.states[i]);
+      progress[i].elapsed = lanes.elapsed[0][lane];
+      lanes.live[0][lane] = 0;
+      queues.met.push_back(i);
+    } else if ((verdict.ended & bit) != 0) {
+      finish(lanes, lane, has_fallen(lanes, lane) ? KneedEvent::kFallen : KneedEvent::kNone);
+    }
+  }
+
+  bool has_fallen(const Lanes& lanes, size_t lane) const {
+    return lanes.at.hip[0][lane] < bounds.least_hip ||
+           std::abs(lanes.at.q[0][lane]) > bounds.max_lean;
+  }
+
+  void resolve(Lanes& lanes);
+  void locate(const Lanes& lanes, const LanePoint& end, const double* h,
+              std::array<LaneIncident, kMaxLanes>& incidents) const;
+  void apply(const LaneIncident& incident, Lanes& lanes, size_t lane);
+};
+
+// Finds the first event of every lane: trials of all lanes' searches share vectors.
+void Stepper::locate(const Lanes& lanes, const LanePoint& end, const double* h,
+                     std::array<LaneIncident, kMaxLanes>& incidents) const {
+  for (size_t lane = 0; lane < lanes.count; ++lane)
+    incidents[lane] = LaneIncident(lanes, end, lane, h[lane]);
+  LanePoint at;
+  LaneRows<1> trials;
+  const auto searching = [](const LaneIncident& incident) { return incident.searching(); };
+  while (std::any_of(incidents.begin(), incidents.end(), searching)) {
+    for (size_t lane = 0; lane < lane_limit; ++lane) trials[0][lane] = incidents[lane].trial();
+    step_lanes_to(model, lanes, trials[0], at);
+    for (LaneIncident& incident : incidents)
+      if (incident.searching()) incident.take(lanes, at, end);
+  }
+}
+
+void Stepper::resolve(Lanes& lanes) {
+  LaneRows<1> h;
+  next_lane_steps(lanes, h[0]);
+  LanePoint end;
+  step_lanes_to(model, lanes, h[0], end);
+  std::array<LaneIncident, kMaxLanes> incidents;
+  locate(lanes, end, h[0], incidents);
+  for (size_t lane = 0; lane < lanes.count; ++lane)
+    if (incidents[lane].found()) h[0][lane] = incidents[lane].first().time;
+  const LanePoint from = lanes.at;
+  step_lanes_to(model, lanes, h[0], end);
+  lanes.at = end;
+  for (size_t lane = 0; lane < lanes.count; ++lane) {
+    const double fall = from.height_rate[0][lane], rise = end.height_rate[0][lane];
+    const double step = h[0][lane];
+    if (fall < 0 && rise > 0)
+      lanes.clearance[0][lane] =
+          std::min(lanes.clearance[0][lane],
+                   from.height[0][lane] - 0.5 * fall * fall * step / (rise - fall));
+    lanes.since[0][lane] += step;
+    const bool last = step == lanes.duration[0][lane] - lanes.elapsed[0][lane];
+    lanes.elapsed[0][lane] = last ? lanes.duration[0][lane] : lanes.elapsed[0][lane] + step;
+    apply(incidents[lane], lanes, lane);
+  }
+}
+
+// What the event does to a walker that has arrived at it.
+void Stepper::apply(const LaneIncident& incident, Lanes& lanes, size_t lane) {
+  const size_t i = lanes.index[lane];
+  const auto is = [&](IncidentKind kind) {
+    return incident.found() && incident.first().kind == kind;
+  };
+  if (is(IncidentKind::kStumble) || has_fallen(lanes, lane))
+    return finish(lanes, lane, KneedEvent::kFallen);
+  finish(lanes, lane, KneedEvent::kNone);
+  if (is(IncidentKind::kStrike))
+    return transfer_support(in.model, in.controls[i], in.noise[i], in.states[i], in.results[i]);
+  if (incident.found()) {
+    settle(i);
+    if (++progress[i].stop_events > kMaxStopEvents) {
+      in.results[i].event = KneedEvent::kDiverged;
+      return;
+    }
+  }
+  progress[i].elapsed = lanes.elapsed[0][lane];
+  if (progress[i].elapsed < in.durations[i]) queues.ready.push_back(i);
+}
+
+}  // namespace
+
+void kneed_advance_batch(const KneedModel& model, std::span<const KneedControls> controls,
+                         std::span<const Vector5> noise, std::span<const double> durations,
+                         std::span<KneedState> states, std::span<KneedAdvance> results,
+                         const KneedLimits& limits) {
+  Stepper({model, controls, noise, durations, states, results, limits}).run();
+}
+
+const char* kneed_batch_target() { return lane_target(); }
+
+}  // namespace walker
+}  // namespace walktrack

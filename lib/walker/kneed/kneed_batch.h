@@ -1,0 +1,30 @@
+// Many kneed walkers through time at once: kneed_advance() for every one of them, several to a
+// vector (double precision, Google Highway, instruction set chosen at run time).
+//
+// A lane that meets an event - a knee's stop, a strike - leaves its vector; events are located in
+// vectors of their own and their walkers go on with others, so nobody waits. Every walker's result
+// depends on that walker alone: the same bytes in any batch, in any order, on any number of
+// threads, for one instruction set. It is that of kneed_advance() but for rounding (1e-9 over a
+// step); instruction sets without fused multiply-add round differently.
+#pragma once
+
+#include <span>
+
+#include "walker/kneed/kneed_advance.h"
+
+namespace walktrack {
+inline namespace walker {
+
+// Moves states[i] on by durations[i] (s) or to its next transfer under controls[i] and noise[i] and
+// writes what kneed_advance() returns to results[i]. A walker without time (duration 0) stays as it
+// is and costs nothing. All spans have the same size.
+void kneed_advance_batch(const KneedModel& model, std::span<const KneedControls> controls,
+                         std::span<const Vector5> noise, std::span<const double> durations,
+                         std::span<KneedState> states, std::span<KneedAdvance> results,
+                         const KneedLimits& limits = {});
+
+// Name of the instruction set in use.
+const char* kneed_batch_target();
+
+}  // namespace walker
+}  // namespace walktrack
