@@ -6,12 +6,12 @@
 //   starting   hypotheses over phase and side compete for a while
 //              (tracker/start/start_hypotheses.h)
 //   tracking   for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h)
-//   lost       the monitor says so (tracker/monitor.h); searching again, for a while only where the
-//              subject can be
+//   lost       the monitor says so (tracker/modes/monitor.h); searching again, for a while only
+//              where the subject can be
 //
-// Modes are values (tracker/track_mode.h). Frames before the walk was found, and while it was lost,
-// are reported as not tracked. Searching looks a window ahead, so records come out late at first
-// and one for one afterwards.
+// Modes are values (tracker/modes/track_mode.h). Frames before the walk was found, and while it was
+// lost, are reported as not tracked. Searching looks a window ahead, so records come out late at
+// first and one for one afterwards.
 #pragma once
 
 #include <deque>
@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "tracker/detect/walk_search.h"
-#include "tracker/track_mode.h"
+#include "tracker/modes/track_mode.h"
 
 namespace walktrack {
 inline namespace tracker {

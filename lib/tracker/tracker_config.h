@@ -3,7 +3,7 @@
 
 #include "filter/particle_filter.h"
 #include "tracker/detect/detector.h"
-#include "tracker/monitor.h"
+#include "tracker/modes/monitor.h"
 #include "tracker/motion/propagate.h"
 #include "tracker/start/start.h"
 

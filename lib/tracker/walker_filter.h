@@ -6,9 +6,9 @@
 
 #include "filter/particle_filter.h"
 #include "tracker/figure_fit.h"
+#include "tracker/modes/stride_modes.h"
 #include "tracker/motion/propagate.h"
 #include "tracker/smooth/estimate.h"
-#include "tracker/stride_modes.h"
 #include "tracker/tracker_scene.h"
 
 namespace walktrack {

@@ -5,7 +5,7 @@
 #include "body/kinematics.h"
 #include "fixture.h"
 #include "tests/tracker/frame_time.h"
-#include "tracker/stride_modes.h"
+#include "tracker/modes/stride_modes.h"
 
 namespace walktrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "tracker/monitor.h"
+#include "tracker/modes/monitor.h"
 
 #include <gtest/gtest.h>
 

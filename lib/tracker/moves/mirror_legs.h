@@ -2,7 +2,7 @@
 // away, and each foot stays where a foot was. Arms swing against the legs and are swapped with
 // them; the pelvis stays as it is, so each leg now starts from the other hip and reaches its place
 // by another abduction. Seen from the side nothing changes: the two are modes of one posterior
-// (tracker/stride_modes.h), and this is the involution that takes one to the other.
+// (tracker/modes/stride_modes.h), and this is the involution that takes one to the other.
 #pragma once
 
 #include "tracker/motion/propagate.h"

@@ -8,7 +8,7 @@
 #include <deque>
 #include <vector>
 
-#include "tracker/track_mode.h"
+#include "tracker/modes/track_mode.h"
 
 namespace walktrack {
 inline namespace tracker {

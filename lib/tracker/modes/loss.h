@@ -1,5 +1,5 @@
-// Whether a track is lost in a frame: what the monitor (tracker/monitor.h) has to be told of the
-// frame's images, and what it then says.
+// Whether a track is lost in a frame: what the monitor (tracker/modes/monitor.h) has to be told of
+// the frame's images, and what it then says.
 #pragma once
 
 #include "tracker/subject_model.h"

@@ -1,4 +1,4 @@
-#include "tracker/loss.h"
+#include "tracker/modes/loss.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "tracker/stride_modes.h"
+#include "tracker/modes/stride_modes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "tracker/monitor.h"
+#include "tracker/modes/monitor.h"
 #include "tracker/start/start_hypotheses.h"
 #include "tracker/subject_model.h"
 #include "tracker/walker_filter.h"

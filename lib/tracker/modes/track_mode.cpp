@@ -1,4 +1,4 @@
-#include "tracker/track_mode.h"
+#include "tracker/modes/track_mode.h"
 
 #include <algorithm>
 #include <deque>
@@ -6,7 +6,7 @@
 
 #include "core/log_weights.h"
 #include "tracker/frame_likelihood.h"
-#include "tracker/loss.h"
+#include "tracker/modes/loss.h"
 #include "tracker/moves/mirror_legs.h"
 #include "tracker/smooth/refinement.h"
 #include "tracker/start/leg_label_evidence.h"
