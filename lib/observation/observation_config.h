@@ -9,9 +9,14 @@
 namespace walktrack {
 inline namespace observation {
 
+// Whether a term is on; auto is decided before anything is tracked.
+enum class TermSetting { kAuto, kOn, kOff };
+
 struct BackgroundConfig {
   bool enabled = true;
-  int samples = 32;         // frames that the model is made of, spread over what it is given
+  int samples = 32;  // frames that the model is made of, spread over what it is given
+  // Whether people, whom the pose network finds, are left out of a model that is made of the video.
+  TermSetting without_people = TermSetting::kAuto;
   double noise = 3;         // smallest standard deviation of a channel, grey levels of 256
   double jitter_px = 0.35;  // edges move about so much (compression, wind), px of the shrunk image
   double shadow_darkest = .45;  // a cast shadow keeps at least this share of a pixel's value
@@ -34,9 +39,6 @@ struct ForegroundConfig {
   double learning_rate = .05;  // share of a new frame in the recent half of a model
   double anchor_share = .5;    // share of the first frames learned that is never forgotten
 };
-
-// Whether a term is on; auto is decided before anything is tracked.
-enum class TermSetting { kAuto, kOn, kOff };
 
 struct FlowConfig {
   TermSetting enabled = TermSetting::kAuto;

@@ -14,8 +14,8 @@ struct ObserverSetting {
   Camera camera, full_camera;  // of the shrunk image, and as calibrated
   int shrink;
   int threads;
-  bool occluded;  // whether anything stands in front of the subject
-  cv::Mat mask;   // 255 where it does
+  bool occluded;  // whether there are pixels of which nothing is known
+  cv::Mat mask;   // 255 there: something stands in front, or what is behind was never seen
 };
 
 struct ObservedFrame {

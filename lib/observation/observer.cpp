@@ -34,6 +34,24 @@ cv::Mat occluder_mask(const Camera& camera, const std::vector<Polygon>& occluder
   return mask;
 }
 
+// Where it is not known what is behind people.
+cv::Mat unseen_mask(const std::optional<BackgroundModel>& background) {
+  if (!background) return {};
+  const auto& precision = background->luma_precision;
+  if (std::none_of(precision.begin(), precision.end(), never_seen)) return {};
+  cv::Mat mask(background->height, background->width, CV_8U);
+  std::transform(precision.begin(), precision.end(), mask.begin<uint8_t>(),
+                 [](float each) { return never_seen(each) ? uint8_t{255} : uint8_t{0}; });
+  return mask;
+}
+
+void set_mask(const std::vector<Polygon>& occluders, const cv::Mat& unseen,
+              ObserverSetting& setting) {
+  setting.occluded = !occluders.empty() || !unseen.empty();
+  setting.mask = occluder_mask(setting.camera, occluders, setting.shrink);
+  if (!unseen.empty() && unseen.size() == setting.mask.size()) setting.mask |= unseen;
+}
+
 void require_size(const cv::Mat& frame_bgr, const Camera& calibrated) {
   if (frame_bgr.type() == CV_8UC3 && frame_bgr.cols == calibrated.width_px &&
       frame_bgr.rows == calibrated.height_px)
@@ -77,10 +95,12 @@ struct Observer::State {
                 input.camera,
                 input.shrink,
                 input.threads,
-                !input.occluders.empty(),
-                occluder_mask(scaled_down(input.camera, input.shrink), input.occluders,
-                              input.shrink)},
-        memories(Terms::make<std::tuple, MemoryOf>(setting, input)) {}
+                false,
+                {}},
+        unseen(unseen_mask(input.background)),
+        memories(Terms::make<std::tuple, MemoryOf>(setting, input)) {
+    set_mask(input.occluders, unseen, setting);
+  }
 
   template <typename Term>
   auto& memory() {
@@ -88,6 +108,7 @@ struct Observer::State {
   }
 
   ObserverSetting setting;
+  cv::Mat unseen;
   Terms::map<std::tuple, MemoryOf> memories;
 };
 
@@ -138,9 +159,7 @@ Observer::~Observer() = default;
 const Camera& Observer::camera() const { return state_->setting.camera; }
 
 void Observer::hide(const std::vector<Polygon>& occluders) {
-  ObserverSetting& setting = state_->setting;
-  setting.occluded = !occluders.empty();
-  setting.mask = occluder_mask(setting.camera, occluders, setting.shrink);
+  set_mask(occluders, state_->unseen, state_->setting);
 }
 
 void Observer::forget_previous_frame() {

@@ -83,6 +83,30 @@ TEST_F(DetectionsTest, AutoIsForFilesAndForOneCameraThatSeesEnough) {
   EXPECT_TRUE(keypoints_wanted(scene(cameras), config));
 }
 
+// From two sides outlines tell left from right by themselves, unless the room behind has to be
+// learned while somebody stands in it.
+TEST_F(DetectionsTest, AutoIsForTwoCamerasWithoutPicturesOfTheEmptyScene) {
+  Config config;
+  const auto two = [&](const std::string& more) {
+    Scene out = scene("  - {name: a, video: a.mp4, calibration: a.yaml" + more +
+                      "}\n  - {name: b, video: a.mp4, calibration: a.yaml" + more + "}\n");
+    out.initial.emplace().position = {5, 0};
+    for (SceneCamera& camera : out.cameras) camera.camera = level_camera(480);
+    return out;
+  };
+  const auto decided = [&](const std::string& more) {
+    const ObservationConfig terms = decided_terms(two(more), config);
+    EXPECT_EQ(terms.background.without_people, terms.keypoints.enabled);
+    return terms.keypoints.enabled == TermSetting::kOn;
+  };
+  EXPECT_EQ(decided(""), has_pose_net());
+  EXPECT_FALSE(decided(", background: a.mp4"));
+  config.observation.keypoints.enabled = TermSetting::kOff;
+  EXPECT_FALSE(decided(""));
+  config.observation.background.without_people = TermSetting::kOn;
+  EXPECT_EQ(decided_terms(two(""), config).background.without_people, TermSetting::kOn);
+}
+
 TEST_F(DetectionsTest, FlowIsForThoseWhoAskForIt) {
   const Scene one = scene("  - {name: a, video: a.mp4, calibration: a.yaml, keypoints: points}\n");
   Config config;

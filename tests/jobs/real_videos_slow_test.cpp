@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -37,16 +38,23 @@ Vector2d toe_after(const Motion& motion, size_t frame, Side side) {
   return sum;
 }
 
-class TwoTelephones : public testing::TestWithParam<int> {};
+// With pictures of the empty room, and with nothing but the two videos, in which he stands for more
+// than half of the time: what is behind his first place is never seen, so his first step is less
+// certain.
+struct Room {
+  const char* scene;
+  double farthest;  // m
+};
+class TwoTelephones : public testing::TestWithParam<std::tuple<Room, int>> {};
 
 TEST_P(TwoTelephones, AManStandsWalksAndStands) {
-  const fs::path scene =
-      fs::path(WALKTRACK_SOURCE_DIR) / "../shared/data/opencap_two_phones/scene_plates.yaml";
+  const fs::path scene = fs::path(WALKTRACK_SOURCE_DIR) / "../shared/data/opencap_two_phones" /
+                         std::get<0>(GetParam()).scene;
   if (!fs::exists(scene)) GTEST_SKIP() << "no ../shared/data/opencap_two_phones";
   const TemporaryFolder out;
   const std::string folder = out / "result";
   const ProgramResult run = run_walktrack({"track", scene.string(), "-o", folder, "--no-overlay",
-                                           "--seed", std::to_string(GetParam())});
+                                           "--seed", std::to_string(std::get<1>(GetParam()))});
   ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 4) << run.err;
   const Motion motion = read_motion(folder + "/joints.csv");
   const auto record = nlohmann::json::parse(read_file(folder + "/run.json"));
@@ -61,7 +69,7 @@ TEST_P(TwoTelephones, AManStandsWalksAndStands) {
     const Vector2d other_foot = toe_after(motion, landing.frame, other(landing.side)) - landing.toe;
     EXPECT_LT(own.norm(), other_foot.norm()) << landing.frame;
     // Our toe is the ball, about 8 cm behind the tip that was marked.
-    EXPECT_LT(own.norm(), 0.15) << landing.frame;
+    EXPECT_LT(own.norm(), std::get<0>(GetParam()).farthest) << landing.frame;
   }
   const auto gait = nlohmann::json::parse(read_file(folder + "/gait.json"));
   for (const auto& event : gait["events"]) {
@@ -70,7 +78,10 @@ TEST_P(TwoTelephones, AManStandsWalksAndStands) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, TwoTelephones, testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Seeds, TwoTelephones,
+                         testing::Combine(testing::Values(Room{"scene_plates.yaml", 0.15},
+                                                          Room{"scene.yaml", 0.25}),
+                                          testing::Values(1, 2, 3)));
 
 }  // namespace
 }  // namespace walktrack

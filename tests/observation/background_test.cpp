@@ -141,6 +141,34 @@ TEST(Background, IsFoundBehindAWalkerWhoCoversItHalfTheTime) {
   EXPECT_LT(foreground_share(log_ratios(model, scene(rng, 2)), kEverywhere), 0.01);
 }
 
+// Somebody who stands in most frames is not part of the room where it is known which pixels they
+// are; what they always hide is known to be unknown.
+TEST(Background, LeavesOutWhatIsHidden) {
+  Rng rng(9, Purpose::kTest);
+  const cv::Rect always(70, 10, 8, 8);
+  BackgroundSampler sampler({}, 1);
+  for (int i = 0; i < 20; ++i) {
+    cv::Mat frame = scene(rng, 2);
+    if (i < 15) frame(kBox) = cv::Scalar(60, 70, 150);
+    frame(always) = cv::Scalar(20, 30, 220);
+    sampler.add(frame);
+  }
+  EXPECT_GT(foreground_share(log_ratios(sampler.model(), scene(rng, 2)), kBox), 0.95);
+  cv::Mat mask = cv::Mat::zeros(kHeight, kWidth, CV_8U);
+  mask(always) = 255;
+  for (int i = 0; i < sampler.frames(); ++i) {
+    mask(kBox) = i < 15 ? 255 : 0;
+    sampler.hide(i, mask);
+  }
+  const BackgroundModel model = sampler.model();
+  const std::vector<double> ratios = log_ratios(model, scene(rng, 2));
+  EXPECT_LT(foreground_share(ratios, kBox), 0.05);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      EXPECT_EQ(never_seen(model.luma_precision[static_cast<size_t>(y * kWidth + x)]),
+                always.contains({x, y}));
+}
+
 TEST(Background, MemoryIsBounded) {
   BackgroundConfig config;
   config.samples = 8;

@@ -1,5 +1,6 @@
 #include "observation/observer.h"
 
+#include <algorithm>
 #include <functional>
 
 #include <gtest/gtest.h>
@@ -248,6 +249,29 @@ TEST(Observer, OccludersSayNothing) {
   };
   EXPECT_LT(seen(150), 0);
   EXPECT_GE(seen(170), 0);
+}
+
+// What is behind people who always stood there is not known, whatever else comes and goes.
+TEST(Observer, WhatWasNeverSeenSaysNothing) {
+  const World world;
+  BackgroundSampler sampler({}, 1);
+  sampler.add(world.empty);
+  BackgroundModel model = sampler.model();
+  for (size_t y = 0; y < 240; ++y)
+    std::fill_n(model.luma_precision.begin() + static_cast<long>(320 * y), 160, kNeverSeen);
+  Observer observer({}, {world.camera, 1, appearances_of(world.body), model, {}});
+  const auto ratio = [&](int x) {
+    CameraEvidence evidence;
+    observer.observe(world.frame(world.pose(0)), whole_image(observer.camera(), 0.01), evidence);
+    return log_ratio_at(evidence.planes, Appearance::kTrunk, x, 120);
+  };
+  EXPECT_EQ(ratio(155), 0);
+  EXPECT_NE(ratio(165), 0);
+  observer.hide({{{160, -1}, {320, -1}, {320, 240}, {160, 240}}});
+  EXPECT_EQ(ratio(165), 0);
+  observer.hide({});
+  EXPECT_EQ(ratio(155), 0);
+  EXPECT_NE(ratio(165), 0);
 }
 
 // A prepared frame keeps its memory, but nothing of the flow before frames were dropped.

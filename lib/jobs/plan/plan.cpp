@@ -10,6 +10,7 @@
 #include "core/conventions.h"
 #include "io/video/scene_video.h"
 #include "jobs/track/input/detections.h"
+#include "jobs/track/input/learned_background.h"
 #include "jobs/track/track_setup.h"
 #include "tracker/walker_filter.h"
 
@@ -149,6 +150,12 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
   items.fact("occluders", hidden > 0, "pixels behind obstacles, which are left out",
              hidden > 0 ? fmt::format("{} of the scene's cameras have some", hidden)
                         : "the scene has none");
+  const auto without = std::count_if(scene.cameras.begin(), scene.cameras.end(), learns_from_video);
+  const bool left_out = leaves_people_out(scene, values);
+  items.fact("people left out", left_out,
+             "of backgrounds that are learned from the video, by the pose network",
+             without == 0 ? "every camera has pictures of the empty scene"
+                          : items.origin("observation.background.without_people"));
   items.fact("search", !scene.initial, "finding the walk in a window of frames, until it is found",
              scene.initial ? "the scene says where the walk begins" : "the scene has no `initial`");
   items.fact("size", !scene.height_given,
@@ -184,8 +191,9 @@ std::vector<std::pair<std::string, double>> memory_of(const Scene& scene, const 
       {"log-ratios around the subject", sizeof(int32_t) * region * std::max(1, plan.work.classes)}};
   if (images.background.enabled) {
     out.emplace_back("background", 5 * sizeof(float) * shrunk);
-    out.emplace_back("learning the background, before the first frame",
-                     3.0 * images.background.samples * shrunk);
+    out.emplace_back(
+        "learning the background, before the first frame",
+        (leaves_people_out(scene, config) ? 4.0 : 3.0) * images.background.samples * shrunk);
   }
   if (!scene.initial)
     out.emplace_back("the search's window of frames",
@@ -240,7 +248,7 @@ std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& c
         fmt::format("Flow: silhouettes hold the track of a subject who stands out from the "
                     "scene; observation.flow.enabled=off {}.",
                     without("observation.flow.enabled=off")));
-  if (is_on(images.keypoints) && scene.cameras.size() > kCamerasInDoubt)
+  if (is_on(images.keypoints) && scene.cameras.size() > cameras_in_doubt(scene))
     out.push_back(
         fmt::format("Keypoints: with {} cameras silhouettes alone tell left from right; "
                     "observation.keypoints.enabled=off {}.",

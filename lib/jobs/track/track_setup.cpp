@@ -9,8 +9,7 @@
 #include "core/anthropometry.h"
 #include "core/errors.h"
 #include "core/parallel_for.h"
-#include "io/video/video.h"
-#include "observation/background/background_sampler.h"
+#include "jobs/track/input/learned_background.h"
 #include "observation/flow/flow.h"
 #include "observation/shrink.h"
 #include "tracker/motion/planar_body.h"
@@ -41,28 +40,13 @@ double expected_height_px(const Scene& scene, const Camera& camera, const Detect
   return *chosen;
 }
 
-BackgroundModel learn_background(const SceneCamera& camera, const Config& config, int shrink,
-                                 const JobControl& control) {
-  const bool empty_frames = !camera.background.empty();
-  FrameSource source(empty_frames ? camera.background : camera.video,
-                     cv::Size(camera.camera.width_px, camera.camera.height_px));
-  BackgroundSampler sampler(config.observation.background, shrink);
-  const auto total = static_cast<size_t>(source.facts().frame_count);
-  cv::Mat frame;
-  for (size_t done = 0; source.read(frame); ++done) {
-    sampler.add(frame);
-    control.progress("learning the background", done, total);
-    if (control.stopping()) break;  // not before there is a frame, without which there is no model
-  }
-  return sampler.model(thread_count(config.threads));
-}
-
 Observer make_observer(const Scene& scene, const SceneCamera& camera, const Config& config,
                        const Body& body, const ObserverState* learned, const JobControl& control) {
   const ObservationConfig& observation = config.observation;
   ObserverInput input;
   input.camera = camera.camera;
-  input.shrink = working_scale(scene, camera.camera, config).shrink;
+  const WorkingScale scale = working_scale(scene, camera.camera, config);
+  input.shrink = scale.shrink;
   input.appearances = appearances_of(body);
   // Several cameras share the threads among themselves.
   input.threads = scene.cameras.size() == 1 ? thread_count(config.threads) : 1;
@@ -71,7 +55,7 @@ Observer make_observer(const Scene& scene, const SceneCamera& camera, const Conf
   if (learned) {
     input.background = learned->background;
   } else if (observation.background.enabled && input.pictures) {
-    input.background = learn_background(camera, config, input.shrink, control);
+    input.background = learned_background(camera, config, scale, control);
   }
   Observer observer(observation, std::move(input));
   if (learned) observer.resume(*learned);

@@ -23,6 +23,11 @@
 namespace walktrack {
 inline namespace observation {
 
+// Precision of a pixel that hardly any frame showed without people: what is behind them is not
+// known, and the pixel says nothing. Far below that of any that was seen.
+inline constexpr float kNeverSeen = 1e-6F;
+inline bool never_seen(float precision) { return precision <= 2 * kNeverSeen; }
+
 struct BackgroundModel {
   int width = 0, height = 0;
   std::vector<float> luma, orange, green;               // means

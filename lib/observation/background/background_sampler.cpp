@@ -19,6 +19,9 @@ namespace {
 // By hand.
 constexpr float kNeighbourhood = 18;
 
+// Frames that have to show a pixel free; by hand.
+constexpr size_t kFreeFrames = 3;
+
 struct Statistics {
   float luma, orange, green, luma_variance, chroma_variance;
 };
@@ -116,7 +119,17 @@ BackgroundModel sized(int width, int height) {
 struct Frames {
   int width, height;
   const std::vector<std::vector<uint8_t>>& bgr;
+  const std::vector<std::vector<uint8_t>>& hidden;
   std::vector<float> gains;
+
+  bool counts(size_t frame, size_t pixel) const {
+    return hidden[frame].empty() || hidden[frame][pixel] == 0;
+  }
+  bool all_count(size_t pixel) const {
+    for (size_t f = 0; f < bgr.size(); ++f)
+      if (!counts(f, pixel)) return false;
+    return true;
+  }
 
   cv::Mat image(size_t frame) const {
     return {height, width, CV_8UC3, const_cast<uint8_t*>(bgr[frame].data())};
@@ -135,15 +148,26 @@ void set_pixel(BackgroundModel& model, size_t pixel, const Statistics& s) {
 // Works out pixels one after the other, whatever they show.
 class PixelStatistics {
  public:
-  explicit PixelStatistics(const Frames& frames) : frames_(frames), samples_(frames.bgr.size()) {}
+  explicit PixelStatistics(const Frames& frames) : frames_(frames) {}
 
   Statistics of(size_t pixel) {
-    for (size_t f = 0; f < samples_.size(); ++f)
-      samples_[f] = sample_at(frames_.bgr[f], pixel, frames_.gains[f]);
-    return robust_statistics(samples_, scratch_);
+    take(pixel, [&](size_t f) { return frames_.counts(f, pixel); });
+    if (samples_.size() >= std::min(kFreeFrames, frames_.bgr.size()))
+      return robust_statistics(samples_, scratch_);
+    take(pixel, [](size_t) { return true; });
+    Statistics out = robust_statistics(samples_, scratch_);
+    out.luma_variance = out.chroma_variance = 1 / kNeverSeen;
+    return out;
   }
 
  private:
+  template <typename Counts>
+  void take(size_t pixel, Counts counts) {
+    samples_.clear();
+    for (size_t f = 0; f < frames_.bgr.size(); ++f)
+      if (counts(f)) samples_.push_back(sample_at(frames_.bgr[f], pixel, frames_.gains[f]));
+  }
+
   const Frames& frames_;
   std::vector<Sample> samples_;
   std::vector<float> scratch_;
@@ -194,7 +218,9 @@ void fill_row(const Frames& frames, size_t y, BackgroundModel& model) {
   const auto n = static_cast<float>(frames.bgr.size());
   const auto width = static_cast<size_t>(frames.width);
   for (size_t x = 0; x < width; ++x) {
-    const bool still = std::max({luma.range(x), orange.range(x), green.range(x)}) <= kNeighbourhood;
+    const bool still =
+        std::max({luma.range(x), orange.range(x), green.range(x)}) <= kNeighbourhood &&
+        frames.all_count(y * width + x);
     set_pixel(model, y * width + x,
               still ? Statistics{luma.mean(x, n), orange.mean(x, n), green.mean(x, n),
                                  luma.variance(x, n),
@@ -268,9 +294,24 @@ void BackgroundSampler::add(const cv::Mat& frame_bgr) {
                         small.ptr<uint8_t>(y) + 3 * small.cols);
 }
 
+cv::Mat BackgroundSampler::frame(int index) const {
+  const auto& bgr = kept_[static_cast<size_t>(index)];
+  return {height_, width_, CV_8UC3, const_cast<uint8_t*>(bgr.data())};
+}
+
+void BackgroundSampler::hide(int index, const cv::Mat& mask) {
+  hidden_.resize(kept_.size());
+  auto& hidden = hidden_[static_cast<size_t>(index)];
+  hidden.clear();
+  for (int y = 0; y < mask.rows; ++y)
+    hidden.insert(hidden.end(), mask.ptr<uint8_t>(y), mask.ptr<uint8_t>(y) + mask.cols);
+}
+
 BackgroundModel BackgroundSampler::model(int threads) const {
   if (kept_.empty()) throw InputError("background: no frame to learn it from");
-  Frames frames{width_, height_, kept_, std::vector<float>(kept_.size(), 1)};
+  std::vector<std::vector<uint8_t>> hidden = hidden_;
+  hidden.resize(kept_.size());
+  Frames frames{width_, height_, kept_, hidden, std::vector<float>(kept_.size(), 1)};
   if (kept_.size() > 1) measure_light(frames);
   BackgroundModel model = sized(width_, height_);
   parallel_for(static_cast<size_t>(height_), threads,

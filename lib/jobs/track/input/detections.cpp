@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "io/archive/files.h"
+#include "jobs/track/input/learned_background.h"
 #include "jobs/track/input/pose_model.h"
 #include "jobs/track/track_setup.h"
 
@@ -41,9 +42,9 @@ bool has_network(const KeypointConfig& config) {
   return has_pose_net() && pose_model_file(config.model);
 }
 
-// Whether one camera alone sees people large enough for the network.
+// Whether the cameras are few enough and see people large enough for the network.
 bool network_would_tell(const Scene& scene, const Config& config) {
-  return scene.cameras.size() <= kCamerasInDoubt &&
+  return scene.cameras.size() <= cameras_in_doubt(scene) &&
          std::all_of(scene.cameras.begin(), scene.cameras.end(), [&](const SceneCamera& camera) {
            return wants_network(camera) &&
                   working_scale(scene, camera.camera, config).person_px >= kLeastPerson_px;
@@ -51,6 +52,10 @@ bool network_would_tell(const Scene& scene, const Config& config) {
 }
 
 }  // namespace
+
+size_t cameras_in_doubt(const Scene& scene) {
+  return std::any_of(scene.cameras.begin(), scene.cameras.end(), learns_from_video) ? 2 : 1;
+}
 
 bool keypoints_wanted(const Scene& scene, const Config& config) {
   const KeypointConfig& keypoints = config.observation.keypoints;
@@ -78,6 +83,7 @@ ObservationConfig decided_terms(const Scene& scene, const Config& config) {
   const auto setting = [](bool on) { return on ? TermSetting::kOn : TermSetting::kOff; };
   out.flow.enabled = setting(flow_wanted(config));
   out.keypoints.enabled = setting(keypoints_wanted(scene, config));
+  out.background.without_people = setting(leaves_people_out(scene, config));
   return out;
 }
 

@@ -18,8 +18,8 @@ namespace walktrack {
 inline namespace jobs {
 
 // Cameras up to which left and right may be in doubt without keypoints: from two sides silhouettes
-// tell by themselves.
-inline constexpr size_t kCamerasInDoubt = 1;
+// tell by themselves, if it is known what is behind them.
+size_t cameras_in_doubt(const Scene& scene);
 // Height of a person in the picture from which on the network is asked unless told otherwise: who
 // is smaller does not fill the 192 px of its input, and of somebody of 70 px in black trousers it
 // took one leg for the other for a whole stride.
