@@ -166,6 +166,17 @@ void draw_cross(cv::Mat& image, const Vector2d& px, const cv::Scalar& bgr, doubl
     draw_piece(image, px - arm, px + arm, bgr, 1);
 }
 
+void draw_ring(cv::Mat& image, const Eigen::Vector2d& px, int radius_px, const cv::Scalar& bgr) {
+  cv::circle(image, fixed_point(px), radius_px << kFractionBits, bgr, line_thickness(image),
+             cv::LINE_AA, kFractionBits);
+}
+
+void draw_stroke(cv::Mat& image, const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px,
+                 const cv::Scalar& bgr, int thickness_px) {
+  cv::line(image, fixed_point(from_px), fixed_point(to_px), bgr,
+           thickness_px > 0 ? thickness_px : line_thickness(image), cv::LINE_AA, kFractionBits);
+}
+
 cv::Scalar left_colour() { return kLeftBgr; }
 cv::Scalar right_colour() { return kRightBgr; }
 cv::Scalar trunk_colour() { return kTrunkBgr; }

@@ -40,6 +40,12 @@ void draw_spread(cv::Mat& image, const Camera& camera, std::span<const JointPosi
 // A thin cross at a point of the image, `arm_px` long to all sides: what a detector saw there.
 void draw_cross(cv::Mat& image, const Eigen::Vector2d& px, const cv::Scalar& bgr, double arm_px);
 
+// A ring about a point of the image, and a straight line between two of them; as thick as suits the
+// image unless told otherwise.
+void draw_ring(cv::Mat& image, const Eigen::Vector2d& px, int radius_px, const cv::Scalar& bgr);
+void draw_stroke(cv::Mat& image, const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px,
+                 const cv::Scalar& bgr, int thickness_px = 0);
+
 // The colours of left and right limbs and of the trunk.
 cv::Scalar left_colour();
 cv::Scalar right_colour();

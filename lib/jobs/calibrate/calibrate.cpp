@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core/mat.hpp>
 
 #include "camera/inspection.h"
 #include "core/conventions.h"
@@ -14,6 +14,7 @@
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
 #include "io/calibration/calibration.h"
+#include "io/drawing/picture.h"
 #include "io/video/video.h"
 #include "jobs/calibrate/calibrate_parts.h"
 
@@ -58,12 +59,6 @@ Outputs outputs_of(const CalibrateJob& job) {
 
 // By the endings of their files' names; written when all has gone well.
 using Pictures = std::map<std::string, cv::Mat>;
-
-std::string png_of(const cv::Mat& image) {
-  std::vector<uchar> png;
-  cv::imencode(".png", image, png);
-  return {png.begin(), png.end()};
-}
 
 void add_residuals(const std::string& of, int frame, const PixelPoints& found,
                    const PixelPoints& misses, CalibrateOutcome& out) {
@@ -198,7 +193,7 @@ CalibrateOutcome calibrate(const CalibrateJob& job, const JobControl& control) {
     find_place(job, out, pictures);
   }
   const ResultFolder folder(outputs, job.overwrite);
-  for (const auto& [ending, image] : pictures) folder.write(job.name + ending, png_of(image));
+  for (const auto& [ending, image] : pictures) folder.write(job.name + ending, png_bytes(image));
   folder.write(job.name + kResiduals, residuals_csv(out));
   folder.write(job.name + kToml, toml_from_cameras({{job.name, out.camera}}));
   folder.write(job.name + kRun, run_text(job, out));

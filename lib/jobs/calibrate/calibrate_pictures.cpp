@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core/mat.hpp>
 
 #include "io/drawing/overlay.h"
 #include "jobs/calibrate/calibrate_parts.h"
@@ -12,29 +12,11 @@ inline namespace jobs {
 
 namespace {
 
-constexpr double kEnlargement = 30;  // of misses in the lens picture
-constexpr int kSubpixelBits = 4;
-
+constexpr double kEnlargement = 30;                        // of misses in the lens picture
 const cv::Scalar kFound(80, 220, 80), kMiss(60, 60, 255);  // green, red
 
-cv::Point shifted(const Eigen::Vector2d& pixel) {
-  const double scale = 1 << kSubpixelBits;
-  return {static_cast<int>(std::lround(scale * pixel.x())),
-          static_cast<int>(std::lround(scale * pixel.y()))};
-}
-
-void draw_ring(cv::Mat& image, const Eigen::Vector2d& at, int radius, const cv::Scalar& colour) {
-  cv::circle(image, shifted(at), radius << kSubpixelBits, colour, line_thickness(image),
-             cv::LINE_AA, kSubpixelBits);
-}
-
-void draw_stroke(cv::Mat& image, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
-                 const cv::Scalar& colour) {
-  cv::line(image, shifted(from), shifted(to), colour, line_thickness(image), cv::LINE_AA,
-           kSubpixelBits);
-}
-
-void draw_cross(cv::Mat& image, const Eigen::Vector2d& at, double half, const cv::Scalar& colour) {
+void draw_thick_cross(cv::Mat& image, const Eigen::Vector2d& at, double half,
+                      const cv::Scalar& colour) {
   draw_stroke(image, at - Eigen::Vector2d(half, 0), at + Eigen::Vector2d(half, 0), colour);
   draw_stroke(image, at - Eigen::Vector2d(0, half), at + Eigen::Vector2d(0, half), colour);
 }
@@ -68,7 +50,7 @@ cv::Mat place_picture(const cv::Mat& picture, const PlaceFit& fit, const Measure
   const int size = 4 * line_thickness(image);
   for (size_t i = 0; i < points.pixels.size(); ++i) {
     draw_ring(image, points.pixels[i], size, kFound);
-    draw_cross(image, points.pixels[i] - fit.misses[i], size, kMiss);
+    draw_thick_cross(image, points.pixels[i] - fit.misses[i], size, kMiss);
   }
   draw_caption(image,
                fmt::format("green given, red projected; rms {:.2f} px; 1 m grid", fit.rms_px));

@@ -9,6 +9,7 @@
 
 #include "io/archive/result_folder.h"
 #include "jobs/check/check.h"
+#include "observation/figures/moving_figure.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -26,14 +27,6 @@ void check_keypoints(const Scene& scene, CheckReport& report);
 
 // Frames that cannot be decoded.
 void check_decoding(const Scene& scene, const JobControl& control, CheckReport& report);
-
-// The moving figure of one frame, px of the full image.
-struct MovingFigure {
-  Eigen::Vector2d middle;                      // of its upper part
-  std::vector<Eigen::Vector2d> tops, bottoms;  // of its columns; empty where the image cuts it off
-};
-// By scene frame; nullopt when nothing or too much moves, or a camera has no frame of its own.
-using FigurePath = std::vector<std::optional<MovingFigure>>;
 
 // The figures' paths through the videos, by camera, from the first frame on, at most
 // kMostSyncFrames.

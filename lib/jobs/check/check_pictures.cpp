@@ -1,9 +1,10 @@
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core/mat.hpp>
 
 #include "body/kinematics.h"
 #include "core/errors.h"
 #include "io/drawing/overlay.h"
+#include "io/drawing/picture.h"
 #include "io/video/scene_video.h"
 #include "jobs/check/check_parts.h"
 
@@ -52,9 +53,7 @@ void write_check_pictures(const Scene& scene, const CheckReport& report,
                   2 * line_thickness(frame));
     draw_caption(frame, fmt::format("{}: {:.2f} m figure at ({:.1f}, {:.1f}), 1 m grid",
                                     camera.name, scene.subject.height, place.x(), place.y()));
-    std::vector<uchar> png;
-    cv::imencode(".png", frame, png);
-    out.write(picture_name(camera), {reinterpret_cast<const char*>(png.data()), png.size()});
+    out.write(picture_name(camera), png_bytes(frame));
   }
 }
 

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 #include <Eigen/LU>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "io/video/video.h"
 #include "jobs/check/check_parts.h"

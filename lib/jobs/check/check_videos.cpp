@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
 
 #include "io/video/frame_stamps.h"
 #include "io/video/scene_video.h"

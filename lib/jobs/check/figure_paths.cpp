@@ -1,10 +1,5 @@
-// What moves in the videos of a scene, quickly: the largest blob that differs from the median
-// frame.
-#include <algorithm>
-#include <cmath>
-
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
+// The moving figures of all videos of a scene.
+#include <vector>
 
 #include "io/video/scene_video.h"
 #include "jobs/check/check_parts.h"
@@ -12,184 +7,17 @@
 namespace walktrack {
 inline namespace jobs {
 
-namespace {
-
-using Eigen::Vector2d;
-
-constexpr int kShrunkSide = 640;                                // px, enough to find a figure
-constexpr int kBackgroundFrames = 25;                           // whose median is the empty scene
-constexpr int kDifference = 25;                                 // grey levels
-constexpr double kSmallestFigure = 5e-4, kLargestFigure = 0.3;  // shares of the image
-constexpr double kUpperPart = 0.4;  // of a figure's height, free of shadow and legs
-
-// The frames of one camera, grey and small; empty where it had none of its own.
-struct SmallVideo {
-  int factor = 1;
-  std::vector<cv::Mat> frames;
-
-  // Row by row of the small picture, for a grey copy of a large one is a needless one.
-  void add(const cv::Mat& frame) {
-    cv::Mat grey(frame.rows / factor, frame.cols / factor, CV_8U), strip;
-    for (int y = 0; y < grey.rows; ++y) {
-      cv::cvtColor(frame.rowRange(y * factor, (y + 1) * factor), strip, cv::COLOR_BGR2GRAY);
-      cv::Mat row = grey.row(y);
-      cv::resize(strip.colRange(0, grey.cols * factor), row, row.size(), 0, 0, cv::INTER_AREA);
-    }
-    frames.push_back(grey);
-  }
-};
-
-std::vector<SmallVideo> small_videos(const Scene& scene, SceneVideo& video,
-                                     const JobControl& control) {
-  std::vector<SmallVideo> out(scene.cameras.size());
-  for (size_t i = 0; i < out.size(); ++i) {
-    const Camera& camera = scene.cameras[i].camera;
-    // A whole factor averages whole pixels, which is quick.
-    const int side = std::max(camera.width_px, camera.height_px);
-    out[i].factor = (side + kShrunkSide - 1) / kShrunkSide;
-  }
-  SceneFrames images;
-  for (int n = 0; n < kMostSyncFrames && !control.stopping() && video.read(images); ++n) {
-    for (size_t i = 0; i < out.size(); ++i) {
-      if (images.fresh[i])
-        out[i].add(images.images[i]);
-      else
-        out[i].frames.emplace_back();
-    }
-  }
-  return out;
-}
-
-void put_smaller_first(uchar* a, uchar* b, size_t width) {
-  for (size_t x = 0; x < width; ++x) {
-    const uchar low = std::min(a[x], b[x]), high = std::max(a[x], b[x]);
-    a[x] = low;
-    b[x] = high;
-  }
-}
-
-cv::Mat median_frame(const std::vector<cv::Mat>& all) {
-  std::vector<const cv::Mat*> frames;
-  for (const cv::Mat& frame : all)
-    if (!frame.empty()) frames.push_back(&frame);
-  if (frames.empty()) return {};
-  cv::Mat median = frames.front()->clone();
-  const size_t count = std::min<size_t>(kBackgroundFrames, frames.size());
-  const auto width = static_cast<size_t>(median.cols);
-  std::vector<uchar> rows(count * width);
-  for (int y = 0; y < median.rows; ++y) {
-    for (size_t k = 0; k < count; ++k)
-      std::copy_n(frames[k * frames.size() / count]->ptr<uchar>(y), width, &rows[k * width]);
-    // Pixels side by side, so that a vector of them is compared at once.
-    for (size_t i = 0; i <= count / 2; ++i)
-      for (size_t k = i + 1; k < count; ++k)
-        put_smaller_first(&rows[i * width], &rows[k * width], width);
-    std::copy_n(&rows[count / 2 * width], width, median.ptr<uchar>(y));
-  }
-  return median;
-}
-
-// Where anything moves, and so much around it that closing gaps there is as in the whole image.
-cv::Rect moving_part(const cv::Mat& moving) {
-  constexpr int kAround = 4;
-  const cv::Rect found = cv::boundingRect(moving);
-  if (found.empty()) return {};
-  const cv::Rect whole({}, moving.size());
-  return (found - cv::Point(kAround, kAround) + cv::Size(2 * kAround, 2 * kAround)) & whole;
-}
-
-// The largest of the blobs: 255 where it is, and the box around it. Of a black image: nothing.
-struct Blob {
-  cv::Mat mask;  // of the image's part `around`
-  cv::Rect around;
-  int area = 0;
-};
-
-Blob largest_blob(const cv::Mat& moving) {
-  cv::Mat labels, statistics, centres;
-  const int count = cv::connectedComponentsWithStats(moving, labels, statistics, centres);
-  int best = 0, area = 0;
-  for (int i = 1; i < count; ++i) {
-    if (statistics.at<int>(i, cv::CC_STAT_AREA) <= area) continue;
-    area = statistics.at<int>(i, cv::CC_STAT_AREA);
-    best = i;
-  }
-  if (area == 0) return {};
-  const cv::Rect box(
-      statistics.at<int>(best, cv::CC_STAT_LEFT), statistics.at<int>(best, cv::CC_STAT_TOP),
-      statistics.at<int>(best, cv::CC_STAT_WIDTH), statistics.at<int>(best, cv::CC_STAT_HEIGHT));
-  return {labels(box) == best, box, area};
-}
-
-// The blob's outermost pixels, column by column, px of the shrunk image.
-void add_ends(const Blob& blob, int image_rows, MovingFigure& figure) {
-  const cv::Rect& box = blob.around;
-  for (int x = 0; x < box.width; ++x) {
-    int top = -1, bottom = -1;
-    for (int y = 0; y < box.height; ++y) {
-      if (blob.mask.at<uchar>(y, x) == 0) continue;
-      if (top < 0) top = y;
-      bottom = y;
-    }
-    if (top < 0) continue;
-    if (box.y > 0) figure.tops.emplace_back(box.x + x, box.y + top - 0.5);
-    if (box.y + box.height < image_rows)
-      figure.bottoms.emplace_back(box.x + x, box.y + bottom + 0.5);
-  }
-}
-
-// The largest moving blob, px of the shrunk image; its middle is that of the upper part, for its
-// shadow lies below. None if it touches the image's side.
-std::optional<MovingFigure> figure_in(const cv::Mat& frame, const cv::Mat& background) {
-  cv::Mat difference;
-  cv::absdiff(frame, background, difference);
-  const cv::Mat everywhere = difference > kDifference;
-  // Looking for blobs is most of what this costs, so it is done where there are any.
-  const cv::Rect part = moving_part(everywhere);
-  if (part.empty()) return std::nullopt;
-  cv::Mat moving;
-  cv::morphologyEx(everywhere(part), moving, cv::MORPH_CLOSE, cv::Mat::ones(5, 3, CV_8U));
-  Blob blob = largest_blob(moving);
-  blob.around += part.tl();
-  const double share = blob.area / static_cast<double>(frame.total());
-  if (share < kSmallestFigure || share > kLargestFigure) return std::nullopt;
-  const cv::Rect& box = blob.around;
-  if (box.x < 2 || box.x + box.width > frame.cols - 2) return std::nullopt;
-  const int upper = static_cast<int>(std::ceil(kUpperPart * box.height));
-  const cv::Moments moments = cv::moments(blob.mask.rowRange(0, upper), true);
-  MovingFigure figure{
-      {box.x + moments.m10 / moments.m00, box.y + moments.m01 / moments.m00}, {}, {}};
-  add_ends(blob, frame.rows, figure);
-  return figure;
-}
-
-MovingFigure enlarged(MovingFigure figure, int factor) {
-  const auto enlarge = [&](Vector2d& pixel) { pixel = (pixel.array() + 0.5) * factor - 0.5; };
-  enlarge(figure.middle);
-  for (auto* ends : {&figure.tops, &figure.bottoms})
-    for (Vector2d& pixel : *ends) enlarge(pixel);
-  return figure;
-}
-
-FigurePath path_through(const SmallVideo& video) {
-  FigurePath path;
-  const cv::Mat background = median_frame(video.frames);
-  for (const cv::Mat& frame : video.frames) {
-    path.emplace_back();
-    if (frame.empty()) continue;
-    const auto figure = figure_in(frame, background);
-    if (figure) path.back() = enlarged(*figure, video.factor);
-  }
-  return path;
-}
-
-}  // namespace
-
 SeenFigures figures_in(const Scene& scene, const JobControl& control) {
   SceneVideo video(scene);
   SeenFigures out{video.frame_rate(), {}};
-  for (const SmallVideo& each : small_videos(scene, video, control))
-    out.paths.push_back(path_through(each));
+  std::vector<MovingFigures> cameras;
+  for (const SceneCamera& each : scene.cameras)
+    cameras.emplace_back(each.camera.width_px, each.camera.height_px);
+  SceneFrames images;
+  for (int n = 0; n < kMostSyncFrames && !control.stopping() && video.read(images); ++n)
+    for (size_t i = 0; i < cameras.size(); ++i)
+      cameras[i].add(images.fresh[i] ? images.images[i] : cv::Mat());
+  for (const MovingFigures& camera : cameras) out.paths.push_back(camera.path());
   return out;
 }
 

@@ -5,9 +5,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/core/utility.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core/mat.hpp>
 
 #include "core/conventions.h"
 #include "core/errors.h"
@@ -15,11 +13,13 @@
 #include "io/archive/result_folder.h"
 #include "io/calibration/calibration.h"
 #include "io/drawing/overlay.h"
+#include "io/drawing/picture.h"
 #include "io/tables/table_notes.h"
 #include "io/video/video.h"
 #include "jobs/init/init_files.h"
 #include "jobs/init/lens_guess.h"
 #include "jobs/init/seen_walker.h"
+#include "observation/image_threads.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -127,10 +127,6 @@ std::string record_json(const InitJob& job, const InitOutcome& out, const SeenWa
   return root.dump(1) + "\n";
 }
 
-cv::Point pixel(double u, double v) {
-  return {static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v))};
-}
-
 // Ground, horizon, and at every position the subject as high as they are to be.
 std::string picture_png(const InitJob& job, const InitOutcome& out,
                         std::span<const SeenStature> positions, int frame_number) {
@@ -150,8 +146,8 @@ std::string picture_png(const InitJob& job, const InitOutcome& out,
     draw_line(frame, camera, *foot, *foot + Eigen::Vector3d(0, 0, kSeenShare * job.height),
               right_colour(), 2 * thick);
     for (const double row : {seen.top_px, seen.bottom_px})
-      cv::line(frame, pixel(seen.u_px - 6 * thick, row), pixel(seen.u_px + 6 * thick, row),
-               trunk_colour(), thick);
+      draw_stroke(frame, {seen.u_px - 6 * thick, row}, {seen.u_px + 6 * thick, row}, trunk_colour(),
+                  thick);
   }
   for (const FloorLength& length : job.floor) {
     const auto from = ground_point(camera, length.from_px), to = ground_point(camera, length.to_px);
@@ -160,9 +156,7 @@ std::string picture_png(const InitJob& job, const InitOutcome& out,
   draw_caption(
       frame, fmt::format("camera {:.2f} m high, {:.1f} m away; lines are {:.2f} m; 1 m grid",
                          out.view.height.value, out.view.distance.value, kSeenShare * job.height));
-  std::vector<uchar> png;
-  cv::imencode(".png", frame, png);
-  return {png.begin(), png.end()};
+  return png_bytes(frame);
 }
 
 Outputs outputs_of(const InitJob& job) {
@@ -180,7 +174,7 @@ Outputs outputs_of(const InitJob& job) {
 InitOutcome init_scene(const InitJob& job, const JobControl& control) {
   refuse_what_is_not_ours(outputs_of(job));
   // The pose network's sums go with OpenCV's threads.
-  cv::setNumThreads(1);
+  set_image_threads(1);
   const SeenWalk walk = seen_walk(job, control);
   const std::vector<SeenStature> positions = checked_positions(job, walk);
   const double side_px = std::max(walk.width_px, walk.height_px);

@@ -5,9 +5,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/core/utility.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core/mat.hpp>
 
 #include "core/conventions.h"
 #include "core/errors.h"
@@ -15,11 +13,13 @@
 #include "io/archive/result_folder.h"
 #include "io/calibration/calibration.h"
 #include "io/drawing/overlay.h"
+#include "io/drawing/picture.h"
 #include "io/tables/table_notes.h"
 #include "io/video/video.h"
 #include "jobs/init/init_files.h"
 #include "jobs/init/lens_guess.h"
 #include "jobs/init/seen_person.h"
+#include "observation/image_threads.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -123,18 +123,9 @@ cv::Mat view_of(const InitPairJob& job, const InitPairOutcome& out, size_t c, in
   return frame;
 }
 
-// Both beside each other, as high as the lower one.
 std::string picture_png(const InitPairJob& job, const InitPairOutcome& out,
                         const std::array<int, 2>& frames) {
-  std::array<cv::Mat, 2> views{view_of(job, out, 0, frames[0]), view_of(job, out, 1, frames[1])};
-  const int rows = std::min(views[0].rows, views[1].rows);
-  for (cv::Mat& view : views)
-    cv::resize(view, view, cv::Size(view.cols * rows / view.rows, rows), 0, 0, cv::INTER_AREA);
-  cv::Mat both;
-  cv::hconcat(views[0], views[1], both);
-  std::vector<uchar> png;
-  cv::imencode(".png", both, png);
-  return {png.begin(), png.end()};
+  return png_bytes(beside(view_of(job, out, 0, frames[0]), view_of(job, out, 1, frames[1])));
 }
 
 Outputs outputs_of(const InitPairJob& job) {
@@ -174,7 +165,7 @@ std::string use_text(const TwoViews& views) {
 InitPairOutcome init_pair(const InitPairJob& job, const JobControl& control) {
   refuse_what_is_not_ours(outputs_of(job));
   // The pose network's sums go with OpenCV's threads.
-  cv::setNumThreads(1);
+  set_image_threads(1);
   const std::array<SeenPerson, 2> seen{seen_person(job.videos[0], job.frame_rate, control),
                                        seen_person(job.videos[1], job.frame_rate, control)};
   std::array<LensGuess, 2> lenses;

@@ -1,9 +1,8 @@
 #include "jobs/render/frame_writer.h"
 
-#include <vector>
-
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
+
+#include "io/drawing/picture.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -23,10 +22,7 @@ void FrameWriter::write(const cv::Mat& frame) {
     video_->write(frame);
     return;
   }
-  std::vector<uint8_t> bytes;
-  cv::imencode(".png", frame, bytes);
-  folder_.write(fmt::format("{}/{:06}.png", name_, written_),
-                {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  folder_.write(fmt::format("{}/{:06}.png", name_, written_), png_bytes(frame));
   ++written_;
 }
 

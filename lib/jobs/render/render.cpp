@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core/mat.hpp>
 
 #include "core/conventions.h"
 #include "core/errors.h"
@@ -13,6 +12,7 @@
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
 #include "io/calibration/calibration.h"
+#include "io/drawing/picture.h"
 #include "io/tables/angles_file.h"
 #include "io/tables/kinetics_file.h"
 #include "io/tables/motion_file.h"
@@ -75,9 +75,7 @@ cv::Mat picture(const RenderJob& job, const Plane<Colour>& light, uint32_t strea
       developed(light, job.options.sensor, job.options.seed, stream, frame);
   const cv::Mat image(light.height, light.width, CV_8UC3, bytes.data());
   if (job.options.jpeg_quality == 0) return image.clone();
-  std::vector<uint8_t> coded;
-  cv::imencode(".jpg", image, coded, {cv::IMWRITE_JPEG_QUALITY, job.options.jpeg_quality});
-  return cv::imdecode(coded, cv::IMREAD_COLOR);
+  return after_jpeg(image, job.options.jpeg_quality);
 }
 
 void write_truth_pictures(const RenderJob& job, const Stage& stage, const RenderedCamera& rendered,

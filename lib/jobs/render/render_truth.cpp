@@ -4,9 +4,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core/mat.hpp>
 
 #include "io/archive/files.h"
+#include "io/drawing/picture.h"
 #include "io/tables/csv.h"
 #include "metrics/gait.h"
 
@@ -37,10 +38,8 @@ std::string events_csv(const Motion& whole, double duration) {
 
 void write_labels(const std::filesystem::path& file, const Plane<uint8_t>& labels) {
   const cv::Mat image(labels.height, labels.width, CV_8UC1,
-                      const_cast<uint8_t*>(labels.values.data()));  // imencode only reads
-  std::vector<uint8_t> bytes;
-  cv::imencode(".png", image, bytes);
-  write_file_atomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+                      const_cast<uint8_t*>(labels.values.data()));  // which is only read
+  write_file_atomically(file, png_bytes(image));
 }
 
 void write_flow(const std::filesystem::path& file, const Plane<Eigen::Vector2f>& flow) {

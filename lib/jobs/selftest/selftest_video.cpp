@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "body/kinematics.h"
 #include "core/errors.h"
 #include "io/archive/files.h"
 #include "io/calibration/calibration.h"
+#include "io/drawing/picture.h"
 #include "io/tables/motion_file.h"
 #include "jobs/track/track.h"
 #include "metrics/joint_error.h"
@@ -46,9 +45,7 @@ cv::Mat image_of(const Plane<Colour>& light, const TestVideo& video, uint32_t st
                                          static_cast<uint32_t>(frame));
   const cv::Mat image(light.height, light.width, CV_8UC3, bytes.data());
   if (video.enlarge == 1) return image.clone();
-  cv::Mat large;
-  cv::resize(image, large, {}, video.enlarge, video.enlarge, cv::INTER_NEAREST);
-  return large;
+  return enlarged(image, video.enlarge);
 }
 
 // The camera whose pixels are 1 / factor as large.
@@ -82,10 +79,8 @@ Shot shoot(const TestVideo& video) {
 
 void write_frames(const Frames& frames, const fs::path& folder) {
   fs::create_directories(folder);
-  for (size_t i = 0; i < frames.size(); ++i) {
-    const std::string file = (folder / fmt::format("{:06}.bmp", i)).string();
-    if (!cv::imwrite(file, frames[i])) throw std::runtime_error(file + " cannot be written");
-  }
+  for (size_t i = 0; i < frames.size(); ++i)
+    write_picture(folder / fmt::format("{:06}.bmp", i), frames[i]);
 }
 
 // Where the walk begins, from its first half second.

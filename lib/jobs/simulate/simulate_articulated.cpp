@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "core/anthropometry.h"
 #include "core/errors.h"
 #include "core/version.h"
 #include "io/archive/result_folder.h"
+#include "io/drawing/picture.h"
 #include "io/drawing/stick_figure.h"
 #include "jobs/simulate/simulate_job.h"
 
@@ -258,9 +258,7 @@ SimulationEnd simulate_articulated_into(const std::filesystem::path& path, bool 
     const double time = recording.samples.back().time;
     const auto strip = figures(body, job.spec, recording, time / (kStripFigures - 1));
     folder.write("strip.svg", strip_as_svg(strip, 0));
-    std::vector<unsigned char> png;
-    cv::imencode(".png", strip_as_image(strip, 0), png);
-    folder.write("strip.png", std::string(png.begin(), png.end()));
+    folder.write("strip.png", png_bytes(strip_as_image(strip, 0)));
     write_animation(folder.file("animation.mp4"),
                     figures(body, job.spec, recording, 1 / (job.frame_rate * job.slow_motion)), 0,
                     job.frame_rate);

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "core/version.h"
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
+#include "io/drawing/picture.h"
 #include "io/drawing/stick_figure.h"
 #include "io/scene/model_file.h"
 
@@ -69,9 +69,7 @@ void write_pictures(const ResultFolder& folder, const Walker& walker, const Simu
   auto strip = figures_at(walker, recording, time / kStripFigures);
   if (strip.size() > kStripFigures) strip.resize(kStripFigures);
   folder.write("strip.svg", strip_as_svg(strip, slope));
-  std::vector<unsigned char> png;
-  cv::imencode(".png", strip_as_image(strip, slope), png);
-  folder.write("strip.png", std::string(png.begin(), png.end()));
+  folder.write("strip.png", png_bytes(strip_as_image(strip, slope)));
   const double every = 1 / (job.frame_rate * job.slow_motion);
   write_animation(folder.file("animation.mp4"), figures_at(walker, recording, every), slope,
                   job.frame_rate);

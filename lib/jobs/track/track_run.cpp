@@ -5,12 +5,12 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
 
 #include "body/kinematics.h"
 #include "core/errors.h"
 #include "core/parallel_for.h"
 #include "jobs/track/report/why_nobody.h"
+#include "observation/image_threads.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -20,7 +20,7 @@ namespace {
 int threads_of(const TrackJob& job) {
   const int threads = thread_count(job.config.values.threads);
   // More than there are would make its own library complain on the terminal.
-  cv::setNumThreads(std::min(threads, hardware_threads()));
+  set_image_threads(std::min(threads, hardware_threads()));
   return threads;
 }
 
@@ -73,7 +73,7 @@ TrackRun::TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& f
   for (const Region& region : everywhere_) scales.push_back(region.metres_per_px);
   movement_.emplace(std::move(scales), setup_.scene.dt);
   // OpenCV splits the network's layers by its threads, and other sums have other last bits.
-  if (setup_.detections.uses_network()) cv::setNumThreads(1);
+  if (setup_.detections.uses_network()) set_image_threads(1);
   if (checkpoint) tracker_.resume(std::move(checkpoint->tracker));
   if (!budget_.on()) return;
   particles_used_.assign(first_frame_, std::numeric_limits<double>::quiet_NaN());

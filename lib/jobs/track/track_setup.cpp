@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
 
 #include "core/anthropometry.h"
 #include "core/errors.h"

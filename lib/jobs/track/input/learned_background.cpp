@@ -5,8 +5,6 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include <opencv2/core/utility.hpp>
-
 #include "core/parallel_for.h"
 #include "io/archive/files.h"
 #include "io/video/video.h"
@@ -15,24 +13,13 @@
 #include "jobs/track/track_setup.h"
 #include "observation/background/background_sampler.h"
 #include "observation/background/people_mask.h"
+#include "observation/image_threads.h"
 #include "observation/pose_net/pose_net.h"
 
 namespace walktrack {
 inline namespace jobs {
 
 namespace {
-
-// OpenCV splits the network's layers by its threads, and other sums have other last bits.
-class OneOpenCvThread {
- public:
-  OneOpenCvThread() : before_(cv::getNumThreads()) { cv::setNumThreads(1); }
-  ~OneOpenCvThread() { cv::setNumThreads(before_); }
-  OneOpenCvThread(const OneOpenCvThread&) = delete;
-  OneOpenCvThread& operator=(const OneOpenCvThread&) = delete;
-
- private:
-  int before_;
-};
 
 // Whoever is found late is followed back to the frames before.
 std::vector<DetectedPeople> people_in(const BackgroundSampler& frames, PoseNet& net,
@@ -60,7 +47,7 @@ void hide_people(BackgroundSampler& frames, const KeypointConfig& config, double
                  const JobControl& control) {
   const auto file = pose_model_file(config.model);
   if (!has_pose_net() || !file) return;
-  const OneOpenCvThread one_thread;
+  const OneImageThread one_thread;
   PoseNet net(read_text_file(*file, kMaxModelBytes), file->string());
   const std::vector<DetectedPeople> people = people_in(frames, net, person_px, control);
   for (int f = 0; f < frames.frames(); ++f)

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
+#include <opencv2/core/mat.hpp>
 
 #include "core/parallel_for.h"
 #include "io/drawing/overlay.h"

@@ -1,0 +1,38 @@
+// What moves in a video, quickly: in each frame the largest blob that differs from the median
+// frame.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+
+namespace walktrack {
+inline namespace observation {
+
+// The moving figure of one frame, px of the full image.
+struct MovingFigure {
+  Eigen::Vector2d middle;                      // of its upper part
+  std::vector<Eigen::Vector2d> tops, bottoms;  // of its columns; empty where the image cuts it off
+};
+// By frame; nullopt when nothing or too much moves, or there was no frame.
+using FigurePath = std::vector<std::optional<MovingFigure>>;
+
+// The frames of one camera, grey and small: at most 400 kB each.
+class MovingFigures {
+ public:
+  // Of frames of this size.
+  MovingFigures(int width_px, int height_px);
+
+  // 8-bit BGR; empty where the camera had no frame of its own.
+  void add(const cv::Mat& frame);
+  FigurePath path() const;
+
+ private:
+  int factor_;
+  std::vector<cv::Mat> frames_;
+};
+
+}  // namespace observation
+}  // namespace walktrack
