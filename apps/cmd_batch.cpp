@@ -124,13 +124,58 @@ void check_places(const BatchJob& job, const CommandLine& line) {
   if (job.jobs < 1) throw UsageError("--jobs: found less than 1, allowed: from 1");
 }
 
-}  // namespace
-
-int run_batch(const Arguments& arguments) {
+// What the command line says.
+struct BatchArguments {
   BatchJob job;
   std::string folder, scene_template, work, shard = "1/1";
   bool list_only = false, dry_run = false, report_only = false, resume = false;
   bool ignore_checks = false, json_line = false;
+};
+
+void add_options(CommandLine& line, BatchArguments& given) {
+  auto add = line.options().add_options();
+  add("scene", po::value(&given.scene_template)->value_name("FILE"),
+      "take every video below FOLDER in the place of this scene\'s video");
+  add("manifest", po::value(&given.job.manifest)->value_name("FILE"),
+      "in the place of FOLDER, a list of scenes (with --scene, of videos): a path a line, after a "
+      "tab perhaps the name of its result; - is standard input");
+  add("bids", po::bool_switch(&given.job.bids),
+      "FOLDER is laid out as BIDS: track its sub-<label>/..._video files with --scene, by default "
+      "into FOLDER/derivatives/walktrack, and write Motion-BIDS tables there");
+  add("jobs,j", po::value(&given.job.jobs)->default_value(1)->value_name("N"),
+      "number of sequences at a time");
+  add("shard", po::value(&given.shard)->value_name("i/n"),
+      "do every n-th sequence, from the i-th; auto: as Slurm or AWS Batch number this worker, "
+      "auto/n: as a Kubernetes Indexed Job of n does");
+  add("steal", po::bool_switch(&given.job.steal),
+      "after its own share, do what no worker has begun of the others");
+  add("work", po::value(&given.work)->value_name("DIR"),
+      "track below this folder, on a disk of this machine; a result is moved to the output when it "
+      "is whole");
+  add("time-limit", po::value(&given.job.limits.seconds)->value_name("S"), "time of one sequence");
+  add("memory-limit", po::value(&given.job.limits.memory_mb)->value_name("MB"),
+      "memory of one sequence");
+  add("resume", po::bool_switch(&given.resume),
+      "skip complete sequences and continue from checkpoints; the default, so it only forbids "
+      "--yes");
+  add("list", po::bool_switch(&given.list_only), "print the sequences and their state, do nothing");
+  add("retry-failed", po::bool_switch(&given.job.retry_failed),
+      "do only the sequences that failed before");
+  add("dry-run", po::bool_switch(&given.dry_run),
+      "print the sequences that would be done, do nothing");
+  add("ignore-checks", po::bool_switch(&given.ignore_checks),
+      "track scenes though their checks fail (see walktrack check); their reports say so");
+  add("report", po::bool_switch(&given.report_only),
+      "write only the summary of the existing results");
+  add("json-line", po::bool_switch(&given.json_line),
+      "print the number of sequences by outcome, or the error, as one line of JSON");
+  line.operand("FOLDER", &given.folder, true);
+}
+
+}  // namespace
+
+int run_batch(const Arguments& arguments) {
+  BatchArguments given;
   CommandLine line({.name = "batch",
                     .operands = "[FOLDER]",
                     .about =
@@ -140,61 +185,29 @@ int run_batch(const Arguments& arguments) {
                         "also sequences of other settings or inputs. Several machines\nmay share "
                         "one output folder.",
                     .example = "walktrack batch data -o out/batch --jobs 2"});
-  auto add = line.options().add_options();
-  add("scene", po::value(&scene_template)->value_name("FILE"),
-      "take every video below FOLDER in the place of this scene\'s video");
-  add("manifest", po::value(&job.manifest)->value_name("FILE"),
-      "in the place of FOLDER, a list of scenes (with --scene, of videos): a path a line, after a "
-      "tab perhaps the name of its result; - is standard input");
-  add("bids", po::bool_switch(&job.bids),
-      "FOLDER is laid out as BIDS: track its sub-<label>/..._video files with --scene, by default "
-      "into FOLDER/derivatives/walktrack, and write Motion-BIDS tables there");
-  add("jobs,j", po::value(&job.jobs)->default_value(1)->value_name("N"),
-      "number of sequences at a time");
-  add("shard", po::value(&shard)->value_name("i/n"),
-      "do every n-th sequence, from the i-th; auto: as Slurm or AWS Batch number this worker, "
-      "auto/n: as a Kubernetes Indexed Job of n does");
-  add("steal", po::bool_switch(&job.steal),
-      "after its own share, do what no worker has begun of the others");
-  add("work", po::value(&work)->value_name("DIR"),
-      "track below this folder, on a disk of this machine; a result is moved to the output when it "
-      "is whole");
-  add("time-limit", po::value(&job.limits.seconds)->value_name("S"), "time of one sequence");
-  add("memory-limit", po::value(&job.limits.memory_mb)->value_name("MB"), "memory of one sequence");
-  add("resume", po::bool_switch(&resume),
-      "skip complete sequences and continue from checkpoints; the default, so it only forbids "
-      "--yes");
-  add("list", po::bool_switch(&list_only), "print the sequences and their state, do nothing");
-  add("retry-failed", po::bool_switch(&job.retry_failed),
-      "do only the sequences that failed before");
-  add("dry-run", po::bool_switch(&dry_run), "print the sequences that would be done, do nothing");
-  add("ignore-checks", po::bool_switch(&ignore_checks),
-      "track scenes though their checks fail (see walktrack check); their reports say so");
-  add("report", po::bool_switch(&report_only), "write only the summary of the existing results");
-  add("json-line", po::bool_switch(&json_line),
-      "print the number of sequences by outcome, or the error, as one line of JSON");
-  line.operand("FOLDER", &folder, true);
+  add_options(line, given);
   if (!line.parse(arguments)) return kDone;
-  job.folder = folder;
-  job.scene_template = scene_template;
-  job.work = work;
+  BatchJob& job = given.job;
+  job.folder = given.folder;
+  job.scene_template = given.scene_template;
+  job.work = given.work;
   check_places(job, line);
-  if (resume && line.common().overwrite) {
+  if (given.resume && line.common().overwrite) {
     throw UsageError(
         "--resume and --yes exclude each other: what has changed is left as it is or done again");
   }
-  const Shard share = shard_from(shard, process_environment());
+  const Shard share = shard_from(given.shard, process_environment());
   job.shard = share.index;
   job.shards = share.count;
   const bool in_data_set = job.bids && !line.given("output");
   job.output =
       in_data_set ? job.folder / "derivatives" / "walktrack" : fs::path(line.required_output());
   job.overwrite = line.common().overwrite;
-  if (list_only) return list(job);
-  if (report_only) return report(job);
+  if (given.list_only) return list(job);
+  if (given.report_only) return report(job);
   job.config = line.config();  // a mistake in it would fail every sequence
-  if (dry_run) return list_work(job);
-  job.command = track_command(line.common(), job.jobs, ignore_checks);
+  if (given.dry_run) return list_work(job);
+  job.command = track_command(line.common(), job.jobs, given.ignore_checks);
   Terminal terminal(line.common());
   const JobControl control = terminal.control();
   const BatchOutcome outcome = run_batch(job, control);
@@ -206,7 +219,7 @@ int run_batch(const Arguments& arguments) {
         outcome.changed, outcome.changes));
   }
   const int code = exit_code(outcome);
-  if (json_line) fmt::print("{}", result_line(job, outcome, code));
+  if (given.json_line) fmt::print("{}", result_line(job, outcome, code));
   return code;
 }
 

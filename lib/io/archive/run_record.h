@@ -31,6 +31,9 @@ struct QualityMeasure {
   bool passed() const { return !limit || (at_most ? value <= *limit : value >= *limit); }
 };
 
+using RunNumbers = std::vector<std::pair<std::string, double>>;
+using RunSeries = std::vector<std::pair<std::string, std::vector<double>>>;
+
 struct RunRecord {
   std::string command;             // e.g. "track"
   std::string scene;               // name of the scene file
@@ -39,9 +42,9 @@ struct RunRecord {
   ConfigWithOrigin config;         // effective
   std::string status;              // e.g. "tracked", "lost", "interrupted"
   std::vector<std::string> notes;  // what the user should know
-  std::vector<std::pair<std::string, double>> numbers;  // e.g. "fallen_particles"
+  RunNumbers numbers;              // e.g. "fallen_particles"
   std::vector<QualityMeasure> quality;
-  std::vector<std::pair<std::string, std::vector<double>>> by_frame;  // e.g. "ess"; NaN -> null
+  RunSeries by_frame;  // e.g. "ess"; NaN -> null
   std::string digest;  // result_digest() of the result's tables
 
   // The timing block.

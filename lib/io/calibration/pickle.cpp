@@ -157,6 +157,7 @@ class Machine {
   // False at the program's end.
   bool step(uint8_t op);
   bool step_container(uint8_t op);
+  bool step_memory(uint8_t op);
 
   const std::string& bytes_;
   const std::string& file_;
@@ -229,6 +230,7 @@ bool Machine::step(uint8_t op) {
   }
 }
 
+// Containers, and what is put into them.
 bool Machine::step_container(uint8_t op) {
   switch (op) {
     case '}':
@@ -246,20 +248,16 @@ bool Machine::step_container(uint8_t op) {
     case 't':
       push({Kind::kTuple, 0, "", pop_to_mark()});
       return true;  // TUPLE
-    case 0x85:
-      push_tuple(1);
-      return true;  // TUPLE1
-    case 0x86:
-      push_tuple(2);
-      return true;  // TUPLE2
-    case 0x87:
-      push_tuple(3);
-      return true;  // TUPLE3
-    case 'a': {
+    case 0x85:      // TUPLE1
+    case 0x86:      // TUPLE2
+    case 0x87:      // TUPLE3
+      push_tuple(op - 0x84);
+      return true;
+    case 'a': {  // APPEND
       const size_t item = pop();
       append(Kind::kList, {item});
       return true;
-    }  // APPEND
+    }
     case 'e':
       append(Kind::kList, pop_to_mark());
       return true;  // APPENDS
@@ -271,6 +269,15 @@ bool Machine::step_container(uint8_t op) {
     case 'u':
       append(Kind::kDict, pop_to_mark());
       return true;  // SETITEMS
+    default:
+      return step_memory(op);
+  }
+}
+
+// What was there before: remembered values, classes and calls of the program that wrote the file,
+// of which none is ever done.
+bool Machine::step_memory(uint8_t op) {
+  switch (op) {
     case 'q':
       remember(byte());
       return true;  // BINPUT

@@ -8,13 +8,12 @@
 
 #include "core/errors.h"
 #include "io/archive/files.h"
-#include "io/archive/run_record.h"
-#include "io/archive/sha256.h"
 #include "io/video/scene_video.h"
 #include "jobs/check/check.h"
 #include "jobs/track/report/quality_words.h"
 #include "jobs/track/report/report.h"
 #include "jobs/track/report/track_quality.h"
+#include "jobs/track/report/track_record.h"
 #include "jobs/track/results/keypoint_results.h"
 #include "jobs/track/results/named_track.h"
 #include "jobs/track/results/overlay_video.h"
@@ -30,191 +29,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr size_t kMaxSceneBytes = size_t{1} << 24;
-
-struct Counts {
-  int tracked = 0, first = -1, lost = 0, fallen = 0, diverged = 0;
-};
-
-Counts count(const TrackedFrames& frames) {
-  Counts out;
-  int frame = 0;
-  for (const FrameRecord& record : frames.records) {
-    out.fallen += record.fallen;
-    out.diverged += record.diverged;
-    if (record.tracked) {
-      ++out.tracked;
-      if (out.first < 0) out.first = frame;
-    } else if (out.first >= 0) {
-      ++out.lost;
-    }
-    ++frame;
-  }
-  return out;
-}
-
-std::vector<double> by_frame(const TrackedFrames& frames, double (*value)(const FrameRecord&)) {
-  std::vector<double> out;
-  for (const FrameRecord& record : frames.records)
-    out.push_back(record.tracked ? value(record) : std::numeric_limits<double>::quiet_NaN());
-  return out;
-}
-
-std::vector<std::string_view> term_names() {
-  std::vector<std::string_view> names;
-  Terms::each([&]<typename Term>() { names.push_back(Term::kName); });
-  return names;
-}
-
-// "evidence.silhouettes.side": a list for every term and camera that says anything.
-void add_evidence(const Scene& scene, const TrackedFrames& frames,
-                  std::vector<std::pair<std::string, std::vector<double>>>& out) {
-  constexpr double kSilent = std::numeric_limits<double>::quiet_NaN();
-  const size_t lists = scene.cameras.size() * Terms::kCount;
-  std::vector<std::vector<double>> values(lists);
-  for (const FrameRecord& record : frames.records)
-    for (size_t i = 0; i < lists; ++i)
-      values[i].push_back(record.evidence.empty()
-                              ? kSilent
-                              : record.evidence[i / Terms::kCount][i % Terms::kCount]);
-  const std::vector<std::string_view> names = term_names();
-  for (size_t i = 0; i < lists; ++i) {
-    const bool says = !std::all_of(values[i].begin(), values[i].end(),
-                                   [](double value) { return std::isnan(value); });
-    if (says)
-      out.emplace_back(fmt::format("evidence.{}.{}", names[i % Terms::kCount],
-                                   scene.cameras[i / Terms::kCount].name),
-                       std::move(values[i]));
-  }
-}
-
-std::string overlap_key(const SceneCamera& camera) { return "overlap_percent." + camera.name; }
-
-// How well the figure lies on the person in that camera, by frame; NaN where nothing tells.
-std::vector<double> overlap_percents(const TrackedFrames& frames, size_t camera) {
-  std::vector<double> out;
-  for (const FrameRecord& record : frames.records) {
-    const std::vector<double>& all = record.fit.overlap;
-    out.push_back(record.tracked && camera < all.size() ? 100 * all[camera]
-                                                        : std::numeric_limits<double>::quiet_NaN());
-  }
-  return out;
-}
-
-// Of the reported pelvis over the ground, from the frame before to the one after, m/s; of an end of
-// what was tracked, from or to the frame itself. NaN where there is no figure, or one alone.
-std::vector<double> pelvis_speeds(const TrackedFrames& frames) {
-  const Motion motion = motion_of(frames);
-  const auto seen = [&](size_t i) { return known(motion.joints[i][Joint::kPelvis]); };
-  std::vector<double> out;
-  for (size_t i = 0; i < motion.time.size(); ++i) {
-    const size_t from = i > 0 && seen(i - 1) ? i - 1 : i;
-    const size_t to = i + 1 < motion.time.size() && seen(i + 1) ? i + 1 : i;
-    const Eigen::Vector3d way =
-        motion.joints[to][Joint::kPelvis] - motion.joints[from][Joint::kPelvis];
-    out.push_back(way.head<2>().norm() / (motion.time[to] - motion.time[from]));
-    if (!seen(i) || from == to) out.back() = std::numeric_limits<double>::quiet_NaN();
-  }
-  return out;
-}
-
-std::string pace_note(const BudgetConfig& budget) {
-  return fmt::format(
-      "not deterministic: {} to {} particles, as many as {:g} ms a frame allowed on this machine",
-      budget.least_particles, budget.most_particles, budget.frame_ms);
-}
-
-std::string size_note(const Stature& stature) {
-  return fmt::format(
-      "the scene does not say how tall the subject is: {:.2f} m, give or take {:.2f}, from the "
-      "images",
-      stature.height, stature.sd);
-}
-
-RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& run,
-                    const TrackedFrames& frames, const TrackOutcome& outcome,
-                    const Quality& quality, const WrittenTables& tables, const Elapsed& spent) {
-  const Counts counts = count(frames);
-  RunRecord out;
-  out.command = "track";
-  out.scene = job.scene.file.filename().string();
-  out.scene_digest = sha256(read_text_file(job.scene.file, kMaxSceneBytes));
-  out.inputs = inputs;
-  out.config = job.config;
-  out.status = status_word(outcome.status);
-  if (!outcome.message.empty()) out.notes.push_back(outcome.message);
-  out.notes.insert(out.notes.end(), outcome.checks.begin(), outcome.checks.end());
-  const bool paced = job.config.values.budget.frame_ms > 0;
-  if (paced) out.notes.push_back(pace_note(job.config.values.budget));
-  if (run.stature()) out.notes.push_back(size_note(*run.stature()));
-  for (const std::string& note : run.notes()) out.notes.push_back(note);
-  out.numbers = {{"frames", double(frames.records.size())},
-                 {"frame_rate", frames.frame_rate},
-                 {"video_seconds", double(frames.records.size()) / frames.frame_rate},
-                 {"tracked_frames", double(counts.tracked)},
-                 {"first_tracked_frame", double(counts.first)},
-                 {"lost_frames", double(counts.lost)},
-                 {"losses", double(run.losses())},
-                 {"foot_changes", double(foot_changes(frames))},
-                 {"fallen_particles", double(counts.fallen)},
-                 {"diverged_particles", double(counts.diverged)},
-                 {"distance_m", tables.totals.distance},
-                 {"positive_work_j", tables.totals.positive_work},
-                 {"negative_work_j", tables.totals.negative_work},
-                 {"cost_of_transport", tables.totals.cost_of_transport},
-                 {"peak_foot_load_body_weights", tables.totals.peak_load}};
-  if (run.stature()) {
-    out.numbers.emplace_back("estimated_height_m", run.stature()->height);
-    out.numbers.emplace_back("estimated_height_sd_m", run.stature()->sd);
-  }
-  if (outcome.lag) {
-    out.numbers.emplace_back("lag_frames_" + job.scene.cameras[outcome.lag->camera].name,
-                             outcome.lag->frames);
-    out.numbers.emplace_back("lag_sd_frames", outcome.lag->sd_frames);
-  }
-  const std::vector<double> overlaps = mean_overlaps(frames);
-  for (size_t c = 0; c < overlaps.size(); ++c)
-    out.numbers.emplace_back(overlap_key(job.scene.cameras[c]), 100 * overlaps[c]);
-  for (const auto& number : keypoint_numbers(run.keypoints())) out.numbers.push_back(number);
-  out.quality = quality;
-  out.by_frame = {
-      {"ess", by_frame(frames, [](const FrameRecord& r) { return r.filter.ess; })},
-      {"log_evidence",
-       by_frame(frames, [](const FrameRecord& r) { return r.filter.log_evidence; })},
-      {"layers", by_frame(frames, [](const FrameRecord& r) { return double(r.filter.layers); })},
-      {"left_stance",
-       by_frame(frames, [](const FrameRecord& r) { return r.estimate.left_stance; })},
-      {"stride_phase", by_frame(frames, [](const FrameRecord& r) { return r.modes.phase; })},
-      {"legs_exchanged",
-       by_frame(frames, [](const FrameRecord& r) { return r.modes.p_legs_swapped; })},
-      {"standing", by_frame(frames, [](const FrameRecord& r) { return r.modes.standing; })},
-      {"speed", pelvis_speeds(frames)}};
-  add_evidence(job.scene, frames, out.by_frame);
-  for (size_t c = 0; c < job.scene.cameras.size(); ++c)
-    out.by_frame.emplace_back(overlap_key(job.scene.cameras[c]), overlap_percents(frames, c));
-  for (auto& list :
-       keypoint_residuals(frames, with_stature(job.scene, run.stature()), job.config.values))
-    out.by_frame.push_back(std::move(list));
-  if (paced) out.by_frame.emplace_back("particles", run.particles_used());
-  out.digest = tables.digest;
-  out.command_line = job.command_line;
-  out.threads = run.threads();
-  out.resumed_at_frame = run.first_frame();
-  out.stage_seconds = run.watch().stages();
-  out.stage_cpu_seconds = run.watch().cpu_stages();
-  out.seconds = spent.seconds;
-  out.cpu_seconds = spent.cpu;
-  out.frames_per_second = outcome.frames_per_second;
-  out.stride_frames_per_second = outcome.stride_frames_per_second;
-  return out;
-}
-
 TrackStatus judge(TrackRun& run, const Quality& quality, const SceneVideo& video, bool interrupted,
                   const JobControl& control, std::string& trouble) {
   if (interrupted) return TrackStatus::kInterrupted;
   trouble = video.trouble();
   if (!trouble.empty()) return TrackStatus::kCutShort;
-  if (count(run.frames()).tracked == 0) {
+  if (frame_counts(run.frames()).tracked == 0) {
     trouble = "nobody was found walking" + run.why_nobody(control);
     return TrackStatus::kNotFound;
   }
@@ -324,6 +144,77 @@ bool follow_video(TrackRun& run, const SceneVideo& video, const JobControl& cont
   return stopped;
 }
 
+// The job with what was decided before anything is tracked: terms that are `auto`, and how far the
+// cameras are out of step. With the time that took; what was found goes into the outcome.
+std::pair<TrackJob, Elapsed> checked_job(const TrackJob& given, const JobControl& control,
+                                         TrackOutcome& outcome) {
+  const TimePoint start;
+  TrackJob job = given;
+  const std::string no_network = missing_network_note(job.scene, job.config.values);
+  job.config.values.observation = decided_terms(job.scene, job.config.values);
+  require_a_term(job.config.values.observation);
+  LookedAt looked = looked_at(job, control);
+  outcome.checks = std::move(looked.notes);
+  if (!no_network.empty()) {
+    control.say(no_network);
+    outcome.checks.push_back(no_network);
+  }
+  outcome.lag = looked.lag;
+  if (looked.lag) job.scene.cameras[looked.lag->camera].start_frame = looked.lag->frames;
+  return {std::move(job), elapsed_since(start)};
+}
+
+// What was tracked as it is reported: the legs named by the whole video, frames seen in the light
+// of others, standing feet held in place. Each is a file of the folder until the result is
+// complete.
+class ReportedTrack {
+ public:
+  ReportedTrack(const TrackRun& run, const SmoothingConfig& smoothing, const ResultFolder& folder)
+      : tracked_(run.frames()) {
+    const auto file = [&](std::string_view name) { return folder.file(std::string(name)); };
+    if (says_names(tracked_)) named_.emplace(named(tracked_, run.body(), file(kNamedFile)));
+    const TrackedFrames& sided = named_ ? *named_ : tracked_;
+    if (smoothing.lag > 0) smoothed_.emplace(smoothed(sided, smoothing, file(kSmoothedFile)));
+    if (smoothing.plant) planted_.emplace(planted(moving(), file(kPlantedFile)));
+  }
+  ReportedTrack(const ReportedTrack&) = delete;
+  ReportedTrack& operator=(const ReportedTrack&) = delete;
+
+  // Before feet are held in place.
+  const TrackedFrames& moving() const {
+    return smoothed_ ? *smoothed_ : named_ ? *named_ : tracked_;
+  }
+  const TrackedFrames& frames() const { return planted_ ? *planted_ : moving(); }
+
+ private:
+  const TrackedFrames& tracked_;
+  std::optional<TrackedFrames> named_, smoothed_, planted_;
+};
+
+Quality measured_quality(const TrackJob& job, const Scene& scene, const TrackRun& run,
+                         const ReportedTrack& track, const AnalysedMotion& analysed) {
+  const QualityConfig& limits = job.config.values.quality;
+  Quality quality =
+      quality_of(track.frames(), track.moving(), limits, leg_length(body_lengths(scene.subject)));
+  if (const auto detected = quality_of_keypoints(total_use(run.keypoints()), limits))
+    quality.push_back(*detected);
+  quality.push_back(quality_measure("scale_sd_percent", 100 * analysed.figure_error.scale));
+  return quality;
+}
+
+KineticsConfig forces_of_track(const TrackJob& job) {
+  KineticsConfig forces = job.config.values.kinetics;
+  forces.cutoff_hz = forces.tracked_cutoff_hz;
+  return forces;
+}
+
+void finish(const ResultFolder& folder, const TrackOutcome& outcome, const std::string& record) {
+  const bool partial =
+      outcome.status == TrackStatus::kInterrupted || outcome.status == TrackStatus::kCutShort;
+  if (!outcome.resumable) folder.remove(kFilesOfWork);
+  partial ? folder.finish_partial(record) : folder.finish(record);
+}
+
 }  // namespace
 
 std::string_view status_word(TrackStatus status) {
@@ -344,21 +235,8 @@ std::string_view status_word(TrackStatus status) {
 
 TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const TimePoint start;
-  TrackJob job = given;
-  const std::string no_network = missing_network_note(job.scene, job.config.values);
-  job.config.values.observation = decided_terms(job.scene, job.config.values);
-  const TimePoint looking;
-  require_a_term(job.config.values.observation);
   TrackOutcome outcome;
-  LookedAt looked = looked_at(job, control);
-  outcome.checks = std::move(looked.notes);
-  if (!no_network.empty()) {
-    control.say(no_network);
-    outcome.checks.push_back(no_network);
-  }
-  outcome.lag = looked.lag;
-  if (looked.lag) job.scene.cameras[looked.lag->camera].start_frame = looked.lag->frames;
-  const Elapsed checking = elapsed_since(looking);
+  const auto [job, checking] = checked_job(given, control, outcome);
   SceneVideo video(job.scene);
   require_room_for_search(job.scene, job.config.values, video.frame_rate());
   const Outputs outputs = track_outputs(job);
@@ -373,49 +251,30 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   run.watch().add("checks", checking);
   const bool interrupted = follow_video(run, video, control, outcome);
   const TimePoint writing;
-  const SmoothingConfig& smoothing = job.config.values.smoothing;
-  std::optional<TrackedFrames> sided, light, still;
-  if (says_names(run.frames()))
-    sided.emplace(named(run.frames(), run.body(), folder.file(std::string(kNamedFile))));
-  const TrackedFrames& tracked = sided ? *sided : run.frames();
-  if (smoothing.lag > 0)
-    light.emplace(smoothed(tracked, smoothing, folder.file(std::string(kSmoothedFile))));
-  const TrackedFrames& moving = light ? *light : tracked;
-  if (smoothing.plant) still.emplace(planted(moving, folder.file(std::string(kPlantedFile))));
-  const TrackedFrames& frames = still ? *still : moving;
+  const ReportedTrack track(run, job.config.values.smoothing, folder);
   const Scene scene = with_stature(job.scene, run.stature());
   const AnalysedMotion analysed =
-      analysed_motion(frames, scene, job.config.values.tracker.model_error);
-  Quality quality = quality_of(frames, moving, job.config.values.quality,
-                               leg_length(body_lengths(scene.subject)));
-  if (const auto detected =
-          quality_of_keypoints(total_use(run.keypoints()), job.config.values.quality))
-    quality.push_back(*detected);
-  quality.push_back(quality_measure("scale_sd_percent", 100 * analysed.figure_error.scale));
+      analysed_motion(track.frames(), scene, job.config.values.tracker.model_error);
+  const Quality quality = measured_quality(job, scene, run, track, analysed);
   outcome.status = judge(run, quality, video, interrupted, control, outcome.message);
-  outcome.tracked = count(frames).tracked;
+  if (outcome.status == TrackStatus::kQualityFailed) outcome.failed_checks = failures(quality);
+  outcome.tracked = frame_counts(track.frames()).tracked;
   if (run.stature()) control.say(size_note(*run.stature()));
   for (const std::string& note : run.notes()) control.say(note);
-  const JointUncertainty uncertainty = uncertainty_of(frames);
-  KineticsConfig forces = job.config.values.kinetics;
-  forces.cutoff_hz = forces.tracked_cutoff_hz;
-  const WrittenTables tables = write_tables(analysed, uncertainty, forces, folder);
+  const JointUncertainty uncertainty = uncertainty_of(track.frames());
+  const WrittenTables tables = write_tables(analysed, uncertainty, forces_of_track(job), folder);
   outcome.walk = tables.walk;
-  if (outcome.status == TrackStatus::kQualityFailed) outcome.failed_checks = failures(quality);
   std::vector<ReportClip> clips;
   if (job.overlay && outcome.frames > 0)
-    clips = write_overlays(job, frames, folder, run.threads(), control);
+    clips = write_overlays(job, track.frames(), folder, run.threads(), control);
   run.watch().add("output", elapsed_since(writing));
   const Elapsed spent = elapsed_since(start);
   outcome.frames_per_second = (outcome.frames - run.first_frame()) / spent.seconds;
   const std::string record =
-      run_json(record_of(job, inputs, run, frames, outcome, quality, tables, spent));
+      run_json(record_of(job, inputs, run, track.frames(), outcome, quality, tables, spent));
   outcome.open_first = write_report(
       folder, {job.scene.file, analysed, uncertainty, job.scene.cameras, record, clips});
-  const bool partial =
-      outcome.status == TrackStatus::kInterrupted || outcome.status == TrackStatus::kCutShort;
-  if (!outcome.resumable) folder.remove(kFilesOfWork);
-  partial ? folder.finish_partial(record) : folder.finish(record);
+  finish(folder, outcome, record);
   return outcome;
 }
 

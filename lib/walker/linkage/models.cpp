@@ -1,6 +1,7 @@
 #include "walker/linkage/models.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/conventions.h"
@@ -38,6 +39,67 @@ void add_sole(Linkage& linkage, const PlanarPoint& centre, Index angle, int grou
 }
 
 PlanarPoint origin(Index n) { return PlanarPoint(n); }
+
+// Where the kneed walker's angles stand in q (without a torso the legs come first), and its points
+// by them.
+struct KneedChain {
+  explicit KneedChain(const KneedParameters& parameters)
+      : p(parameters),
+        has_torso(p.torso.inertia > 0 || p.torso.com_above_hip != 0),
+        n(has_torso ? 5 : 4),
+        thigh{n - 4, n - 3},
+        shank{n - 2, n - 1} {}
+
+  PlanarPoint knee(size_t leg) const { return bar(n, thigh[leg], -p.thigh_length); }
+  PlanarPoint ankle(size_t leg) const { return knee(leg) + bar(n, shank[leg], -p.shank_length); }
+  PlanarPoint foot(size_t leg) const {
+    return ankle(leg) + bar(n, shank[leg], p.foot_up, p.foot_forward);
+  }
+  PlanarPart thigh_part(size_t leg) const {
+    return {p.thigh.mass, p.thigh.inertia, bar(n, thigh[leg], -p.thigh.com_below_hip), thigh[leg]};
+  }
+  PlanarPart shank_part(size_t leg) const {
+    const PlanarPoint com =
+        ankle(leg) + bar(n, shank[leg], p.shank.com_above_ankle, p.shank.com_forward);
+    return {p.shank.mass, p.shank.inertia, com, shank[leg]};
+  }
+  PlanarPart torso_part() const {
+    const PlanarPoint com = has_torso ? bar(n, 0, p.torso.com_above_hip) : origin(n);
+    return {p.torso.mass, p.torso.inertia, com, has_torso ? 0 : Index{-1}};
+  }
+  VectorXd hip_angle() const { return unit(n, thigh[0]) - unit(n, thigh[1]); }
+  VectorXd knee_angle(size_t leg) const { return unit(n, shank[leg]) - unit(n, thigh[leg]); }
+
+  const KneedParameters& p;
+  bool has_torso;
+  Index n;
+  std::array<Index, 2> thigh, shank;  // stance, swing
+};
+
+void add_springs(const KneedChain& chain, const KneedControls& controls, Linkage& linkage) {
+  const auto add = [&](const VectorXd& measure, const VectorXd& pull, const SpringDamper& law) {
+    linkage.springs.push_back({measure, pull, law.stiffness, law.damping, law.rest});
+  };
+  if (chain.has_torso) {
+    const VectorXd torso = unit(chain.n, 0);
+    add(torso, torso - unit(chain.n, chain.thigh[0]), controls.torso);
+  }
+  add(chain.hip_angle(), chain.hip_angle(), controls.hip);
+  add(chain.knee_angle(0), chain.knee_angle(0), controls.stance_knee);
+  add(chain.knee_angle(1), chain.knee_angle(1), controls.swing_knee);
+}
+
+void add_lines(const KneedChain& chain, Linkage& linkage) {
+  if (chain.has_torso)
+    linkage.lines.push_back(
+        {origin(chain.n), bar(chain.n, 0, 1.6 * chain.p.torso.com_above_hip), 0});
+  for (size_t leg = 0; leg < 2; ++leg) {
+    const int group = static_cast<int>(leg) + 1;
+    linkage.lines.push_back({origin(chain.n), chain.knee(leg), group});
+    linkage.lines.push_back({chain.knee(leg), chain.ankle(leg), group});
+    add_sole(linkage, chain.foot(leg), chain.shank[leg], group);
+  }
+}
 
 }  // namespace
 
@@ -96,75 +158,29 @@ Linkage straight_legged(const StraightLeggedParameters& p) {
 }
 
 Linkage kneed(const KneedParameters& p, const KneedControls& controls, const KneedStyle& style) {
-  // Indices of q; without a torso angle the legs come first.
-  const bool has_torso = p.torso.inertia > 0 || p.torso.com_above_hip != 0;
-  const Index n = has_torso ? 5 : 4, first = has_torso ? 1 : 0;
-  const Index thigh1 = first, thigh2 = first + 1, shank1 = first + 2, shank2 = first + 3;
-  const double h = p.foot_up;
-
-  const auto knee = [&](Index thigh) { return bar(n, thigh, -p.thigh_length); };
-  const auto ankle = [&](Index thigh, Index shank) {
-    return knee(thigh) + bar(n, shank, -p.shank_length);
-  };
-  const auto foot = [&](Index thigh, Index shank) {
-    return ankle(thigh, shank) + bar(n, shank, h, p.foot_forward);
-  };
-  const auto thigh_part = [&](Index thigh) {
-    return PlanarPart{p.thigh.mass, p.thigh.inertia, bar(n, thigh, -p.thigh.com_below_hip), thigh};
-  };
-  const auto shank_part = [&](Index thigh, Index shank) {
-    const PlanarPoint com =
-        ankle(thigh, shank) + bar(n, shank, p.shank.com_above_ankle, p.shank.com_forward);
-    return PlanarPart{p.shank.mass, p.shank.inertia, com, shank};
-  };
-
+  const KneedChain chain(p);
   Linkage linkage;
-  if (has_torso) linkage.angles = {"torso"};
-  for (const char* name : {"stance_thigh", "swing_thigh", "stance_shank", "swing_shank"}) {
+  if (chain.has_torso) linkage.angles = {"torso"};
+  for (const char* name : {"stance_thigh", "swing_thigh", "stance_shank", "swing_shank"})
     linkage.angles.emplace_back(name);
-  }
-  const PlanarPoint torso = has_torso ? bar(n, 0, p.torso.com_above_hip) : origin(n);
-  linkage.parts = {{p.torso.mass, p.torso.inertia, torso, has_torso ? 0 : Index{-1}},
-                   thigh_part(thigh1),
-                   thigh_part(thigh2),
-                   shank_part(thigh1, shank1),
-                   shank_part(thigh2, shank2)};
-  linkage.stance_foot = foot(thigh1, shank1);
-  linkage.swing_foot = foot(thigh2, shank2);
-  linkage.stance_angle = shank1;
-  linkage.swing_angle = shank2;
+  linkage.parts = {chain.torso_part(), chain.thigh_part(0), chain.thigh_part(1),
+                   chain.shank_part(0), chain.shank_part(1)};
+  linkage.stance_foot = chain.foot(0);
+  linkage.swing_foot = chain.foot(1);
+  linkage.stance_angle = chain.shank[0];
+  linkage.swing_angle = chain.shank[1];
   linkage.foot_radius = p.foot_radius;
   linkage.gravity = gravity_vector(p.gravity, p.slope);
-  linkage.exchange = {thigh2, thigh1, shank2, shank1};
-  if (has_torso) linkage.exchange.insert(linkage.exchange.begin(), 0);
-  linkage.shift = VectorXd::Zero(n);
-
-  const VectorXd hip = unit(n, thigh1) - unit(n, thigh2);
-  const VectorXd knee1 = unit(n, shank1) - unit(n, thigh1);
-  const VectorXd knee2 = unit(n, shank2) - unit(n, thigh2);
-  const auto spring = [](const VectorXd& measure, const VectorXd& pull, const SpringDamper& law) {
-    return LinkageSpring{measure, pull, law.stiffness, law.damping, law.rest};
-  };
-  if (has_torso) {
-    linkage.springs.push_back(spring(unit(n, 0), unit(n, 0) - unit(n, thigh1), controls.torso));
-  }
-  linkage.springs.push_back(spring(hip, hip, controls.hip));
-  linkage.springs.push_back(spring(knee1, knee1, controls.stance_knee));
-  linkage.springs.push_back(spring(knee2, knee2, controls.swing_knee));
+  linkage.exchange = {chain.thigh[1], chain.thigh[0], chain.shank[1], chain.shank[0]};
+  if (chain.has_torso) linkage.exchange.insert(linkage.exchange.begin(), 0);
+  linkage.shift = VectorXd::Zero(chain.n);
+  add_springs(chain, controls, linkage);
   linkage.toe_off_impulse = controls.toe_off_impulse;
-
-  linkage.limits = {{knee1, 0}, {knee2, 0}};
+  linkage.limits = {{chain.knee_angle(0), 0}, {chain.knee_angle(1), 0}};
   linkage.latched = style.latched;
   linkage.may_fly = style.may_fly;
   linkage.lowest_hip = kFallenShare * standing_hip_height(p);
-  const auto leg = [&](Index thigh, Index shank, int group) {
-    linkage.lines.push_back({origin(n), knee(thigh), group});
-    linkage.lines.push_back({knee(thigh), ankle(thigh, shank), group});
-    add_sole(linkage, foot(thigh, shank), shank, group);
-  };
-  if (has_torso) linkage.lines.push_back({origin(n), bar(n, 0, 1.6 * p.torso.com_above_hip), 0});
-  leg(thigh1, shank1, 1);
-  leg(thigh2, shank2, 2);
+  add_lines(chain, linkage);
   return linkage;
 }
 

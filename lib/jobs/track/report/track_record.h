@@ -1,0 +1,30 @@
+// What run.json says of a run of `track`.
+#pragma once
+
+#include <string>
+
+#include "io/archive/run_record.h"
+#include "jobs/track/results/track_results.h"
+#include "jobs/track/stopwatch.h"
+#include "jobs/track/track.h"
+#include "jobs/track/track_run.h"
+
+namespace walktrack {
+inline namespace jobs {
+
+// Of the frames of a video: `first` is -1 where nobody was tracked, those after it without a track
+// are lost; particles that fell and diverged.
+struct FrameCounts {
+  int tracked = 0, first = -1, lost = 0, fallen = 0, diverged = 0;
+};
+FrameCounts frame_counts(const TrackedFrames& frames);
+
+// The subject's size where the scene leaves it to the images, as a sentence.
+std::string size_note(const Stature& stature);
+
+RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& run,
+                    const TrackedFrames& frames, const TrackOutcome& outcome,
+                    const Quality& quality, const WrittenTables& tables, const Elapsed& spent);
+
+}  // namespace jobs
+}  // namespace walktrack
