@@ -24,7 +24,7 @@ record() {  # sanitizer, program, tests, seconds, result
 run_program() {  # sanitizer, build folder, program
   local sanitizer=$1 folder=$2 program=$3 log=$2/$3.log code=0
   local filter='-*FullRegression*'
-  if ! cmake --build "$folder" -j "$jobs" --target "${program}_tests" >"$folder/$program.build.log" 2>&1; then
+  if ! cmake --build "$folder" -j "$jobs" --target "${program}_tests" walktrack >"$folder/$program.build.log" 2>&1; then
     tail -20 "$folder/$program.build.log"
     return 1
   fi
@@ -32,7 +32,7 @@ run_program() {  # sanitizer, build folder, program
   local seconds
   seconds=$({ time env RC_PARAMS=seed=1 UBSAN_OPTIONS=print_stacktrace=1 \
     TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp" ASAN_OPTIONS=detect_stack_use_after_return=1 \
-    timeout 5400 "$folder/${program}_tests" --gtest_filter="${SANITIZE_FILTER:-$filter}" >"$log" 2>&1; } 2>&1) || code=$?
+    timeout 9000 "$folder/${program}_tests" --gtest_filter="${SANITIZE_FILTER:-$filter}" >"$log" 2>&1; } 2>&1) || code=$?
   local tests; tests=$(sed -n 's/^\[  PASSED  \] \([0-9]*\) tests\?.*/\1/p' "$log")
   local result=clean
   if grep -qE 'ERROR: (Address|Leak)Sanitizer|runtime error:|WARNING: ThreadSanitizer' "$log"; then
