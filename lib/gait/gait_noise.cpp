@@ -9,6 +9,7 @@ namespace walktrack {
 inline namespace gait {
 namespace {
 
+// Deviations beyond which noise is drawn again: one draw in 370. By hand.
 constexpr double kTruncation = 3;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
@@ -34,7 +35,7 @@ double log_factor_density(double value, double mean, double sd) {
 
 double torque_deviation(const GaitNoise& noise, const WalkerUnits& units, double duration) {
   if (noise.torque <= 0 || duration <= 0) return 0;
-  constexpr double kReference = 1.0 / 30;
+  constexpr double kReference = 1.0 / 30;  // s, for which GaitNoise::torque is stated
   return noise.torque * units.torque() * std::sqrt(kReference / duration);
 }
 

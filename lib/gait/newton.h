@@ -14,6 +14,7 @@ inline namespace gait {
 // there. residual(gait) and jacobian(gait) give optional matrices: nothing where no step is walked.
 template <typename Gait, typename Residual, typename Jacobian>
 std::optional<Gait> newton(const Gait& guess, const Residual& residual, const Jacobian& jacobian) {
+  // By hand: a step that is still too far after seven halvings leads nowhere.
   constexpr double kConverged = 1e-9;
   constexpr int kMaxIterations = 15;
   constexpr int kMaxHalvings = 7;
@@ -42,7 +43,7 @@ std::optional<Gait> newton(const Gait& guess, const Residual& residual, const Ja
 template <typename Gait, typename Find>
 std::optional<Gait> continued(Gait at, const GaitTarget& from, const GaitTarget& to,
                               const Find& find) {
-  constexpr double kSmallestShare = 1.0 / 64;
+  constexpr double kSmallestShare = 1.0 / 64;  // of the way, then the gait is given up; by hand
   double done = 0, share = 1;
   while (done < 1) {
     const double next = std::min(1.0, done + share);

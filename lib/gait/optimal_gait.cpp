@@ -12,9 +12,9 @@ inline namespace gait {
 namespace {
 
 constexpr int kFree = kGaitSize - kResidualSize;
-constexpr double kControlDifference = 1e-5;
-constexpr double kOnCycle = 1e-7;  // residual at which the objective is evaluated
-constexpr int kMaxChordSteps = 12;
+constexpr double kControlDifference = 1e-5;  // of a control: the root of the residual's accuracy
+constexpr double kOnCycle = 1e-7;            // residual at which the objective is evaluated
+constexpr int kMaxChordSteps = 12;  // with one Jacobian, then it is worked out anew; by hand
 
 double square(double x) { return x * x; }
 double excess(double value, double limit, double scale) {

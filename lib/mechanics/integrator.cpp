@@ -17,6 +17,7 @@ using Eigen::VectorXd;
 // that stalls above kStalled is a failure.
 constexpr double kConverged = 4 * std::numeric_limits<double>::epsilon();
 constexpr double kStalled = 1e-10;
+// Fixed-point steps halve a smooth residual and are cheap; what they leave is Newton's. By hand.
 constexpr int kMaxFixedPoint = 8;
 constexpr int kMaxNewton = 40;
 

@@ -17,6 +17,7 @@ struct Sizes {
   double step_time, stride_time;                  // s
   double stance, double_support;                  // per cent of the stride
 };
+// Fitted to walks with truth by scripts/fit_gait_error.py (lib/metrics/reports/gait_of_tracks.md).
 constexpr Sizes kOfContact{0.026, 0.024, 0.042, 0.037, 0.055, 1.9, 4.7};
 constexpr Sizes kOfMean{0.010, 0.010, 0.013, 0.009, 0.034, 1.9, 4.4};
 constexpr double kStrikeError = 0.056, kToeOffError = 0.034;  // s

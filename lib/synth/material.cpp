@@ -9,8 +9,8 @@ inline namespace synth {
 
 namespace {
 
-constexpr int kCells = 32;  // a power of two, so that a mask repeats the lattice
-constexpr float kMottling = 0.12f;
+constexpr int kCells = 32;           // a power of two, so that a mask repeats the lattice
+constexpr float kMottling = 0.12f;   // share of the brightness; by hand
 constexpr double kPlankLength = 12;  // in widths
 
 size_t cell(int x, int y, int z) {

@@ -127,6 +127,7 @@ float luma_at(const cv::Mat& bgr, int x, int y) {
 }  // namespace
 
 std::vector<LightPoint> light_points(int width, int height) {
+  // Points along a side of the grid; by hand.
   constexpr int kSide = 48, kHalves = 2 * kSide;
   std::vector<LightPoint> points;
   points.reserve(size_t{kSide} * kSide);

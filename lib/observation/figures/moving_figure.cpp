@@ -13,6 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
+// All by hand.
 constexpr int kShrunkSide = 640;                                // px, enough to find a figure
 constexpr int kBackgroundFrames = 25;                           // whose median is the empty scene
 constexpr int kDifference = 25;                                 // grey levels

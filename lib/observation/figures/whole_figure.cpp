@@ -11,6 +11,7 @@ inline namespace observation {
 
 namespace {
 
+// All by hand, on videos of people who walk past.
 constexpr double kLeastHeight = 0.08, kMostHeight = 0.98;  // of the figure, shares of the picture
 constexpr double kWidest = 1.2;                            // a walker is higher than wide
 // Beyond the points of a head and an ankle, shares of the way between them.
@@ -18,7 +19,7 @@ constexpr double kAboveHead = 0.17, kBelowAnkle = 0.10, kBeside = 0.2;
 // Of the height in which a person is looked for: pieces that are more than specks, and how much of
 // it a whole person fills.
 constexpr double kLeastPiece = 0.04, kLeastCovered = 0.72;
-constexpr float kSurePoint = 0.25F;
+constexpr float kSurePoint = 0.25F;  // confidence of a point that counts
 
 // A camera as good as any: only the size of its pictures matters here.
 Camera plain_camera(int width_px, int height_px) {

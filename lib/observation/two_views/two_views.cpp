@@ -23,9 +23,10 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
+// Of those that both cameras see: fewer do not tell, more do not tell more. By hand.
 constexpr size_t kLeastMoments = 20, kMostMoments = 120, kCoarseMoments = 24;
 constexpr int kTurns = 18;            // of the cameras to each other that are tried
-constexpr double kMostlyAhead = 0.9;  // share of the points
+constexpr double kMostlyAhead = 0.9;  // share of the points; by hand
 // Of what points miss where they are as good as is assumed (walker_rays.cpp): the rays leave one
 // direction of two. Worse ones tell less (the variance of unit weight).
 constexpr double kExpectedRms = 0.007;

@@ -68,7 +68,7 @@ class FallSearch {
 
  private:
   void finish_or_propose() {
-    constexpr int kMaxTrials = 60;
+    constexpr int kMaxTrials = 60;  // halvings alone reach the time tolerance in 40
     root_ = high_;
     done_ = trials_++ == kMaxTrials || !(high_ - low_ > kTimeTolerance);
     secant_ = at_low_ > kGuardTolerance;

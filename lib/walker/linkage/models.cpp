@@ -28,7 +28,7 @@ VectorXd unit(Index n, Index i) { return VectorXd::Unit(n, i); }
 // The sole to draw: the arc that rolls while its part leans from -.4 to .7 rad.
 void add_sole(Linkage& linkage, const PlanarPoint& centre, Index angle, int group) {
   if (linkage.foot_radius == 0) return;
-  constexpr int kPieces = 6;
+  constexpr int kPieces = 6;  // of the drawn arc
   const Index n = centre.along.size();
   const auto point = [&](int piece) {
     const double s = -.4 + 1.1 * piece / kPieces;
