@@ -75,6 +75,7 @@ struct RenderOptions {
   std::optional<double> duration;  // default: to the motion's end
   Setting setting = Setting::kRoom;
   Light light;
+  double gloss = 0;  // of the ground, see World::gloss
   Sensor sensor;
   Shutter shutter;
   int jpeg_quality = 0;               // 1 (worst) to 100: frames pass a JPEG coder; 0 = they do not

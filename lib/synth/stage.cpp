@@ -125,6 +125,7 @@ Stage make_stage(const FilmedWalker& walker, const RenderOptions& options,
   if (options.cameras.empty()) stage.cameras.push_back(place_camera({}, path));
   const double reach = farthest_from(path.centre(), stage.cameras, path.reach());
   stage.world = make_world(options.setting, path.centre(), reach, options.light, options.seed);
+  stage.world.gloss = options.gloss;
   stage.world.things.insert(stage.world.things.end(), options.occluders.begin(),
                             options.occluders.end());
   return stage;

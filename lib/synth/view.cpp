@@ -173,6 +173,20 @@ void find_sights(const View& view, std::span<const DressedParts> walkers, Plane<
   }
 }
 
+// Calls f(x, y, point on the ground) for the pixels of a rectangle whose rays meet the ground.
+template <typename F>
+void for_ground(const View& view, const Rect& rect, const F& f) {
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      const size_t i = view.static_thing.index(x, y);
+      if (view.static_thing.values[i] != kGround) continue;
+      const Ray ray = ray_at(view, x, y, 0, 0);
+      f(x, y,
+        Vector3d(ray.origin + static_cast<double>(view.static_distance.values[i]) * ray.direction));
+    }
+  }
+}
+
 // Darkens the ground where a part keeps the sun off.
 void cast_shadows(const View& view, const World& world, std::span<const DressedParts> walkers,
                   Plane<Colour>& colour) {
@@ -181,19 +195,104 @@ void cast_shadows(const View& view, const World& world, std::span<const DressedP
   Plane<uint8_t> shaded(view.camera.width_px, view.camera.height_px, 0);
   for (const DressedParts& walker : walkers) {
     for (const ConeSolid& solid : walker.solids) {
-      const Rect rect = shadow_of(view, solid, sun);
-      for (int y = rect.y0; y < rect.y1; ++y) {
-        for (int x = rect.x0; x < rect.x1; ++x) {
-          const size_t i = shaded.index(x, y);
-          if (shaded.values[i] != 0 || view.static_thing.values[i] != kGround) continue;
-          const Ray ray = ray_at(view, x, y, 0, 0);
-          const Vector3d point =
-              ray.origin + static_cast<double>(view.static_distance.values[i]) * ray.direction;
-          if (!entry_distance(solid, {point, sun}, kInfinity)) continue;
-          shaded.values[i] = 1;
-          colour.values[i] *= 1 - view.sun_share.values[i];
-        }
+      for_ground(view, shadow_of(view, solid, sun), [&](int x, int y, const Vector3d& point) {
+        uint8_t& done = shaded.at(x, y);
+        if (done != 0 || !entry_distance(solid, {point, sun}, kInfinity)) return;
+        done = 1;
+        colour.at(x, y) *= 1 - view.sun_share.at(x, y);
+      });
+    }
+  }
+}
+
+// Balls side by side that stand for a part, small enough to be as wide as it is.
+struct Ball {
+  Vector3d middle;
+  double radius;
+};
+
+std::vector<Ball> balls_of(const ConeSolid& solid) {
+  const double low = 0.5 * (solid.a0 + solid.b0), high = 0.5 * (solid.a1 + solid.b1);
+  const int count = std::max(1, static_cast<int>(std::lround(solid.length / (low + high))));
+  std::vector<Ball> out;
+  for (int i = 0; i < count; ++i) {
+    const double along = (i + 0.5) / count;
+    out.push_back({world_point(solid, {0, 0, along}), low + along * (high - low)});
+  }
+  return out;
+}
+
+// Share of the even light that a ball above keeps off a point of the ground: its form factor
+// (r / d)^2 cos (Howell, A catalog of radiation heat transfer configuration factors, B-37).
+double kept_off(const Ball& ball, const Vector3d& point) {
+  const Vector3d way = ball.middle - point;
+  const double distance2 = std::max(way.squaredNorm(), ball.radius * ball.radius);
+  return std::clamp(ball.radius * ball.radius * way.z() / (distance2 * std::sqrt(distance2)), 0.0,
+                    1.0);
+}
+
+// Darkens the ground where walkers keep the even light off. Balls farther than kContactReach keep
+// off less than a grey level.
+void contact_shadows(const View& view, const World& world, std::span<const DressedParts> walkers,
+                     Plane<Colour>& colour) {
+  constexpr double kContactReach = 0.7;  // m
+  if (!world.light.contact_shadows) return;
+  Plane<float> open(view.camera.width_px, view.camera.height_px, 1);
+  for (const DressedParts& walker : walkers) {
+    for (const ConeSolid& solid : walker.solids) {
+      for (const Ball& ball : balls_of(solid)) {
+        if (ball.middle.z() > kContactReach) continue;
+        Rect rect = kNothing;
+        bool whole = false;
+        extend(view, {ball.middle.x(), ball.middle.y(), 0}, kContactReach, rect, whole);
+        for_ground(view, finished(view, rect, whole), [&](int x, int y, const Vector3d& point) {
+          open.at(x, y) *= static_cast<float>(1 - kept_off(ball, point));
+        });
       }
+    }
+  }
+  for (size_t i = 0; i < open.values.size(); ++i)
+    colour.values[i] -= (1 - open.values[i]) * view.ambient_share.values[i] * view.empty.values[i];
+}
+
+// What walkers change in a pixel of the ground that mirrors them, averaged over its sub-rays.
+Colour mirrored_change(const View& view, const World& world, std::span<const DressedParts> walkers,
+                       int x, int y) {
+  static const auto kOffsets = sub_rays();
+  const double distance = static_cast<double>(view.static_distance.at(x, y));
+  Colour sum = Colour::Zero();
+  for (const Vector2d& offset : kOffsets) {
+    const Ray ray = ray_at(view, x, y, offset.x(), offset.y());
+    const Ray up = mirrored(ray, distance);
+    const StaticHit behind = first_static_hit(world, up);
+    const Hit hit = nearest_part(walkers, up, behind.distance);
+    if (hit.sight.walker < 0) continue;
+    sum += static_cast<float>(mirrored_share(world, ray)) *
+           (look_of_part(world, walkers, up, hit) - look_of(world, up, behind).colour);
+  }
+  return sum / static_cast<float>(kOffsets.size());
+}
+
+// Puts walkers in the place of what the ground mirrors where they are nearer.
+void mirror_walkers(const View& view, const World& world, std::span<const DressedParts> walkers,
+                    Plane<Colour>& colour) {
+  if (world.gloss == 0) return;
+  Plane<uint8_t> done(view.camera.width_px, view.camera.height_px, 0);
+  for (const DressedParts& walker : walkers) {
+    for (const ConeSolid& solid : walker.solids) {
+      const auto below = [](const Vector3d& point) {
+        return Vector3d(point.x(), point.y(), -point.z());
+      };
+      Rect rect = kNothing;
+      bool whole = false;
+      extend(view, below(solid.lower), end_radius(solid.a0, solid.b0), rect, whole);
+      extend(view, below(world_point(solid, {0, 0, 1})), end_radius(solid.a1, solid.b1), rect,
+             whole);
+      for_ground(view, finished(view, rect, whole), [&](int x, int y, const Vector3d&) {
+        if (done.at(x, y) != 0) return;
+        done.at(x, y) = 1;
+        colour.at(x, y) += mirrored_change(view, world, walkers, x, y);
+      });
     }
   }
 }
@@ -233,15 +332,17 @@ void fill_row(const World& world, int y, View& view) {
     view.static_thing.values[i] = hit.thing;
     view.static_distance.values[i] = static_cast<float>(hit.distance);
     Colour sum = Colour::Zero();
-    float sun = 0;
+    float sun = 0, ambient = 0;
     for (const Vector2d& offset : kOffsets) {
       const Ray ray = ray_at(view, x, y, offset.x(), offset.y());
       const StaticLook look = look_of(world, ray, first_static_hit(world, ray));
       sum += look.colour;
-      sun += look.sun_share;
+      sun += look.shaded_share * look.sun_share;
+      ambient += look.shaded_share * (1 - look.sun_share);
     }
     view.empty.values[i] = sum / static_cast<float>(kOffsets.size());
     view.sun_share.values[i] = sun / static_cast<float>(kOffsets.size());
+    view.ambient_share.values[i] = ambient / static_cast<float>(kOffsets.size());
   }
 }
 
@@ -253,6 +354,7 @@ View make_view(const World& world, const Camera& camera, int threads) {
             camera_centre(camera),
             {w, h, Eigen::Vector3f::Zero()},
             {w, h, Colour::Zero()},
+            {w, h, 0.0f},
             {w, h, 0.0f},
             {w, h, std::numeric_limits<float>::infinity()},
             {w, h, kSky}};
@@ -283,6 +385,8 @@ Picture render(const View& view, const World& world, std::span<const DressedPart
     out.sights.values[i].distance = view.static_distance.values[i];
   find_sights(view, walkers, out.sights);
   cast_shadows(view, world, walkers, out.colour);
+  contact_shadows(view, world, walkers, out.colour);
+  mirror_walkers(view, world, walkers, out.colour);
   for (int y = 0; y < out.colour.height; ++y) {
     for (int x = 0; x < out.colour.width; ++x) {
       const bool edge = on_edge(out.sights, x, y);

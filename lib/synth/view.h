@@ -42,6 +42,7 @@ struct View {
   Plane<Eigen::Vector3f> directions;  // unit, world; zero where the lens has no ray
   Plane<Colour> empty;                // the scene without walkers
   Plane<float> sun_share;             // of that brightness which a walker's shadow takes away
+  Plane<float> ambient_share;         // and what walkers who keep off all even light do
   Plane<float> static_distance;       // m along the ray to thing or ground; infinite for the sky
   Plane<int> static_thing;            // kGround, kSky or an index of World::things
 };

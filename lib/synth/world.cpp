@@ -58,7 +58,24 @@ StaticHit first_static_hit(const World& world, const Ray& ray) {
   return best;
 }
 
-StaticLook look_of(const World& world, const Ray& ray, const StaticHit& hit) {
+double mirrored_share(const World& world, const Ray& ray) {
+  constexpr double kUpright = 0.04;  // of light that falls straight down: ((1.5 - 1) / (1.5 + 1))^2
+  if (world.gloss == 0) return 0;
+  const double grazing = 1 - std::min(1.0, std::abs(ray.direction.z()));
+  return world.gloss * (kUpright + (1 - kUpright) * std::pow(grazing, 5));
+}
+
+Ray mirrored(const Ray& ray, double distance) {
+  Ray out{ray.origin + distance * ray.direction, ray.direction};
+  out.origin.z() = kShadowGap;
+  out.direction.z() = std::abs(out.direction.z());
+  return out;
+}
+
+namespace {
+
+// Without a mirror image.
+StaticLook look_of_surface(const World& world, const Ray& ray, const StaticHit& hit) {
   if (hit.thing == kSky) {
     const float height = static_cast<float>(std::max(0.0, ray.direction.z()));
     return {world.horizon + std::min(1.0f, 2 * height) * (world.zenith - world.horizon), 0};
@@ -77,6 +94,21 @@ StaticLook look_of(const World& world, const Ray& ray, const StaticHit& hit) {
   const double brightness = world.light.ambient + lit;
   return {colour_at(*material, point, world.noise) * static_cast<float>(brightness),
           static_cast<float>(lit / brightness)};
+}
+
+}  // namespace
+
+StaticLook look_of(const World& world, const Ray& ray, const StaticHit& hit) {
+  StaticLook out = look_of_surface(world, ray, hit);
+  const double share = hit.thing == kGround ? mirrored_share(world, ray) : 0;
+  if (share == 0) return out;
+  const Ray up = mirrored(ray, hit.distance);
+  const Colour image = look_of_surface(world, up, first_static_hit(world, up)).colour;
+  const Colour own = static_cast<float>(1 - share) * out.colour;
+  out.colour = own + static_cast<float>(share) * image;
+  // Shadows take light from the ground, not from what it mirrors.
+  out.shaded_share = own.sum() / out.colour.sum();
+  return out;
 }
 
 }  // namespace synth

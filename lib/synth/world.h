@@ -22,6 +22,8 @@ struct Light {
   double sun = 0.55;
   double ambient = 0.45;
   bool shadows = true;
+  // Whether walkers keep the even light, too, from the ground near them: soft contact shadows.
+  bool contact_shadows = false;
 };
 
 inline constexpr double kShadowGap = 1e-4;  // m; a surface does not shade itself by rounding
@@ -41,6 +43,9 @@ ConeSolid upright_cone(const Eigen::Vector3d& foot, double height, double radius
 
 struct World {
   Material ground;
+  // Of the ground, 0 matt to 1 polished: the share of a polished surface's mirror image that it
+  // shows (mirrored_share).
+  double gloss = 0;
   Colour horizon{0.75f, 0.8f, 0.85f}, zenith{0.45f, 0.6f, 0.8f};
   std::vector<Thing> things;
   Light light;
@@ -59,10 +64,19 @@ StaticHit first_static_hit(const World& world, const Ray& ray);
 // Albedo, and the share of the sun's light that falls on the surface there (0 in the shadow of a
 // thing), of the point that a ray hits. The sky has a colour of its own and no light on it.
 struct StaticLook {
-  Colour colour;    // lit
-  float sun_share;  // of the brightness that is the sun's: what a further shadow takes away
+  Colour colour;  // lit
+  float
+      sun_share;  // of the surface's brightness that is the sun's: what a further shadow takes away
+  float shaded_share = 1;  // of the colour that is the surface's own, and no mirror image
 };
 StaticLook look_of(const World& world, const Ray& ray, const StaticHit& hit);
+
+// Share of what a ray shows of the ground that is its mirror image, by Fresnel's law as Schlick (An
+// inexpensive BRDF model for physically-based rendering, 1994) approximates it, for a surface of
+// refractive index 1.5.
+double mirrored_share(const World& world, const Ray& ray);
+// The ray that leaves the ground where `ray` meets it, at that distance.
+Ray mirrored(const Ray& ray, double distance);
 
 // Ready-made surroundings of a walk whose path lies within `reach` metres of `centre`.
 enum class Setting { kRoom, kField, kStudio };

@@ -60,12 +60,13 @@ void read_setting(const YamlValue& value, Setting& setting) {
 }
 
 void read_light(const YamlValue& value, Light& light) {
-  value.only_keys({"azimuth_deg", "elevation_deg", "sun", "ambient", "shadows"});
+  value.only_keys({"azimuth_deg", "elevation_deg", "sun", "ambient", "shadows", "contact_shadows"});
   take_degrees(value, "azimuth_deg", 360, light.azimuth);
   take_degrees(value, "elevation_deg", 90, light.elevation);
   take(value, "sun", 0, 10, light.sun);
   take(value, "ambient", 0, 10, light.ambient);
   take(value, "shadows", light.shadows);
+  take(value, "contact_shadows", light.contact_shadows);
 }
 
 void read_sensor(const YamlValue& value, RenderOptions& options) {
@@ -241,9 +242,11 @@ FilmedWalker read_other(const YamlValue& value, const fs::path& folder, double d
 
 RenderFile read_render_file(const fs::path& path) {
   const YamlValue file = YamlValue::from_file(path.string());
-  file.only_keys({"seed", "frame_rate", "start", "duration", "setting", "light", "sensor",
-                  "background_frames", "images", "subject", "walk", "gait", "cameras", "occluders",
-                  "others", "slope_deg", "initial", "keypoints", "truth"});
+  file.only_keys({"seed",    "frame_rate", "start",     "duration",
+                  "setting", "light",      "sensor",    "background_frames",
+                  "images",  "subject",    "walk",      "gait",
+                  "cameras", "occluders",  "others",    "slope_deg",
+                  "gloss",   "initial",    "keypoints", "truth"});
   const fs::path folder = fs::absolute(path).parent_path();
   RenderFile out;
   RenderOptions& options = out.options;
@@ -256,6 +259,7 @@ RenderFile read_render_file(const fs::path& path) {
   if (file.has("light")) read_light(file.at("light"), options.light);
   if (file.has("sensor")) read_sensor(file.at("sensor"), options);
   take(file, "background_frames", 0, 100'000, options.background_frames);
+  take(file, "gloss", 0, 1, options.gloss);
   take(file, "images", options.images);
   take_degrees(file, "slope_deg", 45, options.slope);
   take(file, "initial", options.state_initial);
