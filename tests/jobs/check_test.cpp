@@ -18,6 +18,8 @@
 #include "io/video/video_writer.h"
 #include "jobs/check/check_parts.h"
 #include "jobs/render/render.h"
+#include "observation/two_views/out_of_step.h"
+#include "observation/two_views/pair_lag.h"
 #include "synth/made_walk.h"
 #include "tests/camera/made_camera.h"
 #include "tests/io/sample_files.h"

@@ -12,6 +12,7 @@
 #include "core/conventions.h"
 #include "io/tables/motion_file.h"
 #include "jobs/track/results/motion_tables.h"
+#include "kinetics/gait_contacts.h"
 #include "tests/data_folders.h"
 
 namespace walktrack {

@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "jobs/track/results/motion_tables.h"
 #include "kinetics/force_error.h"
+#include "kinetics/gait_contacts.h"
 #include "metrics/gait.h"
 
 namespace walktrack {

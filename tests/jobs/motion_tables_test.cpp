@@ -9,6 +9,7 @@
 #include "io/archive/files.h"
 #include "io/tables/csv.h"
 #include "io/tables/motion_file.h"
+#include "kinetics/gait_contacts.h"
 #include "tests/data_folders.h"
 #include "tests/io/bvh_reader.h"
 #include "tests/io/c3d_reader.h"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "metrics/flat_feet.h"
 #include "metrics/plausibility.h"
 #include "tests/metrics/test_walk.h"
 #include "tests/run_program.h"

@@ -37,33 +37,6 @@ struct SeenFigures {
 SeenFigures figures_in(const Scene& scene, const JobControl& control);
 inline constexpr int kMostSyncFrames = 300;
 
-// Cameras out of step, found from three or more paths: the vertical planes through the figure, seen
-// by all cameras at one instant, meet in one line. Every single camera that could be shifted to
-// make them meet is listed, the best first; with three cameras there may be several.
-// Empty if the cameras agree or nothing can be said.
-struct OutOfStep {
-  size_t camera;
-  int frames_late;               // positive: it shows things later than the others
-  double gap_before, gap_after;  // m, how far the planes miss each other
-};
-std::vector<OutOfStep> find_out_of_step(const std::vector<Camera>& cameras,
-                                        const std::vector<FigurePath>& paths);
-
-// How two cameras are out of step, found from the heights at which the figure's outline ends: a
-// plane through both cameras that touches it in one image touches it in the other at that instant
-// (epipolar tangents; Sinha & Pollefeys 2004). Frames are the scene's.
-struct PairLag {
-  int before = 0, after = 0;  // frames that the second camera shows things later than the first
-  int changes_at = 0;         // frame from which `after` holds; equal lags: no change
-  double sd = 0;              // frames, of `after` where nothing changes
-  // The time of one or more steps: a camera that stands a step further along the way than its
-  // calibration says sees the same. Or the time of a step is not known and this is no shorter.
-  bool may_be_steps = false;
-};
-// nullopt if the cameras see too little to tell.
-std::optional<PairLag> find_pair_lag(const std::vector<Camera>& cameras,
-                                     const std::vector<FigurePath>& paths, double frame_rate);
-
 void check_steps(const Scene& scene, const JobControl& control, CheckReport& report);
 
 // The folder of the pictures.

@@ -16,17 +16,12 @@
 #include <span>
 #include <vector>
 
+#include "body/flat_foot.h"
 #include "body/motion.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
 inline namespace tracker {
-
-// Frames [first, last] in which the sole of that foot lies flat.
-struct FlatFoot {
-  Side side;
-  size_t first, last;
-};
 
 // Over the ground, by Side.
 using FootShifts = std::array<Eigen::Vector2d, 2>;

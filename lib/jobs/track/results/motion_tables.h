@@ -30,11 +30,6 @@ struct AnalysedMotion {
   double model_error = 0;
 };
 
-// The stances as contacts. A stance that an end of the motion cuts, while the other foot's event
-// shows that both stood, is taken to share the ground as long as feet did elsewhere in the motion,
-// or 0.12 s (a walk at 1.3 m/s) if nowhere.
-std::vector<FootContact> foot_contacts(const Gait& gait);
-
 // All files that the tables may be.
 std::vector<std::string> motion_table_files();
 

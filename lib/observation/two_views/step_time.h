@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace walktrack {
-inline namespace jobs {
+inline namespace observation {
 
 // The time of a step, s: heights of the head, say, by frame (any unit; NaN where not known) rise
 // and fall once a step, on top of what changes slowly as somebody comes nearer. nullopt where
@@ -15,5 +15,5 @@ std::optional<double> step_time(const std::vector<double>& heights, double frame
 // Whether a time is that of one or more whole steps, as near as can be told.
 bool is_whole_steps(double time, double step);
 
-}  // namespace jobs
+}  // namespace observation
 }  // namespace walktrack

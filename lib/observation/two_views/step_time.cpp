@@ -1,11 +1,11 @@
-#include "jobs/check/step_time.h"
+#include "observation/two_views/step_time.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace walktrack {
-inline namespace jobs {
+inline namespace observation {
 
 namespace {
 
@@ -13,7 +13,7 @@ constexpr double kQuickest = 0.3, kSlowest = 0.85;  // s, of steps: children to 
 constexpr double kRepeats = 0.3;                    // least autocorrelation at the time of a step
 constexpr double kRounding = 1e-18;                 // of heights that are all the same
 constexpr double kAsWell = 0.8;                     // of the highest one
-constexpr double kNear = 0.15;                      // of a step, within which lags are as good
+constexpr double kNearShare = 0.15;                 // of a step, within which lags are as good
 
 // Less their mean over the second around; NaN where less than half of that is known.
 std::vector<double> without_trend(const std::vector<double>& heights, int half) {
@@ -70,8 +70,8 @@ std::optional<double> step_time(const std::vector<double>& heights, double frame
 
 bool is_whole_steps(double time, double step) {
   const double steps = std::abs(time) / step;
-  return steps > 0.5 && std::abs(steps - std::round(steps)) <= kNear;
+  return steps > 0.5 && std::abs(steps - std::round(steps)) <= kNearShare;
 }
 
-}  // namespace jobs
+}  // namespace observation
 }  // namespace walktrack

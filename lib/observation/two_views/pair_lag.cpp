@@ -1,4 +1,5 @@
-// Whether two cameras are in step, from the planes through both of them that touch the figure.
+#include "observation/two_views/pair_lag.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,11 +7,10 @@
 
 #include <Eigen/Geometry>
 
-#include "jobs/check/check_parts.h"
-#include "jobs/check/step_time.h"
+#include "observation/two_views/step_time.h"
 
 namespace walktrack {
-inline namespace jobs {
+inline namespace observation {
 
 namespace {
 
@@ -67,7 +67,7 @@ double steepest(const Camera& camera, const Pencil& pencil, const std::vector<Ve
 }
 
 // By frame: the slopes of the planes that touch the figure's head, and its feet.
-enum End : size_t { kTop, kBottom, kEnds };
+enum OutlineEnd : size_t { kTop, kBottom, kEnds };
 using Heights = std::array<std::vector<double>, kEnds>;
 
 Heights heights_of(const Camera& camera, const Pencil& pencil, const FigurePath& path) {
@@ -285,7 +285,7 @@ std::vector<Sums> lags_tried(const std::vector<Camera>& cameras,
                 second = heights_of(cameras[1], *pencil, paths[1]);
   const double distance = usual_distance(cameras[0], *pencil, paths[0]);
   std::vector<ByLag> ends;
-  for (const End end : {kTop, kBottom}) {
+  for (const OutlineEnd end : {kTop, kBottom}) {
     ByLag lags;
     for (int lag = -longest; lag <= longest; ++lag)
       lags.push_back(agreement(first[end], second[end], lag, distance));
@@ -325,5 +325,5 @@ std::optional<PairLag> find_pair_lag(const std::vector<Camera>& cameras,
                  may_be_steps(cameras, paths, lag_of(best), frame_rate)};
 }
 
-}  // namespace jobs
+}  // namespace observation
 }  // namespace walktrack

@@ -1,4 +1,4 @@
-#include "jobs/check/step_time.h"
+#include "observation/two_views/step_time.h"
 
 #include <cmath>
 #include <limits>
