@@ -11,6 +11,7 @@ cd "$(dirname "$0")/.."
 all=(core camera mechanics filter body metrics walker gait kinetics observation synth io tracker jobs apps regression)
 threaded=(core filter observation tracker jobs)
 table=tests/sanitizers.csv
+# Stacks are remembered as long as can be (history_size), or a suppression cannot tell whose a race is.
 # Of jobs, the thread sanitizer sees the tests in which threads meet: whole runs with several of them,
 # frames prepared and overlays drawn beside tracking, checkpoints, workers, rendering. All of them
 # would take it half a day.
@@ -38,7 +39,7 @@ run_program() {  # sanitizer, build folder, program
   TIMEFORMAT='%U'
   local seconds
   seconds=$({ time env RC_PARAMS=seed=1 UBSAN_OPTIONS=print_stacktrace=1 \
-    TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp" ASAN_OPTIONS=detect_stack_use_after_return=1 \
+    TSAN_OPTIONS="history_size=7 suppressions=$PWD/tests/tsan.supp" ASAN_OPTIONS=detect_stack_use_after_return=1 \
     timeout 9000 "$folder/${program}_tests" --gtest_filter="${SANITIZE_FILTER:-$filter}" >"$log" 2>&1; } 2>&1) || code=$?
   local tests; tests=$(sed -n 's/^\[  PASSED  \] \([0-9]*\) tests\?.*/\1/p' "$log")
   local result=clean
