@@ -152,8 +152,8 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
                         : "the scene has none");
   const auto without = std::count_if(scene.cameras.begin(), scene.cameras.end(), learns_from_video);
   const bool left_out = leaves_people_out(scene, values);
-  items.fact("people left out", left_out,
-             "of backgrounds that are learned from the video, by the pose network",
+  items.fact("bystanders", left_out,
+             "who stand are left out of a background learned from the video, by the pose network",
              without == 0 ? "every camera has pictures of the empty scene"
                           : items.origin("observation.background.without_people"));
   items.fact("search", !scene.initial, "finding the walk in a window of frames, until it is found",
