@@ -74,7 +74,8 @@ MapEstimate map_estimate(const VectorXd& mean, const VectorXd& sd, int rounds,
     log_likelihoods(std::span(&point, 1), std::span(&value, 1));
     return value;
   };
-  MapEstimate out{mean, MatrixXd(sd.cwiseAbs2().asDiagonal()), 0};
+  const Eigen::Index n = mean.size();
+  MapEstimate out{mean, MatrixXd(sd.cwiseAbs2().asDiagonal()), MatrixXd::Zero(n, n), 0};
   MatrixXd around = kFirstSpread * kFirstSpread * out.covariance;
   double here = at_one(mean);
   const double at_mean = here;
@@ -90,6 +91,10 @@ MapEstimate map_estimate(const VectorXd& mean, const VectorXd& sd, int rounds,
     const VectorXd slope =
         likelihood.gradient - root.transpose() * precision.cwiseProduct(out.at - mean);
     around = root * posterior.ldlt().solve(MatrixXd(root.transpose()));
+    // The columns of the root are orthogonal: its inverse is its transpose over their squares.
+    const MatrixXd inverse =
+        root.colwise().squaredNorm().cwiseInverse().asDiagonal() * root.transpose();
+    out.information = inverse.transpose() * likelihood.curvature * inverse;
     double gained = 0;
     for (const double damping : kDampings) {
       const MatrixXd damped = posterior + damping * MatrixXd::Identity(mean.size(), mean.size());

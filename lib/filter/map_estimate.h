@@ -23,7 +23,10 @@ inline namespace filter {
 struct MapEstimate {
   Eigen::VectorXd at;
   Eigen::MatrixXd covariance;  // of the normal distribution that the posterior resembles there
-  double gain = 0;             // in log-posterior against the prior's mean, nats
+  // Of the likelihood alone: minus the second derivatives of its concave part, positive
+  // semidefinite.
+  Eigen::MatrixXd information;
+  double gain = 0;  // in log-posterior against the prior's mean, nats
 };
 
 // Evaluates the log-likelihood of every point, in any order: finite values.

@@ -67,6 +67,7 @@ class Tracker {
   // Who is tracked: the scene's model until they have been sized up, if it does not know their
   // size.
   const Body& body() const { return scene_.model.body; }
+  const BodyModel& model() const { return scene_.model; }
   // What came of that; nullopt while there is no need.
   std::optional<Stature> stature() const { return stature_; }
 

@@ -9,6 +9,7 @@
 #include "tracker/modes/stride_modes.h"
 #include "tracker/motion/propagate.h"
 #include "tracker/smooth/estimate.h"
+#include "tracker/smooth/image_information.h"
 #include "tracker/tracker_scene.h"
 
 namespace walktrack {
@@ -19,6 +20,7 @@ using WalkerFilter = ParticleFilter<WalkerParticle>;
 struct FrameRecord {
   bool tracked = false;
   FrameEstimate estimate;
+  ImageInformation images;
   FilterReport filter;
   double mean_log_likelihood = 0;       // mean log-likelihood of the particles, nats
   std::vector<JointPositions> samples;  // a few particles, to show their spread

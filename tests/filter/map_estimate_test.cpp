@@ -45,6 +45,7 @@ TEST(MapEstimate, IsExactForNormalLikelihoods) {
     const Vector at = covariance * (prior * mean + information * peak);
     EXPECT_LT((found.at - at).norm(), 1e-9 * (1 + at.norm())) << n;
     EXPECT_LT((found.covariance - covariance).norm(), 1e-9) << n;
+    EXPECT_LT((found.information - information).norm(), 1e-9 * (1 + information.norm())) << n;
   }
 }
 

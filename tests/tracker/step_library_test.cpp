@@ -13,14 +13,14 @@ namespace {
 
 constexpr StepAim kUsual{1.3, 0.7};
 
-Rng stream(uint32_t i) { return {5, Purpose::kTest, 0, i}; }
+Rng library_stream(uint32_t i) { return {5, Purpose::kTest, 0, i}; }
 
 // The book holds what a simulation from the support transfer gives.
 TEST(StepLibrary, MomentsAreThoseOfTheGait) {
   const Walking walking;
   const StepLibrary steps(walking.model, walking.prior);
   const KneedModel& model = walking.model.walker;
-  Rng rng = stream(0);
+  Rng rng = library_stream(0);
   const LibraryStep* step = steps.near(kUsual, 0, rng);
   ASSERT_NE(step, nullptr);
   const PriorGait gait =
@@ -39,7 +39,7 @@ TEST(StepLibrary, NearStepsAreNearAndSeveral) {
   const StepLibrary steps(walking.model, walking.prior);
   std::set<const LibraryStep*> found;
   for (uint32_t i = 0; i < 200; ++i) {
-    Rng rng = stream(i);
+    Rng rng = library_stream(i);
     const LibraryStep* step = steps.near(kUsual, 0, rng);
     ASSERT_NE(step, nullptr);
     EXPECT_NEAR(step->aim.speed, kUsual.speed, 0.25);
@@ -53,18 +53,18 @@ TEST(StepLibrary, NearStepsAreNearAndSeveral) {
 TEST(StepLibrary, DrawsAsLikelyThereAndBack) {
   const Walking walking;
   const StepLibrary steps(walking.model, walking.prior);
-  Rng first = stream(0);
+  Rng first = library_stream(0);
   const LibraryStep* here = steps.near(kUsual, 0, first);
   constexpr int kDraws = 4000;
   std::map<const LibraryStep*, int> there;
   for (uint32_t i = 0; i < kDraws; ++i) {
-    Rng rng = stream(i);
+    Rng rng = library_stream(i);
     ++there[steps.near(here->aim, 0, rng)];
   }
   for (const auto& [step, count] : there) {
     int back = 0;
     for (uint32_t i = 0; i < kDraws; ++i) {
-      Rng rng = stream(kDraws + i);
+      Rng rng = library_stream(kDraws + i);
       back += steps.near(step->aim, 0, rng) == here;
     }
     // Both are a ninth: four standard deviations of the difference.
@@ -76,7 +76,7 @@ TEST(StepLibrary, NothingBeyondTheTable) {
   const Walking walking;
   const StepLibrary steps(walking.model, walking.prior);
   for (const StepAim aim : {StepAim{0.1, 0.7}, StepAim{9, 0.7}, StepAim{1.3, 5}}) {
-    Rng rng = stream(0);
+    Rng rng = library_stream(0);
     EXPECT_EQ(steps.near(aim, 0, rng), nullptr) << aim.speed << ' ' << aim.step_length;
   }
 }

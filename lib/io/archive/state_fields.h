@@ -219,12 +219,19 @@ void fields(Archive& archive, T& value) {
   archive(people, offsets);
 }
 
+template <typename Archive, ArchivedAs<ImageInformation> T>
+void fields(Archive& archive, T& value) {
+  auto& [walker, pose, information] = value;
+  archive(walker, pose, information);
+}
+
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
-  auto& [tracked, estimate, filter, mean_log_likelihood, samples, fallen, diverged, modes, names,
-         evidence, keypoints, fit, moving] = value;
-  archive(tracked, estimate, filter, any_number(mean_log_likelihood), samples, a_count(fallen),
-          a_count(diverged), modes, names, any_number(evidence), keypoints, fit, moving);
+  auto& [tracked, estimate, images, filter, mean_log_likelihood, samples, fallen, diverged, modes,
+         names, evidence, keypoints, fit, moving] = value;
+  archive(tracked, estimate, images, filter, any_number(mean_log_likelihood), samples,
+          a_count(fallen), a_count(diverged), modes, names, any_number(evidence), keypoints, fit,
+          moving);
 }
 
 }  // namespace io

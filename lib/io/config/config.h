@@ -17,7 +17,7 @@
 #include "io/video/encoder_preset.h"
 #include "kinetics/kinetics.h"
 #include "observation/observation_config.h"
-#include "tracker/smooth/smoother.h"
+#include "tracker/smooth/trajectory.h"
 #include "tracker/tracker_config.h"
 
 namespace walktrack {

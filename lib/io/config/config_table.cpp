@@ -176,10 +176,11 @@ void add_track(ParameterTable& table) {
   t.integer("samples", &T::samples, 0, 1000,
             "particles of a frame that are kept for overlays and bands");
   using L = SmoothingConfig;
-  ParameterGroup<L> l(table, "smoothing", "smoothing over neighbouring frames", &Config::smoothing);
-  l.number("lag", &L::lag, 0, 2,
-           "time before and after a frame over which its pose is smoothed, s; 0 = off");
-  l.flag("plant", &L::plant, "whether stance feet are held in place and above the ground");
+  ParameterGroup<L> l(table, "smoothing", "the poses of the whole video, estimated together",
+                      &Config::smoothing);
+  l.flag("enabled", &L::enabled,
+         "whether the most probable poses of all frames together are reported");
+  l.flag("plant", &L::plant, "whether stance feet are held in place and above the ground then");
   using K = KineticsConfig;
   ParameterGroup<K> k(table, "kinetics", "ground reaction forces and joint moments",
                       &Config::kinetics);

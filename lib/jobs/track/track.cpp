@@ -15,9 +15,8 @@
 #include "jobs/track/report/track_quality.h"
 #include "jobs/track/report/track_record.h"
 #include "jobs/track/results/keypoint_results.h"
-#include "jobs/track/results/named_track.h"
 #include "jobs/track/results/overlay_video.h"
-#include "jobs/track/results/planted_track.h"
+#include "jobs/track/results/reported_track.h"
 #include "jobs/track/results/track_results.h"
 #include "jobs/track/track_origin.h"
 #include "jobs/track/track_run.h"
@@ -164,33 +163,6 @@ std::pair<TrackJob, Elapsed> checked_job(const TrackJob& given, const JobControl
   return {std::move(job), elapsed_since(start)};
 }
 
-// What was tracked as it is reported: the legs named by the whole video, frames seen in the light
-// of others, standing feet held in place. Each is a file of the folder until the result is
-// complete.
-class ReportedTrack {
- public:
-  ReportedTrack(const TrackRun& run, const SmoothingConfig& smoothing, const ResultFolder& folder)
-      : tracked_(run.frames()) {
-    const auto file = [&](std::string_view name) { return folder.file(std::string(name)); };
-    if (says_names(tracked_)) named_.emplace(named(tracked_, run.body(), file(kNamedFile)));
-    const TrackedFrames& sided = named_ ? *named_ : tracked_;
-    if (smoothing.lag > 0) smoothed_.emplace(smoothed(sided, smoothing, file(kSmoothedFile)));
-    if (smoothing.plant) planted_.emplace(planted(moving(), file(kPlantedFile)));
-  }
-  ReportedTrack(const ReportedTrack&) = delete;
-  ReportedTrack& operator=(const ReportedTrack&) = delete;
-
-  // Before feet are held in place.
-  const TrackedFrames& moving() const {
-    return smoothed_ ? *smoothed_ : named_ ? *named_ : tracked_;
-  }
-  const TrackedFrames& frames() const { return planted_ ? *planted_ : moving(); }
-
- private:
-  const TrackedFrames& tracked_;
-  std::optional<TrackedFrames> named_, smoothed_, planted_;
-};
-
 Quality measured_quality(const TrackJob& job, const Scene& scene, const TrackRun& run,
                          const ReportedTrack& track, const AnalysedMotion& analysed) {
   const QualityConfig& limits = job.config.values.quality;
@@ -251,7 +223,7 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   run.watch().add("checks", checking);
   const bool interrupted = follow_video(run, video, control, outcome);
   const TimePoint writing;
-  const ReportedTrack track(run, job.config.values.smoothing, folder);
+  const ReportedTrack track(run.frames(), run.model(), job.config.values.smoothing, folder);
   const Scene scene = with_stature(job.scene, run.stature());
   const AnalysedMotion analysed =
       analysed_motion(track.frames(), scene, job.config.values.tracker.model_error);

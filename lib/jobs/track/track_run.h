@@ -64,7 +64,7 @@ class TrackRun {
   int frames_read() const { return static_cast<int>(frames_read_); }
   int losses() const { return tracker_.losses(); }
   std::optional<Stature> stature() const { return tracker_.stature(); }
-  const Body& body() const { return tracker_.body(); }
+  const BodyModel& model() const { return tracker_.model(); }
   int threads() const { return threads_; }
   // Looks again at a video in which nobody was found, and says what was missing (why_nobody.h).
   std::string why_nobody(const JobControl& control);

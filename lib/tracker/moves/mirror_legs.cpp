@@ -101,6 +101,9 @@ void mirror_legs(const MotionContext& context, WalkerFilter& filter) {
 void mirror_legs(const Body& body, FrameRecord& record) {
   FrameEstimate& estimate = record.estimate;
   estimate.pose = mirrored_legs(body, estimate.pose);
+  for (Pose* pose : {&record.images.walker, &record.images.pose})
+    *pose = mirrored_legs(body, *pose);
+  mirror_information(record.images);
   swap_joints(estimate.joints);
   for (const auto& [left, right] : kPairs)
     std::swap(estimate.spread[size_t(left)], estimate.spread[size_t(right)]);

@@ -89,7 +89,7 @@ constexpr QualityWords kWords[] = {
     {"jitter_m_s3", "Trembling: mean third derivative of the joints", "m/s³", 0,
      "Walking people's joints stay below about 500.",
      "The figure trembles or leaps: more particles (filter.particles) or smoothing "
-     "(smoothing.lag) help; look whether the figure is on the person."},
+     "(smoothing.enabled) help; look whether the figure is on the person."},
 };
 
 }  // namespace

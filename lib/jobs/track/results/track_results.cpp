@@ -71,19 +71,6 @@ bool walks(const FrameRecord& record) { return record.tracked && record.modes.st
 
 }  // namespace
 
-TrackedFrames smoothed(const TrackedFrames& frames, const SmoothingConfig& config,
-                       const std::filesystem::path& file) {
-  TrackedFrames out{frames.frame_rate, FrameFile(file)};
-  std::filesystem::remove(file);  // what is open can still be read, and leaves nothing behind
-  Smoother smoother(config, 1 / frames.frame_rate);
-  const auto keep = [&](const std::vector<FrameRecord>& records) {
-    for (const FrameRecord& record : records) out.records.append(record);
-  };
-  for (const FrameRecord& record : frames.records) keep(smoother.push(record));
-  keep(smoother.finish());
-  return out;
-}
-
 Motion motion_of(const TrackedFrames& frames) {
   Motion motion;
   for (size_t i = 0; i < frames.records.size(); ++i) {

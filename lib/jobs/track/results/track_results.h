@@ -9,7 +9,6 @@
 #include "jobs/track/results/motion_tables.h"
 #include "jobs/track/track.h"
 #include "metrics/statistics/coverage.h"
-#include "tracker/smooth/smoother.h"
 #include "tracker/tracker.h"
 
 namespace walktrack {
@@ -20,11 +19,6 @@ struct TrackedFrames {
   double frame_rate = 30;  // Hz
   FrameFile records;
 };
-
-// The same in the light of each other (tracker/smooth/smoother.h). Their records lie in a file of
-// that name, which the folder does not show any more.
-TrackedFrames smoothed(const TrackedFrames& frames, const SmoothingConfig& config,
-                       const std::filesystem::path& file);
 
 Motion motion_of(const TrackedFrames& frames);
 JointUncertainty uncertainty_of(const TrackedFrames& frames);

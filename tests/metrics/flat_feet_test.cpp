@@ -1,13 +1,8 @@
-#include "jobs/track/results/planted_track.h"
+#include "metrics/flat_feet.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
-
-#include "metrics/flat_feet.h"
-#include "metrics/plausibility.h"
-#include "tests/metrics/test_walk.h"
-#include "tests/run_program.h"
 
 namespace walktrack {
 namespace {
@@ -58,34 +53,6 @@ TEST(FlatFeet, NobodyKnowsWhatIsFlatWithoutAWholeStance) {
   Gait gait;
   gait.stances = {{Side::kLeft, 0, 3, false, true, {}}};
   EXPECT_TRUE(flat_feet(clock_of(), gait).empty());
-}
-
-// Of somebody whose figure trembles along the way.
-TEST(Planted, FeetOfATrackStandStill) {
-  const TemporaryFolder folder;
-  const TestWalk walk;
-  TrackedFrames frames{walk.rate, FrameFile(folder / "frames.bin")};
-  for (const JointPositions& joints : walk_motion(walk).joints) {
-    FrameRecord record;
-    record.tracked = frames.records.size() != 3;
-    record.estimate.joint_count = kJointCountWithoutArms;
-    record.estimate.joints = joints;
-    for (const Joint joint : {Joint::kHead, Joint::kNeck})
-      record.estimate.joints[joint] = joints[Joint::kPelvis];
-    const double aside = 0.03 * std::sin(0.7 * static_cast<double>(frames.records.size()));
-    for (Eigen::Vector3d& joint : record.estimate.joints.at) joint.y() += aside;
-    frames.records.append(record);
-  }
-  const TrackedFrames still = planted(frames, folder / "planted.bin");
-  EXPECT_FALSE(std::filesystem::exists(folder / "planted.bin"));
-  ASSERT_EQ(still.records.size(), frames.records.size());
-  EXPECT_FALSE(still.records[3].tracked);
-  const auto slide = [](const TrackedFrames& of) {
-    const Motion motion = motion_of(of);
-    return plausibility(motion, gait_from_motion(motion)).worst_foot_slide;
-  };
-  EXPECT_GT(slide(frames), 0.05);
-  EXPECT_LT(slide(still), 0.012);
 }
 
 }  // namespace

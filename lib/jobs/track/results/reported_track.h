@@ -1,0 +1,44 @@
+// What was tracked as it is reported: the legs named by the whole video, frames seen together, feet
+// that stand in place. Each is a file of the result folder, which the folder does not show, until
+// the result is complete.
+#pragma once
+
+#include <optional>
+
+#include "io/archive/result_folder.h"
+#include "jobs/track/results/track_results.h"
+
+namespace walktrack {
+inline namespace jobs {
+
+// The frames with their most probable poses together (tracker/smooth/trajectory.h), `flat` soles
+// in place. Long tracks are taken in pieces that begin with what has been settled, so that memory
+// does not grow with the video. The records lie in a file of that name, which the folder does not
+// show any more.
+TrackedFrames seen_together(const TrackedFrames& frames, const BodyModel& model,
+                            std::span<const FlatFoot> flat, const std::filesystem::path& file);
+
+// Where soles lie flat: by the track's own gait, if the feet do not travel, and both of somebody
+// who stands.
+std::vector<FlatFoot> standing_feet(const TrackedFrames& frames);
+
+class ReportedTrack {
+ public:
+  ReportedTrack(const TrackedFrames& tracked, const BodyModel& model,
+                const SmoothingConfig& smoothing, const ResultFolder& folder);
+  ReportedTrack(const ReportedTrack&) = delete;
+  ReportedTrack& operator=(const ReportedTrack&) = delete;
+
+  // Before feet are held in place.
+  const TrackedFrames& moving() const {
+    return smoothed_ ? *smoothed_ : named_ ? *named_ : tracked_;
+  }
+  const TrackedFrames& frames() const { return planted_ ? *planted_ : moving(); }
+
+ private:
+  const TrackedFrames& tracked_;
+  std::optional<TrackedFrames> named_, smoothed_, planted_;
+};
+
+}  // namespace jobs
+}  // namespace walktrack

@@ -1,0 +1,36 @@
+// What a frame's images say of a pose by themselves, as a normal distribution near the most
+// probable pose (tracker/smooth/refinement.h): the trajectory of a whole video is made of it
+// (tracker/smooth/trajectory.h).
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "tracker/state/free_numbers.h"
+
+namespace walktrack {
+inline namespace tracker {
+
+struct ImageInformation {
+  Pose walker;  // the particles' mean: what the walker says
+  // The most probable pose of the frame: there the slope of the images' log-likelihood is that
+  // which the walker's word takes away, (pose - walker) / spread^2 for every free number.
+  Pose pose;
+  // Minus the second derivatives of that log-likelihood, without its convex part, over all of
+  // kPoseNumbers, zero for those that are not free: the lower triangle, row by row. Empty: the
+  // frame's images were not asked.
+  std::vector<double> information;
+};
+
+// `information`: by free number and free number.
+std::vector<double> packed(const FreeNumbers& free, const Eigen::MatrixXd& information);
+// Its inverse.
+Eigen::MatrixXd unpacked(const FreeNumbers& free, const ImageInformation& images);
+
+// The same of the pose with its legs swapped (tracker/moves/mirror_legs.h); the poses are mirrored
+// already.
+void mirror_information(ImageInformation& images);
+
+}  // namespace tracker
+}  // namespace walktrack

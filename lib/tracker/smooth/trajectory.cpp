@@ -1,0 +1,289 @@
+#include "tracker/smooth/trajectory.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/SparseCholesky>
+
+#include "body/kinematics.h"
+#include "core/conventions.h"
+#include "tracker/state/free_numbers.h"
+
+namespace walktrack {
+inline namespace tracker {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+// Constants of the header's sum. By hand, chosen on the old man, the turn, three patients
+// (tracker/reports/reported_pose.md); halved and doubled, errors of those change by less than 2 %.
+constexpr double kWalkerRate = 1.5;          // w / dt, 1/s
+constexpr double kImageTime = 1.0 / 30;      // s, for which images err alike
+constexpr double kAccelerationTime = 0.025;  // tau, s
+constexpr double kSlide = 0.004;             // c, m
+constexpr double kSole = 0.03;               // b, m, once every
+constexpr double kSoleTime = 0.1;            // s
+constexpr int kNewtonSteps = 3;
+constexpr double kDifference = 1e-5;  // of central differences
+constexpr double kFixed = 1e12;       // information of a pose that is not to change
+constexpr double kFaint = 1e-6;       // of everything, so that nothing is unknown
+
+// Ankle and toe of the left foot, then of the right one.
+using FeetPoints = Eigen::Matrix<double, 12, 1>;
+constexpr Index kFootSize = 6, kPointSize = 3;
+
+FeetPoints feet_points(const Body& body, const Pose& pose) {
+  const JointPositions joints = forward_kinematics(body, pose).joints;
+  FeetPoints out;
+  out << joints[Joint::kLeftAnkle], joints[Joint::kLeftToe], joints[Joint::kRightAnkle],
+      joints[Joint::kRightToe];
+  return out;
+}
+
+Index first_row(Side side) { return side == Side::kLeft ? 0 : kFootSize; }
+
+// One term of the sum: 1/2 weight (residual + slope . step)^2.
+struct Term {
+  double residual, weight;
+  std::vector<std::pair<Index, double>> slope;
+};
+
+class NormalEquations {
+ public:
+  explicit NormalEquations(Index size) : right_(VectorXd::Zero(size)) {
+    for (Index i = 0; i < size; ++i) add(i, i, kFaint);
+  }
+
+  // Only one of (row, column) and (column, row).
+  void add(Index row, Index column, double value) {
+    terms_.emplace_back(static_cast<int>(std::max(row, column)),
+                        static_cast<int>(std::min(row, column)), value);
+  }
+  void pull(Index at, double by) { right_[at] += by; }
+  void add(const Term& term) {
+    for (size_t a = 0; a < term.slope.size(); ++a) {
+      const auto& [row, x] = term.slope[a];
+      right_[row] -= term.weight * x * term.residual;
+      for (size_t b = 0; b <= a; ++b)
+        add(row, term.slope[b].first, term.weight * x * term.slope[b].second);
+    }
+  }
+
+  VectorXd step() const {
+    Eigen::SparseMatrix<double> matrix(right_.size(), right_.size());
+    matrix.setFromTriplets(terms_.begin(), terms_.end());
+    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>(matrix).solve(right_);
+  }
+
+ private:
+  std::vector<Eigen::Triplet<double>> terms_;
+  VectorXd right_;
+};
+
+class Trajectory {
+ public:
+  Trajectory(const BodyModel& model, double dt, std::span<const FrameRecord> records,
+             std::span<const FlatFoot> flat, size_t fixed)
+      : body_(model.body),
+        free_(free_numbers(model)),
+        dt_(dt),
+        records_(records),
+        flat_(flat),
+        fixed_(fixed),
+        spreads_(spreads_of(free_)) {
+    for (const FrameRecord& record : records) poses_.push_back(record.estimate.pose);
+    for (const FlatFoot& each : flat) places_.push_back(mean_place(each));
+  }
+
+  void improve() {
+    NormalEquations sum(place_of(flat_.size()));
+    for (size_t t = 0; t < poses_.size(); ++t) {
+      if (t < fixed_) fix(t, sum);
+      add_images(t, sum);
+      add_walker(t, sum);
+      if (t > 0 && t + 1 < poses_.size()) add_acceleration(t, sum);
+      add_sunken_toes(t, sum);
+    }
+    for (size_t k = 0; k < flat_.size(); ++k) add_flat(k, sum);
+    const VectorXd step = sum.step();
+    for (size_t t = 0; t < poses_.size(); ++t)
+      poses_[t] = with_values(free_, poses_[t],
+                              values_of(free_, poses_[t]) + step.segment(at(t), numbers()));
+    for (size_t k = 0; k < places_.size(); ++k) places_[k] += step.segment<2>(place_of(k));
+  }
+
+  std::vector<Pose> poses() && { return std::move(poses_); }
+
+ private:
+  Index numbers() const { return static_cast<Index>(free_.size()); }
+  Index at(size_t frame) const { return static_cast<Index>(frame) * numbers(); }
+  Index place_of(size_t stretch) const {
+    return at(poses_.size()) + 2 * static_cast<Index>(stretch);
+  }
+
+  Vector2d mean_place(const FlatFoot& flat) const {
+    Vector2d sum = Vector2d::Zero();
+    for (size_t t = flat.first; t <= flat.last; ++t) {
+      const FeetPoints points = feet_points(body_, poses_[t]);
+      const Index row = first_row(flat.side);
+      sum += 0.5 * (points.segment<2>(row) + points.segment<2>(row + kPointSize));
+    }
+    return sum / static_cast<double>(flat.last - flat.first + 1);
+  }
+
+  void fix(size_t t, NormalEquations& sum) const {
+    for (Index k = 0; k < numbers(); ++k) sum.add(at(t) + k, at(t) + k, kFixed);
+  }
+
+  // A frame whose images were not asked counts as known to what people stray from walkers by.
+  void add_images(size_t t, NormalEquations& sum) const {
+    const ImageInformation& images = records_[t].images;
+    const bool asked = !images.information.empty();
+    const Pose& best = asked ? images.pose : records_[t].estimate.pose;
+    const VectorXd off = difference(free_, best, poses_[t]);
+    const VectorXd precision = spreads_.cwiseInverse().cwiseAbs2();
+    const MatrixXd information = asked ? unpacked(free_, images) : MatrixXd(precision.asDiagonal());
+    VectorXd pull = -information * off;
+    if (asked) pull += precision.cwiseProduct(difference(free_, images.walker, best));
+    const double weight = std::min(1.0, dt_ / kImageTime);
+    for (Index i = 0; i < numbers(); ++i) {
+      sum.pull(at(t) + i, weight * pull[i]);
+      for (Index j = 0; j <= i; ++j) sum.add(at(t) + i, at(t) + j, weight * information(i, j));
+    }
+  }
+
+  void add_walker(size_t t, NormalEquations& sum) const {
+    const ImageInformation& images = records_[t].images;
+    if (images.information.empty()) return;
+    const VectorXd off = difference(free_, images.walker, poses_[t]);
+    for (Index k = 0; k < numbers(); ++k)
+      sum.add(Term{off[k], kWalkerRate * dt_ / (spreads_[k] * spreads_[k]), {{at(t) + k, 1.0}}});
+  }
+
+  void add_acceleration(size_t t, NormalEquations& sum) const {
+    const VectorXd before = difference(free_, poses_[t - 1], poses_[t]);
+    const VectorXd after = difference(free_, poses_[t], poses_[t + 1]);
+    for (Index k = 0; k < numbers(); ++k) {
+      const double rms = kPoseNumbers[free_[static_cast<size_t>(k)]].acceleration;
+      const double variance = 4.0 / 3 * rms * rms * kAccelerationTime * dt_ * dt_ * dt_;
+      sum.add(Term{after[k] - before[k],
+                   1 / variance,
+                   {{at(t - 1) + k, 1.0}, {at(t) + k, -2.0}, {at(t + 1) + k, 1.0}}});
+    }
+  }
+
+  // By row of FeetPoints and free number.
+  MatrixXd feet_slopes(size_t t) const {
+    const VectorXd values = values_of(free_, poses_[t]);
+    MatrixXd out(FeetPoints::RowsAtCompileTime, numbers());
+    for (Index k = 0; k < numbers(); ++k) {
+      const VectorXd aside = kDifference * VectorXd::Unit(numbers(), k);
+      out.col(k) = (feet_points(body_, with_values(free_, poses_[t], values + aside)) -
+                    feet_points(body_, with_values(free_, poses_[t], values - aside))) /
+                   (2 * kDifference);
+    }
+    return out;
+  }
+
+  std::vector<std::pair<Index, double>> of_frame(size_t t, const Eigen::RowVectorXd& slopes) const {
+    std::vector<std::pair<Index, double>> out;
+    for (Index k = 0; k < numbers(); ++k) out.emplace_back(at(t) + k, slopes[k]);
+    return out;
+  }
+
+  void add_sunken_toes(size_t t, NormalEquations& sum) const {
+    const FeetPoints points = feet_points(body_, poses_[t]);
+    MatrixXd slopes;
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const Index height = first_row(side) + kPointSize + 2;
+      if (points[height] >= 0) continue;
+      if (slopes.size() == 0) slopes = feet_slopes(t);
+      sum.add(Term{points[height], 1 / (kSlide * kSlide), of_frame(t, slopes.row(height))});
+    }
+  }
+
+  void add_flat(size_t stretch, NormalEquations& sum) const {
+    const Index row = first_row(flat_[stretch].side);
+    const double height_weight = dt_ / kSoleTime / (kSole * kSole);
+    for (size_t t = flat_[stretch].first; t <= flat_[stretch].last; ++t) {
+      const FeetPoints points = feet_points(body_, poses_[t]);
+      const MatrixXd slopes = feet_slopes(t);
+      for (Index axis = 0; axis < 2; ++axis) {
+        const Index ankle = row + axis, toe = ankle + kPointSize;
+        Term stays{0.5 * (points[ankle] + points[toe]) - places_[stretch][axis],
+                   1 / (kSlide * kSlide), of_frame(t, 0.5 * (slopes.row(ankle) + slopes.row(toe)))};
+        stays.slope.emplace_back(place_of(stretch) + axis, -1.0);
+        sum.add(stays);
+      }
+      const std::array heights{body_.lengths.ankle_height, body_.lengths.ball_height};
+      for (Index point = 0; point < 2; ++point) {
+        const Index height = row + point * kPointSize + 2;
+        sum.add(Term{points[height] - heights[static_cast<size_t>(point)], height_weight,
+                     of_frame(t, slopes.row(height))});
+      }
+    }
+  }
+
+  const Body& body_;
+  FreeNumbers free_;
+  double dt_;
+  std::span<const FrameRecord> records_;
+  std::span<const FlatFoot> flat_;
+  size_t fixed_;
+  VectorXd spreads_;
+  std::vector<Pose> poses_;
+  std::vector<Vector2d> places_;
+};
+
+// What is left of a toe in the ground, a few millimetres, the ankle takes.
+Pose with_lifted_toes(const Body& body, Pose pose) {
+  constexpr int kSteps = 4;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    double& ankle = pose.legs[static_cast<size_t>(side)].ankle_dorsiflexion;
+    const auto height = [&] { return forward_kinematics(body, pose).joints[toe(side)].z(); };
+    for (int i = 0; i < kSteps; ++i) {
+      const double sunk = height();
+      if (sunk >= 0) break;
+      ankle += kDifference;
+      const double slope = (height() - sunk) / kDifference;
+      ankle -= kDifference;
+      if (std::abs(slope) < 0.1 * body.lengths.ball_forward) break;  // the foot points down
+      ankle -= (sunk - 1e-9) / slope;
+    }
+  }
+  return pose;
+}
+
+}  // namespace
+
+std::vector<Pose> most_probable_poses(const BodyModel& model, double dt,
+                                      std::span<const FrameRecord> records,
+                                      std::span<const FlatFoot> flat, size_t fixed) {
+  Trajectory trajectory(model, dt, records, flat, fixed);
+  for (int round = 0; round < kNewtonSteps; ++round) trajectory.improve();
+  std::vector<Pose> poses = std::move(trajectory).poses();
+  for (Pose& pose : poses) pose = with_lifted_toes(model.body, pose);
+  return poses;
+}
+
+void report_pose(const BodyModel& model, const Pose& pose, double velocity, FrameRecord& record) {
+  FrameEstimate& estimate = record.estimate;
+  const FrameEstimate before = estimate;
+  const JointPositions from = forward_kinematics(model.body, before.pose).joints;
+  const JointPositions to = forward_kinematics(model.body, pose).joints;
+  estimate.pose = pose;
+  estimate.speed = velocity;
+  for (size_t j = 0; j < estimate.joint_count; ++j) {
+    estimate.joints.at[j] = to.at[j];
+    for (JointPositions& sample : record.samples) sample.at[j] += to.at[j] - from.at[j];
+  }
+  shift_bands(before, estimate);
+}
+
+}  // namespace tracker
+}  // namespace walktrack

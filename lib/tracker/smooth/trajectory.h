@@ -1,0 +1,52 @@
+// The poses of a whole track, most probable together: what is reported of it.
+//
+// Over poses x_t, and a place p on the ground for each stretch in which a sole lies flat, least is
+//   sum_t     k [ 1/2 d' H_t d - d' (x*_t - m_t) / s^2 ],  d = x_t - x*_t      what images say
+//   (image_information.h)
+//   + 1/2 sum_t    w_t |(x_t - m_t) / s|^2                                     what the walker says
+//   + 1/2 sum_t    |x_(t-1) - 2 x_t + x_(t+1)|^2 / v                           how people
+//   accelerate
+//   + 1/2 sum_flat |(f(x_t) - p) / c|^2 + h_t |(heights(x_t) - flat) / b|^2    a flat sole stays
+//   + 1/2 sum_t    max(0, -toe height)^2 / c^2                                 no toe in the ground
+// k = 1, or less where frames follow each other in less than 1/30 s; m_t the particles' mean, s
+// what people's poses stray from a walker's by, v = 4/3 a^2 tau dt^3 of accelerations of a,
+// correlated for tau; f the middle of the foot over the ground. Gauss and Newton's steps, by one
+// sparse factorisation each: the trajectory of space-time constraints (Witkin & Kass, SIGGRAPH
+// 1988), with images in place of an objective, and as a Kalman smoother the linear part of it
+// (Rauch, Tung & Striebel 1965).
+//
+// Bands move along with what they are about; which foot carries the body is left alone.
+// tracker/reports/reported_pose.md says what it gains, and what else was tried. Metres, radians,
+// world axes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "body/flat_foot.h"
+#include "tracker/walker_filter.h"
+
+namespace walktrack {
+inline namespace tracker {
+
+struct SmoothingConfig {
+  bool enabled = true;  // frames are seen together
+  bool plant = true;    // feet that stand, stay where they stand
+};
+
+// A foot that travels further than this in a stretch does not stand: it was taken for the other
+// one, or follows nothing. Such stretches are to be left out. By hand.
+inline constexpr double kTooFarToStand = 0.4;  // m
+
+// The poses of frames that are all tracked, `dt` s apart. Those of the first `fixed` are taken as
+// they are reported; stretches of flat soles are rows of `records`.
+std::vector<Pose> most_probable_poses(const BodyModel& model, double dt,
+                                      std::span<const FrameRecord> records,
+                                      std::span<const FlatFoot> flat, size_t fixed = 0);
+
+// Makes `pose` what is reported of a frame: joints, angles, samples and bands go along. `velocity`:
+// of the root, m/s.
+void report_pose(const BodyModel& model, const Pose& pose, double velocity, FrameRecord& record);
+
+}  // namespace tracker
+}  // namespace walktrack

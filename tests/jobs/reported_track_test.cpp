@@ -1,0 +1,119 @@
+#include "jobs/track/results/reported_track.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "body/kinematics.h"
+#include "metrics/plausibility.h"
+#include "tests/run_program.h"
+
+namespace walktrack {
+namespace {
+
+// Somebody who marches along x: the legs swing half a stride apart, and the whole figure trembles.
+struct March {
+  BodyModel model;
+  double rate = 30, stride = 1.1, speed = 1.2, tremble = 0.015;
+
+  Pose pose(size_t frame) const {
+    const double t = static_cast<double>(frame) / rate;
+    Pose out;
+    out.root = {speed * t, tremble * std::sin(0.7 * static_cast<double>(frame)),
+                leg_length(model.body.lengths) - 0.03};
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const double phase = 2 * kPi * (t / stride + (side == Side::kLeft ? 0 : 0.5));
+      LegPose& leg = out.legs[static_cast<size_t>(side)];
+      leg.hip_flexion = 0.35 * std::cos(phase);
+      leg.knee_flexion = 0.1 + 0.5 * std::max(0.0, -std::sin(phase));
+      leg.ankle_dorsiflexion = leg.knee_flexion - leg.hip_flexion;  // the sole is level
+    }
+    return out;
+  }
+
+  FrameRecord record(size_t frame) const {
+    const FreeNumbers free = free_numbers(model);
+    FrameRecord out;
+    out.tracked = true;
+    out.estimate.joint_count = kJointCountWithoutArms;
+    out.estimate.pose = pose(frame);
+    out.estimate.joints = forward_kinematics(model.body, out.estimate.pose).joints;
+    const Eigen::VectorXd sd = 0.5 * spreads_of(free);
+    out.images = {out.estimate.pose, out.estimate.pose,
+                  packed(free, sd.cwiseAbs2().cwiseInverse().asDiagonal())};
+    return out;
+  }
+};
+
+March march() {
+  March out;
+  out.model.body = make_body(Subject{}, {.head = true, .arms = false});
+  return out;
+}
+
+TrackedFrames frames_of(const March& march, size_t count, const std::filesystem::path& file,
+                        size_t untracked = 1) {
+  TrackedFrames out{march.rate, FrameFile(file)};
+  for (size_t i = 0; i < count; ++i)
+    out.records.append(i < untracked ? FrameRecord{} : march.record(i));
+  return out;
+}
+
+double worst_slide(const TrackedFrames& frames) {
+  const Motion motion = motion_of(frames);
+  return plausibility(motion, gait_from_motion(motion)).worst_foot_slide;
+}
+
+TEST(ReportedTrack, FeetStandStillAndNothingIsLeftBehind) {
+  const TemporaryFolder folder;
+  const March walk = march();
+  const TrackedFrames frames = frames_of(walk, 120, folder / "frames.bin");
+  const TrackedFrames moving = seen_together(frames, walk.model, {}, folder / "moving.bin");
+  const std::vector<FlatFoot> flat = standing_feet(moving);
+  EXPECT_GE(flat.size(), 5u);
+  const TrackedFrames still = seen_together(frames, walk.model, flat, folder / "still.bin");
+  EXPECT_FALSE(std::filesystem::exists(folder / "moving.bin"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "still.bin"));
+  ASSERT_EQ(still.records.size(), frames.records.size());
+  EXPECT_FALSE(still.records[0].tracked);
+  EXPECT_GT(worst_slide(moving), 0.03);
+  EXPECT_LT(worst_slide(still), 0.3 * worst_slide(moving));
+  EXPECT_NEAR(still.records[60].estimate.speed, walk.speed, 0.1);
+}
+
+// Memory does not grow with the video: a long track is settled in pieces, and it does not show.
+TEST(ReportedTrack, PiecesOfALongTrackAreThoseOfTheWhole) {
+  const TemporaryFolder folder;
+  const March walk = march();
+  constexpr size_t kFrames = 1300;
+  const TrackedFrames frames = frames_of(walk, kFrames, folder / "frames.bin");
+  const TrackedFrames pieces = seen_together(frames, walk.model, {}, folder / "pieces.bin");
+  std::vector<FrameRecord> records;
+  for (const FrameRecord& record : frames.records)
+    if (record.tracked) records.push_back(record);
+  const std::vector<Pose> whole = most_probable_poses(walk.model, 1 / walk.rate, records, {});
+  ASSERT_EQ(pieces.records.size(), kFrames);
+  const FreeNumbers free = free_numbers(walk.model);
+  for (size_t i = 1; i < kFrames; i += 7)
+    EXPECT_LT(difference(free, whole[i - 1], pieces.records[i].estimate.pose).norm(), 1e-4) << i;
+}
+
+TEST(ReportedTrack, WhoStandsHasBothFeetOnTheGround) {
+  const TemporaryFolder folder;
+  March walk = march();
+  TrackedFrames frames{walk.rate, FrameFile(folder / "frames.bin")};
+  for (size_t i = 0; i < 40; ++i) {
+    FrameRecord record = walk.record(0);
+    record.modes.standing = i < 30 ? 0.9 : 0.1;
+    frames.records.append(record);
+  }
+  const std::vector<FlatFoot> flat = standing_feet(frames);
+  ASSERT_EQ(flat.size(), 2u);
+  for (const FlatFoot& each : flat) {
+    EXPECT_EQ(each.first, 0u);
+    EXPECT_EQ(each.last, 29u);
+  }
+}
+
+}  // namespace
+}  // namespace walktrack

@@ -1,0 +1,244 @@
+#include "tracker/smooth/trajectory.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "body/kinematics.h"
+#include "core/rng.h"
+#include "fixture.h"
+#include "tests/tracker/frame_time.h"
+
+namespace walktrack {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+Pose upright(const BodyModel& model) {
+  Pose pose;
+  pose.root = {0, 0, leg_length(model.body.lengths) - 0.02};
+  for (LegPose& leg : pose.legs) leg = {0.1, 0.02, 0, 0.2, 0.1};
+  return pose;
+}
+
+// A frame whose images know the pose to `sd` spreads of every number, about `pose`, and whose
+// walker agrees.
+FrameRecord seen(const BodyModel& model, const Pose& pose, double sd = 0.2) {
+  const FreeNumbers free = free_numbers(model);
+  FrameRecord record;
+  record.tracked = true;
+  record.estimate.joint_count = kJointCountWithoutArms;
+  record.estimate.pose = pose;
+  record.estimate.joints = forward_kinematics(model.body, pose).joints;
+  const VectorXd information = (sd * spreads_of(free)).cwiseAbs2().cwiseInverse();
+  record.images = {pose, pose, packed(free, information.asDiagonal())};
+  return record;
+}
+
+Pose trembling(const BodyModel& model, Pose pose, double by, Rng& rng) {
+  const FreeNumbers free = free_numbers(model);
+  VectorXd off(static_cast<Eigen::Index>(free.size()));
+  for (double& each : off) each = by * rng.normal();
+  return with_values(free, pose, values_of(free, pose) + off.cwiseProduct(spreads_of(free)));
+}
+
+Vector2d foot(const BodyModel& model, const Pose& pose, Side side) {
+  const JointPositions joints = forward_kinematics(model.body, pose).joints;
+  return 0.5 * (joints[ankle(side)] + joints[toe(side)]).head<2>();
+}
+
+double travel(const BodyModel& model, std::span<const Pose> poses, const FlatFoot& flat) {
+  Eigen::AlignedBox2d box;
+  for (size_t t = flat.first; t <= flat.last; ++t) box.extend(foot(model, poses[t], flat.side));
+  return box.diagonal().norm();
+}
+
+// Law: what goes on evenly, and is seen where it is, stays where it is.
+TEST(MostProbablePoses, WhatGoesOnEvenlyStays) {
+  const BodyModel model = test_model();
+  std::vector<FrameRecord> records;
+  Pose pose = upright(model);
+  for (int t = 0; t < 20; ++t) {
+    records.push_back(seen(model, pose));
+    pose.root.x() += 0.04;
+    pose.heading += 0.3;  // more than once around
+    pose.legs[0].hip_flexion += 0.01;
+  }
+  const std::vector<Pose> poses = most_probable_poses(model, kDt, records, {});
+  const FreeNumbers free = free_numbers(model);
+  ASSERT_EQ(poses.size(), records.size());
+  for (size_t t = 0; t < poses.size(); ++t)
+    EXPECT_LT(difference(free, records[t].estimate.pose, poses[t]).norm(), 1e-6) << t;
+}
+
+// The header's sum, term by term, of poses and the best places for them.
+double header_sum(const BodyModel& model, double dt, std::span<const FrameRecord> records,
+                  std::span<const FlatFoot> flat, std::span<const Pose> poses) {
+  const FreeNumbers free = free_numbers(model);
+  const VectorXd s = spreads_of(free);
+  double sum = 0;
+  for (size_t t = 0; t < poses.size(); ++t) {
+    const ImageInformation& images = records[t].images;
+    const VectorXd d = difference(free, images.pose, poses[t]);
+    const VectorXd pull = difference(free, images.walker, images.pose).cwiseQuotient(s.cwiseAbs2());
+    const VectorXd off = difference(free, images.walker, poses[t]).cwiseQuotient(s);
+    sum +=
+        0.5 * d.dot(unpacked(free, images) * d) - d.dot(pull) + 0.5 * 1.5 * dt * off.squaredNorm();
+    if (t > 0 && t + 1 < poses.size()) {
+      const VectorXd second =
+          difference(free, poses[t], poses[t + 1]) - difference(free, poses[t - 1], poses[t]);
+      for (Eigen::Index k = 0; k < second.size(); ++k) {
+        const double a = kPoseNumbers[free[static_cast<size_t>(k)]].acceleration;
+        sum += 0.5 * std::pow(second[k], 2) / (4. / 3 * a * a * 0.025 * std::pow(dt, 3));
+      }
+    }
+    const JointPositions joints = forward_kinematics(model.body, poses[t]).joints;
+    for (const Side side : {Side::kLeft, Side::kRight})
+      sum += 0.5 * std::pow(std::min(0.0, joints[toe(side)].z()) / 0.004, 2);
+  }
+  for (const FlatFoot& each : flat) {
+    Vector2d place = Vector2d::Zero();
+    const double count = static_cast<double>(each.last - each.first + 1);
+    for (size_t t = each.first; t <= each.last; ++t)
+      place += foot(model, poses[t], each.side) / count;
+    for (size_t t = each.first; t <= each.last; ++t) {
+      const JointPositions joints = forward_kinematics(model.body, poses[t]).joints;
+      const double heel = joints[ankle(each.side)].z() - model.body.lengths.ankle_height;
+      const double ball = joints[toe(each.side)].z() - model.body.lengths.ball_height;
+      sum += 0.5 * (foot(model, poses[t], each.side) - place).squaredNorm() / (0.004 * 0.004);
+      sum += 0.5 * dt / 0.1 * (heel * heel + ball * ball) / (0.03 * 0.03);
+    }
+  }
+  return sum;
+}
+
+// By an independent route: nowhere near it is the header's sum less, whichever number of whichever
+// frame changes.
+TEST(MostProbablePoses, AreTheLeastOfTheHeadersSum) {
+  const BodyModel model = test_model();
+  Rng rng(3, Purpose::kTest);
+  std::vector<FrameRecord> records;
+  Pose middle = upright(model);
+  middle.root.z() += 0.05;  // toes above the ground, which the ankles see to afterwards
+  for (int t = 0; t < 8; ++t) {
+    const Pose walker = trembling(model, middle, 0.5, rng);
+    records.push_back(seen(model, trembling(model, walker, 0.5, rng)));
+    records.back().images.walker = walker;
+  }
+  const std::array flat{FlatFoot{Side::kLeft, 2, 6}};
+  std::vector<Pose> poses = most_probable_poses(model, kDt, records, flat);
+  const double least = header_sum(model, kDt, records, flat, poses);
+  const FreeNumbers free = free_numbers(model);
+  const VectorXd spreads = spreads_of(free);
+  for (size_t t = 0; t < poses.size(); ++t) {
+    const Pose here = poses[t];
+    for (Eigen::Index k = 0; k < spreads.size(); ++k) {
+      for (const double by : {-0.01, 0.01}) {
+        VectorXd values = values_of(free, here);
+        values[k] += by * spreads[k];
+        poses[t] = with_values(free, here, values);
+        EXPECT_GT(header_sum(model, kDt, records, flat, poses), least - 1e-6)
+            << t << ' ' << kPoseNumbers[free[static_cast<size_t>(k)]].name << ' ' << by;
+      }
+    }
+    poses[t] = here;
+  }
+}
+
+TEST(MostProbablePoses, AFlatSoleStaysAndNoToeIsInTheGround) {
+  const BodyModel model = test_model();
+  Rng rng(4, Purpose::kTest);
+  std::vector<FrameRecord> records;
+  std::vector<Pose> before;
+  for (int t = 0; t < 30; ++t) {
+    before.push_back(trembling(model, upright(model), 1, rng));
+    before.back().root.z() -= 0.03;
+    records.push_back(seen(model, before.back(), 1));
+  }
+  const FlatFoot flat{Side::kRight, 5, 25};
+  const std::vector<Pose> poses = most_probable_poses(model, kDt, records, {&flat, 1});
+  EXPECT_GT(travel(model, before, flat), 0.05);
+  EXPECT_LT(travel(model, poses, flat), 0.08 * travel(model, before, flat));
+  const auto deepest = [&](std::span<const Pose> of) {
+    double depth = 0;
+    for (const Pose& pose : of) {
+      const JointPositions joints = forward_kinematics(model.body, pose).joints;
+      depth = std::min({depth, joints[Joint::kLeftToe].z(), joints[Joint::kRightToe].z()});
+    }
+    return depth;
+  };
+  EXPECT_LT(deepest(before), -0.02);
+  EXPECT_GT(deepest(poses), -1e-6);
+}
+
+// Frames that show nothing follow the walker and those around them; what is seen pulls.
+TEST(MostProbablePoses, WhoIsHiddenFollowsWalkerAndNeighbours) {
+  const BodyModel model = test_model();
+  std::vector<FrameRecord> records;
+  Pose pose = upright(model);
+  for (int t = 0; t < 21; ++t) {
+    records.push_back(seen(model, pose));
+    pose.root.x() += 0.04;
+  }
+  ImageInformation& hidden = records[10].images;
+  std::fill(hidden.information.begin(), hidden.information.end(), 0.0);
+  hidden.pose.root.y() += 0.02;  // where particles without images have gone
+  hidden.walker = hidden.pose;
+  const std::vector<Pose> poses = most_probable_poses(model, kDt, records, {});
+  EXPECT_NEAR(poses[10].root.x(), 0.4, 1e-3);
+  EXPECT_LT(std::abs(poses[10].root.y()), 0.005);
+}
+
+TEST(MostProbablePoses, FixedOnesStayAndTheRestGoesOnFromThem) {
+  const BodyModel model = test_model();
+  Rng rng(5, Purpose::kTest);
+  std::vector<FrameRecord> records;
+  for (int t = 0; t < 40; ++t)
+    records.push_back(seen(model, trembling(model, upright(model), 1, rng), 1));
+  const FlatFoot flat{Side::kLeft, 8, 35};
+  const std::vector<Pose> whole = most_probable_poses(model, kDt, records, {&flat, 1});
+  for (size_t t = 0; t < 20; ++t) records[t].estimate.pose = whole[t];
+  const std::vector<Pose> rest = most_probable_poses(model, kDt, records, {&flat, 1}, 20);
+  const FreeNumbers free = free_numbers(model);
+  for (size_t t = 0; t < 40; ++t) {
+    const double off = difference(free, whole[t], rest[t]).norm();
+    EXPECT_LT(off, t < 20 ? 1e-6 : 2e-3) << t;
+  }
+}
+
+TEST(MostProbablePoses, OneFrameOrTwoAreTheirOwn) {
+  const BodyModel model = test_model();
+  const std::vector<FrameRecord> records(2, seen(model, upright(model)));
+  EXPECT_TRUE(most_probable_poses(model, kDt, {}, {}).empty());
+  for (const size_t count : {size_t{1}, size_t{2}}) {
+    const auto poses = most_probable_poses(model, kDt, std::span(records).first(count), {});
+    ASSERT_EQ(poses.size(), count);
+    EXPECT_LT(difference(free_numbers(model), upright(model), poses[0]).norm(), 1e-6);
+  }
+}
+
+TEST(ReportPose, TakesJointsSamplesAndBandsAlong) {
+  const BodyModel model = test_model();
+  FrameRecord record = seen(model, upright(model));
+  record.samples.assign(2, record.estimate.joints);
+  for (size_t j = 0; j < kJointCountWithoutArms; ++j)
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double x = record.estimate.joints.at[j][static_cast<Eigen::Index>(axis)];
+      record.estimate.spread[j][axis] = {x, 0.01, x - 0.02, x + 0.01};
+    }
+  Pose pose = upright(model);
+  pose.root.x() += 0.1;
+  report_pose(model, pose, 1.5, record);
+  const JointPositions joints = forward_kinematics(model.body, pose).joints;
+  EXPECT_EQ(record.estimate.speed, 1.5);
+  for (size_t j = 0; j < kJointCountWithoutArms; ++j) {
+    EXPECT_LT((record.estimate.joints.at[j] - joints.at[j]).norm(), 1e-12);
+    EXPECT_LT((record.samples[1].at[j] - joints.at[j]).norm(), 1e-12);
+    EXPECT_NEAR(record.estimate.spread[j][0].p05, joints.at[j].x() - 0.02, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace walktrack
