@@ -13,16 +13,17 @@ namespace po = boost::program_options;
 int run_analyse(const Arguments& arguments) {
   std::string motion;
   double height = 0, mass = 0;
-  CommandLine line({.name = "analyse",
-                    .operands = "MOTION",
-                    .about = "Gait events and parameters, joint angles, ground reactions and joint "
-                             "moments of a motion\n(joints.csv, or a folder that holds one; z up, "
-                             "ground at z = 0), in the folder --output.\n'track' writes the same "
-                             "tables and page, with bands.",
-                    .example = "walktrack analyse data/demo/truth.csv -o out/analysis"});
+  CommandLine line(
+      {.name = "analyse",
+       .operands = "MOTION",
+       .about = "Computes gait events and parameters, joint angles, ground reactions and joint "
+                "moments of a motion\n(joints.csv, or a folder that holds one; z up, ground at z = "
+                "0) and writes them into the folder\n--output. 'track' writes the same tables and "
+                "the same report, with bands.",
+       .example = "walktrack analyse data/demo/truth.csv -o out/analysis"});
   auto add = line.options().add_options();
   add("height", po::value(&height)->value_name("M"),
-      "stature of the subject; default: from the lengths of thighs and shanks");
+      "stature of the subject; default: estimated from the lengths of thighs and shanks");
   add("mass", po::value(&mass)->value_name("KG"), "mass of the subject; default: 70");
   line.operand("MOTION", &motion);
   if (!line.parse(arguments)) return kDone;

@@ -69,10 +69,10 @@ std::string last_words(const BatchJob& job, const BatchOutcome& outcome) {
   std::string text = fmt::format("{} complete, {} degraded, {} failed, {} left", outcome.complete,
                                  outcome.degraded, outcome.failed, outcome.waiting);
   if (outcome.elsewhere > 0)
-    text += fmt::format(" (other workers are at {} of them)", outcome.elsewhere);
-  if (outcome.stolen > 0) text += fmt::format(", {} of other shares done", outcome.stolen);
+    text += fmt::format(" (other workers are tracking {} of them)", outcome.elsewhere);
+  if (outcome.stolen > 0) text += fmt::format(", {} taken from other shares", outcome.stolen);
   text += reports_at_end(job) ? fmt::format("; see {}", (job.output / "batch.html").string())
-                              : "; --report makes the summary of all shares";
+                              : "; --report writes the summary of all shares";
   if (const auto cost = cost_of(outcome))
     text += fmt::format("\n{:.1f} CPU seconds per second of video ({:.0f} s for {:.0f} s)", *cost,
                         outcome.cpu_seconds, outcome.video_seconds);
@@ -120,7 +120,9 @@ void check_places(const BatchJob& job, const CommandLine& line) {
   if (job.bids && job.scene_template.empty())
     throw UsageError("--bids needs --scene: the scene of the camera that took the videos");
   if (job.steal && job.retry_failed)
-    throw UsageError("--steal and --retry-failed exclude each other: what failed is its worker's");
+    throw UsageError(
+        "--steal and --retry-failed exclude each other: only the worker of a share tries its "
+        "failed sequences again");
   if (job.jobs < 1) throw UsageError("--jobs: found less than 1, allowed: from 1");
 }
 
@@ -135,36 +137,37 @@ struct BatchArguments {
 void add_options(CommandLine& line, BatchArguments& given) {
   auto add = line.options().add_options();
   add("scene", po::value(&given.scene_template)->value_name("FILE"),
-      "take every video below FOLDER in the place of this scene\'s video");
+      "track every video below FOLDER as if it were the video of this scene");
   add("manifest", po::value(&given.job.manifest)->value_name("FILE"),
-      "in the place of FOLDER, a list of scenes (with --scene, of videos): a path a line, after a "
-      "tab perhaps the name of its result; - is standard input");
+      "a list of scenes instead of FOLDER (with --scene, of videos): one path a line, and after a "
+      "tab the name of its result, if you like; - is standard input");
   add("bids", po::bool_switch(&given.job.bids),
-      "FOLDER is laid out as BIDS: track its sub-<label>/..._video files with --scene, by default "
-      "into FOLDER/derivatives/walktrack, and write Motion-BIDS tables there");
+      "FOLDER is a BIDS data set: track its sub-<label>/..._video files with --scene and write "
+      "Motion-BIDS tables; the default output is FOLDER/derivatives/walktrack");
   add("jobs,j", po::value(&given.job.jobs)->default_value(1)->value_name("N"),
-      "number of sequences at a time");
+      "number of sequences that are tracked at the same time");
   add("shard", po::value(&given.shard)->value_name("i/n"),
-      "do every n-th sequence, from the i-th; auto: as Slurm or AWS Batch number this worker, "
-      "auto/n: as a Kubernetes Indexed Job of n does");
+      "track every n-th sequence, beginning with the i-th; auto: the numbers that Slurm or AWS "
+      "Batch gives this worker; auto/n: the number that a Kubernetes Indexed Job of n gives it");
   add("steal", po::bool_switch(&given.job.steal),
-      "after its own share, do what no worker has begun of the others");
+      "after the own share, track sequences of other shares that no worker has begun");
   add("work", po::value(&given.work)->value_name("DIR"),
-      "track below this folder, on a disk of this machine; a result is moved to the output when it "
-      "is whole");
-  add("time-limit", po::value(&given.job.limits.seconds)->value_name("S"), "time of one sequence");
+      "track below this folder, on a disk of this machine; a result is moved to the output folder "
+      "when it is complete");
+  add("time-limit", po::value(&given.job.limits.seconds)->value_name("S"),
+      "longest time of one sequence");
   add("memory-limit", po::value(&given.job.limits.memory_mb)->value_name("MB"),
-      "memory of one sequence");
+      "largest memory of one sequence");
   add("resume", po::bool_switch(&given.resume),
-      "skip complete sequences and continue from checkpoints; the default, so it only forbids "
-      "--yes");
+      "skip complete sequences and continue from checkpoints; this is the default, so that the "
+      "option only excludes --yes");
   add("list", po::bool_switch(&given.list_only), "print the sequences and their state, do nothing");
   add("retry-failed", po::bool_switch(&given.job.retry_failed),
-      "do only the sequences that failed before");
+      "track only the sequences that failed before");
   add("dry-run", po::bool_switch(&given.dry_run),
-      "print the sequences that would be done, do nothing");
+      "print the sequences that would be tracked, do nothing");
   add("ignore-checks", po::bool_switch(&given.ignore_checks),
-      "track scenes though their checks fail (see walktrack check); their reports say so");
+      "track scenes even if their checks fail (see walktrack check); their reports say so");
   add("report", po::bool_switch(&given.report_only),
       "write only the summary of the existing results");
   add("json-line", po::bool_switch(&given.json_line),
@@ -176,15 +179,15 @@ void add_options(CommandLine& line, BatchArguments& given) {
 
 int run_batch(const Arguments& arguments) {
   BatchArguments given;
-  CommandLine line({.name = "batch",
-                    .operands = "[FOLDER]",
-                    .about =
-                        "Tracks every scene below FOLDER, or in the list --manifest, each in a "
-                        "process of\nits own; goes on after failures.\nRun again, it does what is "
-                        "not complete, from where it was killed (--resume,\nthe default); with -y "
-                        "also sequences of other settings or inputs. Several machines\nmay share "
-                        "one output folder.",
-                    .example = "walktrack batch data -o out/batch --jobs 2"});
+  CommandLine line(
+      {.name = "batch",
+       .operands = "[FOLDER]",
+       .about = "Tracks every scene below FOLDER, or in the list --manifest, each in a process "
+                "of\nits own, and continues after failures.\nIf it is run again, it tracks the "
+                "sequences that are not complete, from their last\ncheckpoints (--resume, the "
+                "default); with -y also those that were made with other\nsettings or inputs. "
+                "Several machines may share one output folder.",
+       .example = "walktrack batch data -o out/batch --jobs 2"});
   add_options(line, given);
   if (!line.parse(arguments)) return kDone;
   BatchJob& job = given.job;
@@ -194,7 +197,8 @@ int run_batch(const Arguments& arguments) {
   check_places(job, line);
   if (given.resume && line.common().overwrite) {
     throw UsageError(
-        "--resume and --yes exclude each other: what has changed is left as it is or done again");
+        "--resume and --yes exclude each other: results made with other settings or inputs are "
+        "either left as they are or tracked again");
   }
   const Shard share = shard_from(given.shard, process_environment());
   job.shard = share.index;
@@ -213,10 +217,10 @@ int run_batch(const Arguments& arguments) {
   const BatchOutcome outcome = run_batch(job, control);
   control.say(last_words(job, outcome));
   if (outcome.changed > 0 && !outcome.interrupted) {
-    throw UsageError(fmt::format(
-        "{} sequences are left as they are, for they are of other settings or inputs; -y does them "
-        "again{}",
-        outcome.changed, outcome.changes));
+    throw UsageError(
+        fmt::format("{} sequences are left as they are, because they were made with other settings "
+                    "or inputs; -y tracks them again{}",
+                    outcome.changed, outcome.changes));
   }
   const int code = exit_code(outcome);
   if (given.json_line) fmt::print("{}", result_line(job, outcome, code));

@@ -22,8 +22,8 @@ namespace po = boost::program_options;
 constexpr const char* kAbout =
     "Finds a camera's lens from views of a board (--views), and its place from a board on the "
     "floor\n(--floor) or from points measured on it (--points: u,v,x,y,z; pixels, metres, z up). "
-    "Writes the\ncalibration for scenes and for Pose2Sim, the residuals and pictures to judge it "
-    "by. Or takes over\n(--import) what another tool has calibrated.";
+    "Writes the\ncalibration for scenes and for Pose2Sim, the residuals, and pictures that show "
+    "how good it is.\nWith --import it converts the calibration of another tool.";
 
 // "9x6": two whole numbers within these limits.
 std::optional<std::array<int, 2>> two_whole_numbers(std::string_view text, int least, int most) {
@@ -50,7 +50,7 @@ struct BoardOptions {
     add("size", po::value(&size)->value_name("CxR"),
         "number of inner corners or circles, e.g. 9x6");
     add("spacing", po::value(&spacing)->value_name("M"),
-        "between neighbours (rows of asymmetric circles), m, e.g. 0.025");
+        "distance between neighbouring points (rows of asymmetric circles), m, e.g. 0.025");
   }
 
   std::optional<Board> board() const {
@@ -88,9 +88,9 @@ struct ImportOptions {
   void declare(CommandLine& line) {
     auto add = line.options().add_options();
     add("import", po::value(&file)->value_name("FILE"),
-        "take over all cameras of a calibration (or that of --name): OpenCap .pickle, Qualisys "
-        ".qca.txt, Vicon .xcp, EasyMocap intri.yml, HumanEva .cal, Pose2Sim or Anipose .toml, Tsai "
-        ".xml, OpenCV .yaml");
+        "convert all cameras of a calibration (or only the one that --name names): OpenCap "
+        ".pickle, Qualisys .qca.txt, Vicon .xcp, EasyMocap intri.yml, HumanEva .cal, Pose2Sim or "
+        "Anipose .toml, Tsai .xml, OpenCV .yaml");
     add("image-size", po::value(&size)->value_name("WxH"),
         "size of the images, px, for an imported file that does not state it");
   }
@@ -107,11 +107,11 @@ struct ImportOptions {
   // Done or not: whether the line asks for it.
   bool run(const CommandLine& line, const std::string& name, const Arguments& arguments) const {
     if (file.empty()) {
-      line.refuse({"image-size"}, "it with --import");
+      line.refuse({"image-size"}, "this option with --import");
       return false;
     }
     line.refuse({"views", "camera", "model", "floor", "points", "board", "size", "spacing"},
-                "it without --import");
+                "this option without --import");
     ImportJob job{.file = file,
                   .name = line.given("name") ? name : "",
                   .size = image_size(),
@@ -140,11 +140,11 @@ int run_calibrate(const Arguments& arguments) {
       "name of the camera and of its files");
   add("views", po::value(&views)->value_name("PATH"), "video or images of the board");
   add("camera", po::value(&camera)->value_name("FILE"),
-      "take the lens of this calibration instead");
+      "use the lens of this calibration instead of --views");
   add("model", po::value(&model)->default_value("brown")->value_name("LENS"),
       "pinhole, brown, rational or fisheye");
   add("floor", po::value(&floor)->value_name("PATH"),
-      "picture or video of the camera in its place");
+      "picture or video that the camera took at its place");
   add("points", po::value(&points)->value_name("FILE"), "measured points, CSV");
   board.declare(line);
   ImportOptions import;

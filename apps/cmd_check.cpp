@@ -11,14 +11,14 @@ int run_check(const Arguments& arguments) {
   CheckJob job;
   std::string scene;
   bool json = false;
-  CommandLine line({.name = "check",
-                    .operands = "SCENE.yaml",
-                    .about =
-                        "Says where each camera stands and what it sees, and finds mistakes in "
-                        "calibrations and\nvideos with their cure. With -o FOLDER draws ground, "
-                        "axes and a standing figure into a\nframe of each camera. Exits with 3 "
-                        "if something is wrong.",
-                    .example = "walktrack check data/demo/scene.yaml -o out/check"});
+  CommandLine line(
+      {.name = "check",
+       .operands = "SCENE.yaml",
+       .about =
+           "Says where each camera stands and what it sees, and finds mistakes in calibrations "
+           "and\nvideos with their cure. With -o FOLDER it draws ground, axes and a standing "
+           "figure into a\nframe of each camera. The exit code is 3 if something is wrong.",
+       .example = "walktrack check data/demo/scene.yaml -o out/check"});
   line.options().add_options()("json", boost::program_options::bool_switch(&json), "print JSON");
   line.operand("SCENE.yaml", &scene);
   if (!line.parse(arguments)) return kDone;

@@ -17,18 +17,17 @@ int run_compare(const Arguments& arguments) {
   CommandLine line(
       {.name = "compare",
        .operands = "GROUP [GROUP ...]",
-       .about =
-           "Compares results of 'walktrack track', 'analyse' or 'batch': joint angles over the "
-           "gait cycle and\ngait parameters, with differences from the first group, their 95 % "
-           "bands by bootstrap over\nstrides, and the minimal detectable change. A group is a "
-           "result, a folder with results below it, or\nNAME=FOLDER,FOLDER. One group alone: "
-           "its left side against its right side.",
+       .about = "Compares results of 'walktrack track', 'analyse' or 'batch': joint angles over "
+                "the gait cycle and\ngait parameters, with differences from the first group, their "
+                "95 % bands by bootstrap over\nstrides, and the minimal detectable change. A group "
+                "is a result, a folder with results below it, or\nNAME=FOLDER,FOLDER. With one "
+                "group alone its left side is compared with its right side.",
        .example = "walktrack compare out/analysis -o out/sides"});
   auto add = line.options().add_options();
   add("unit", po::value(&unit)->value_name("UNIT"),
-      "what is drawn in the bootstrap: strides (of one person), or trials (each result counts "
-      "once: of several people or days)");
-  add("draws", po::value(&draws)->value_name("N"), "of the bootstrap; default: 2000");
+      "unit of the bootstrap: strides (if all results are of one person), or trials (each result "
+      "counts once: for results of several people or days)");
+  add("draws", po::value(&draws)->value_name("N"), "number of bootstrap samples; default: 2000");
   line.operands("GROUP", &groups);
   if (!line.parse(arguments)) return kDone;
   if (unit != "strides" && unit != "trials")

@@ -11,12 +11,12 @@ int run_config(const Arguments& arguments) {
   CommandLine line({.name = "config",
                     .operands = "",
                     .about = "Prints every parameter with its value, meaning, allowed values and, "
-                             "where it is no default,\nthe place that set it. The output is itself "
-                             "a configuration file.",
+                             "if the value is not the default,\nthe file or option that set it. "
+                             "The output is itself a configuration file.",
                     .example = "walktrack config --set seed=7"});
   line.options().add_options()("changed", boost::program_options::bool_switch(&changed),
-                               "only what differs from the defaults")(
-      "keys", boost::program_options::bool_switch(&keys), "only the names, one a line");
+                               "print only values that differ from the defaults")(
+      "keys", boost::program_options::bool_switch(&keys), "print only the names, one a line");
   if (!line.parse(arguments)) return kDone;
   if (keys) {
     for (const auto& [key, value] : config_values(line.config().values)) fmt::print("{}\n", key);

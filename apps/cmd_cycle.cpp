@@ -31,23 +31,25 @@ int run_cycle(const Arguments& arguments) {
   CycleJob job;
   ModelOptions options;
   std::string follow, model_file;
-  CommandLine line({.name = "cycle",
-                    .operands = "",
-                    .about = "Finds a limit cycle of a walker by Newton's method on its step map, "
-                             "from the model's start,\nand prints fixed point, period, speed, "
-                             "step, cost of transport and Floquet multipliers:\nJSON to --output "
-                             "(else stdout), text for people to stdout (else stderr).",
-                    .example = "walktrack cycle --model anthropomorphic --set "
-                               "controls.toe_off_impulse=0.07"});
+  CommandLine line(
+      {.name = "cycle",
+       .operands = "",
+       .about = "Finds a limit cycle of a walker by Newton's method on its step map, beginning at "
+                "the model's start\nstate, and prints fixed point, period, speed, step, cost of "
+                "transport and Floquet multipliers.\nWith --output JSON goes to that file and text "
+                "to stdout; without it JSON goes to stdout\nand text to stderr.",
+       .example = "walktrack cycle --model anthropomorphic --set "
+                  "controls.toe_off_impulse=0.07"});
   options.declare(line);
-  line.options().add_options()("follow", po::value(&follow)->value_name("KEY=VALUE"),
-                               "KEY=VALUE: follow the cycle while this parameter goes there")(
+  line.options().add_options()(
+      "follow", po::value(&follow)->value_name("KEY=VALUE"),
+      "KEY=VALUE: change this parameter to VALUE step by step and follow the cycle")(
       "settle", po::value(&job.settling_steps)->default_value(0)->value_name("N"),
       "steps to walk before Newton's method starts")(
       "max-time",
       po::value(&job.options.max_time)->default_value(job.options.max_time)->value_name("S"),
-      "longest step, s")("save-model", po::value(&model_file)->value_name("FILE"),
-                         "write the model with the cycle as its start");
+      "longest time of a step, s")("save-model", po::value(&model_file)->value_name("FILE"),
+                                   "write the model with the cycle as its start");
   if (!line.parse(arguments)) return kDone;
   ModelOptions::require("--max-time", job.options.max_time, 1e-6, 1e4);
   line.config_of_run();  // checks --seed and --threads, which a cycle does not depend on

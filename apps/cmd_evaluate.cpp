@@ -19,16 +19,16 @@ int run_evaluate(const Arguments& arguments) {
   CommandLine line(
       {.name = "evaluate",
        .operands = "TRUTH.csv ESTIMATE [ESTIMATE ...]",
-       .about =
-           "Compares estimates (joints.csv, or result folders of 'walktrack track') with a "
-           "truth: joints,\nfoot plants (stance,side,on_frame,off_frame,x_m), ground points "
-           "(t,x,y) or Pose2Sim key\npoints, told apart by the header. Prints a Markdown table.",
+       .about = "Compares estimates (joints.csv, or result folders of 'walktrack track') with a "
+                "truth: joints,\nfoot plants (stance,side,on_frame,off_frame,x_m), ground points "
+                "(t,x,y) or Pose2Sim key\npoints; the header of the file says which of them it "
+                "holds. Prints a Markdown table.",
        .example = "walktrack evaluate data/demo/truth.csv out/demo"});
   auto add = line.options().add_options();
   add("uncertainty", po::value(&uncertainty)->value_name("FILE"),
-      "uncertainty.csv of the estimate; default: the one beside it");
+      "uncertainty.csv of the estimate; default: the file of this name beside the estimate");
   add("frame-rate", po::value(&frame_rate)->value_name("HZ"),
-      "frame rate of a truth that counts frames; default: the estimate's");
+      "frame rate of a truth that states frames instead of times; default: that of the estimate");
   add("json", po::bool_switch(&json), "print JSON");
   add("markdown", po::bool_switch(&markdown), "print a Markdown table (the default)");
   add("plot", po::value(&plot)->value_name("FILE.svg"),

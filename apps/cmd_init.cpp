@@ -54,26 +54,29 @@ struct InitOptions {
 void declare(CommandLine& line, InitOptions& options) {
   auto add = line.options().add_options();
   add("height", po::value(&options.height)->value_name("M"),
-      "of the subject, with shoes as filmed");
-  add("mass", po::value(&options.mass)->value_name("KG"), "of the subject");
+      "height of the subject, with the shoes worn in the video");
+  add("mass", po::value(&options.mass)->value_name("KG"), "mass of the subject");
   add("background", po::value(&options.backgrounds)->composing()->value_name("PATH"),
-      "video or images of the empty scene; default: learned from the video. Of two videos twice");
+      "video or images of the empty scene; default: learned from the video. For two videos this "
+      "option is given twice");
   add("fov-deg", po::value(&options.fovs)->composing()->value_name("DEG"),
-      "field of view along the longer side of the picture; default: of the file's lens or "
-      "telephone, else 64. Of two videos once for both, or twice");
+      "field of view along the longer side of the picture; default: that of the lens or the "
+      "telephone that the file names, otherwise 64. For two videos once for both cameras, or "
+      "twice");
   add("tilt-deg", po::value(&options.tilt)->value_name("DEG"),
-      "how far the camera looks down, measured; default: level, with 3 degrees of doubt");
+      "measured angle by which the camera looks down; default: 0, with a standard deviation of 3 "
+      "degrees");
   add("floor", po::value(&options.floor)->composing()->value_name("U1,V1,U2,V2,M"),
-      "two points on the floor in the picture, px, and how far they are apart, m: sides and "
+      "two points on the floor in the picture, px, and the distance between them, m: sides and "
       "diagonals of a tile, one --floor each");
-  add("frame-rate", po::value(&options.rate)->value_name("HZ"), "of images");
+  add("frame-rate", po::value(&options.rate)->value_name("HZ"), "frame rate of images");
   line.operand("VIDEO", &options.video);
   line.operand("VIDEO", &options.second, true);
 }
 
 double subject_height(const CommandLine& line, double height) {
   const auto tall = within(line, "height", height, 0.5, 2.5);
-  if (!tall) throw UsageError("--height is missing: the subject's, in metres");
+  if (!tall) throw UsageError("--height is missing: the height of the subject in metres");
   return *tall;
 }
 
@@ -97,7 +100,7 @@ std::optional<double> field_of_view(const CommandLine& line, const InitOptions& 
 
 void check_count(const char* option, size_t found, const char* allowed, bool fine) {
   if (!fine)
-    throw UsageError(fmt::format("--{}: found {} of them, allowed: {}", option, found, allowed));
+    throw UsageError(fmt::format("--{}: found {} values, allowed: {}", option, found, allowed));
 }
 
 int ended(const CommandLine& line, Terminal& terminal, const std::string& text,
@@ -124,7 +127,8 @@ int run_one(const CommandLine& line, const InitOptions& options, const Arguments
 }
 
 int run_pair(const CommandLine& line, const InitOptions& options, const Arguments& arguments) {
-  line.refuse({"tilt-deg", "floor"}, "with one video: of two, the walk tells");
+  line.refuse({"tilt-deg", "floor"},
+              "this option with one video; for two videos the walk determines it");
   check_count("fov-deg", options.fovs.size(), "one or two", options.fovs.size() <= 2);
   check_count("background", options.backgrounds.size(), "none or two, one for each video",
               options.backgrounds.empty() || options.backgrounds.size() == 2);
@@ -144,12 +148,12 @@ int run_init(const Arguments& arguments) {
   CommandLine line(
       {.name = "init",
        .operands = "VIDEO [VIDEO]",
-       .about = "Makes a scene that can be tracked of a video and the subject's height, without a "
-                "calibration:\nsomebody walks past one camera that stands still and nearly level, "
-                "seen whole and from the side;\nor two cameras that stand still, telephones, see "
-                "one walk at the same time from two sides.\nWrites scene.yaml, the cameras and a "
-                "picture to check into the folder --output, says with bands\nwhat they may be used "
-                "for, and checks the scene. Exits with 3 if something is wrong.",
+       .about = "Makes a scene that can be tracked from a video and the subject's height, without "
+                "a calibration.\nOne camera has to stand still and nearly level and see the whole "
+                "subject walk past from the side;\nor two cameras (telephones) that stand still "
+                "see one walk at the same time from two sides.\nWrites scene.yaml, the cameras and "
+                "a picture to check into the folder --output, prints how exact\nthe result is "
+                "(with bands), and checks the scene. The exit code is 3 if something is wrong.",
        .example = "walktrack init data/demo/side.mp4 --height 1.75 --background "
                   "data/demo/side_background.mp4 -o out/init"});
   InitOptions options;

@@ -11,10 +11,9 @@ int run_plan(const Arguments& arguments) {
   bool json = false;
   CommandLine line({.name = "plan",
                     .operands = "SCENE.yaml",
-                    .about =
-                        "Says what tracking this scene would model and why, how large a particle's "
-                        "state is, what a\nframe is expected to cost in time and memory, and what "
-                        "the scene may not need. Tracks nothing.",
+                    .about = "Says what tracking this scene would model and why, how large a "
+                             "particle's state is, what a\nframe is expected to cost in time and "
+                             "memory, and what could be left out. It tracks nothing.",
                     .example = "walktrack plan data/demo/scene.yaml"});
   line.options().add_options()("json", boost::program_options::bool_switch(&json), "print JSON");
   line.operand("SCENE.yaml", &file);

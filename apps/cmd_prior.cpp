@@ -58,20 +58,19 @@ int run_prior(const Arguments& arguments) {
   PriorReportJob shown;
   CommandLine line({.name = "prior",
                     .operands = "",
-                    .about =
-                        "Builds the table of optimal cyclic gaits over speed, step length and "
-                        "slope (half an hour of one core;\nrun it again to go on), or with --show "
-                        "writes tables and pictures of one into a folder.\n--model "
-                        "anthropomorphic takes a second.",
+                    .about = "Builds the table of optimal cyclic gaits over speed, step length and "
+                             "slope (half an hour of one\ncore; if it is interrupted, run it again "
+                             "to continue). With --show it writes tables and pictures\nof a table "
+                             "into a folder. --model anthropomorphic takes one second.",
                     .example = "walktrack prior --show -o out/gaits"});
   line.options().add_options()("show", po::bool_switch(&show), "show a table, build nothing")(
       "model", po::value(&model)->default_value(model)->value_name("NAME"),
       "kneed or anthropomorphic")("table", po::value(&table)->value_name("FILE"),
-                                  "the table to show; without it the one of this program")(
+                                  "the table to show; default: the table of this program")(
       "height", po::value(&shown.height)->value_name("M"), "stature of the person shown")(
       "mass", po::value(&shown.mass)->value_name("KG"), "mass of the person shown")(
       "walkers", po::value(&shown.walkers)->value_name("N"),
-      "walkers sampled to see how long they keep walking")(
+      "number of walkers that are simulated to see how long they keep walking")(
       "earlier", po::value(&earlier)->value_name("FILE"),
       "build: keep the valid gaits of this table")("level", po::bool_switch(&level),
                                                    "build: on level ground only")(
@@ -79,9 +78,10 @@ int run_prior(const Arguments& arguments) {
       "build: how often every gait is tried again from its neighbours");
   if (!line.parse(arguments)) return kDone;
   if (show) {
-    line.refuse({"earlier", "level", "sweeps"}, "it without --show, for building a table");
+    line.refuse({"earlier", "level", "sweeps"}, "this option without --show, for building a table");
   } else {
-    line.refuse({"table", "height", "mass", "walkers"}, "it with --show, for showing a table");
+    line.refuse({"table", "height", "mass", "walkers"},
+                "this option with --show, for showing a table");
   }
   if (!(shown.height > 0.3 && shown.height < 3 && shown.mass > 1 && shown.mass < 500))
     throw UsageError(describe({"", 0, "--height, --mass"},
@@ -95,7 +95,7 @@ int run_prior(const Arguments& arguments) {
   job.earlier = earlier;
   const Model walker = model_named(model);
   if (walker == Model::kAnthropomorphic)
-    line.refuse({"earlier", "sweeps"}, "it with --model kneed");
+    line.refuse({"earlier", "sweeps"}, "this option with --model kneed");
   if (walker == Model::kAnthropomorphic) job.grid.slopes = StraightPriorGrid().slopes;
   if (level) job.grid.slopes = {0};
   return show ? report(line, walker, shown) : build(line, walker, job);

@@ -16,13 +16,13 @@ namespace po = boost::program_options;
 
 int run_render(const Arguments& arguments) {
   std::string motion, options;
-  CommandLine line({.name = "render",
-                    .operands = "[MOTION.csv]",
-                    .about = "Renders a motion (joints.csv, or a result folder of 'walktrack "
-                             "track'; without one the 'walk'\nor 'gait' of the options) as "
-                             "calibrated video with its truth: a scene folder that\n'walktrack "
-                             "track' reads.",
-                    .example = "walktrack render data/demo/truth.csv -o out/again"});
+  CommandLine line(
+      {.name = "render",
+       .operands = "[MOTION.csv]",
+       .about = "Renders a motion (joints.csv, or a result folder of 'walktrack track'; without "
+                "MOTION.csv the\n'walk' or 'gait' of the options) as a calibrated video with its "
+                "truth. The result is a scene\nfolder that 'walktrack track' reads.",
+       .example = "walktrack render data/demo/truth.csv -o out/again"});
   line.options().add_options()("options", po::value(&options)->value_name("FILE"),
                                "what to render and how (YAML): cameras, light, clothes, ...");
   line.operand("MOTION.csv", &motion, /*optional=*/true);

@@ -17,19 +17,20 @@ namespace fs = std::filesystem;
 int run_selftest(const Arguments& arguments) {
   bool stress = false;
   std::string trial;
-  CommandLine line({.name = "selftest",
-                    .operands = "",
-                    .about = "Tries extreme walks, pictures, bodies and settings on this very "
-                             "program and prints how each\nends: tracked, degraded (with what is "
-                             "lacking) or reported (refused with a reason).\nAnything else is a "
-                             "failure, exit code 1. Takes less than a minute, "
-                             "with --stress some minutes\nand 8 GB of memory. Works in a "
-                             "temporary folder, made in the folder --output if that is given,\n"
-                             "and removes it.",
-                    .example = "walktrack selftest"});
+  CommandLine line(
+      {.name = "selftest",
+       .operands = "",
+       .about =
+           "Tries extreme walks, pictures, bodies and settings with this program and prints the "
+           "outcome of\neach: tracked, degraded (with the reason) or reported (refused with a "
+           "reason).\nEvery other outcome is a failure, with exit code 1. It takes less than a "
+           "minute, with --stress some\nminutes and 8 GB of memory. It works in a temporary "
+           "folder, inside of the folder --output if that is\ngiven, and removes it at the end.",
+       .example = "walktrack selftest"});
   line.options().add_options()("stress", po::bool_switch(&stress),
                                "add the trials that take minutes")(
-      "trial", po::value(&trial)->value_name("NAME"), "only this one, in the new folder --output");
+      "trial", po::value(&trial)->value_name("NAME"),
+      "run only this trial, in the new folder --output");
   if (!line.parse(arguments)) return kDone;
   if (!trial.empty()) {
     fmt::print("{}\n", trial_line(run_trial(trial, line.required_output())));

@@ -55,15 +55,16 @@ class PriorOptions {
  public:
   void declare(CommandLine& line) {
     namespace po = boost::program_options;
-    line.options().add_options()(
-        "prior", po::bool_switch(&wanted_),
-        "kneed, anthropomorphic (an adult unless --config or --set says otherwise): start and "
-        "controls of every step from the table of gaits")(
-        "speed", po::value(&speed_)->value_name("M/S"), "m/s, with --prior; 1.3 unless given")(
+    line.options().add_options()("prior", po::bool_switch(&wanted_),
+                                 "take the start and the controls of every step from the table of "
+                                 "gaits; for the kneed and the anthropomorphic model, with the "
+                                 "body of an adult unless --config or --set says otherwise")(
+        "speed", po::value(&speed_)->value_name("M/S"),
+        "with --prior: speed of the walk, m/s; default: 1.3")(
         "speed-at", po::value(&changes_)->value_name("T:V"),
-        "T:V, with --prior: from T s on towards V m/s; may be repeated")(
+        "T:V, with --prior: change the speed to V m/s from T s on; may be repeated")(
         "step-length", po::value(&walk_.step_length)->default_value(0)->value_name("M"),
-        "m, with --prior; 0: what people prefer at the speed")(
+        "with --prior: step length, m; 0: the step length that people prefer at this speed")(
         "feedback", po::value(&walk_.feedback)->default_value(1)->value_name("SHARE"),
         "strength of the feedback at support transfer, with --prior; 0: none");
   }
@@ -73,7 +74,7 @@ class PriorOptions {
     const CommonOptions& common = line.common();
     if (!wanted_)
       return line.refuse({"speed", "speed-at", "step-length", "feedback"},
-                         "it together with --prior");
+                         "this option together with --prior");
     if (common.config_file.empty() && common.settings.empty())
       job.model.anthropomorphic = adult_straight_walker(1.75, 70);
     for (const std::string& setting : common.settings) refuse_what_the_table_sets(setting);
@@ -97,7 +98,7 @@ class PriorOptions {
     for (const char* group : {"controls.", "style.", "start."})
       if (setting.starts_with(group))
         throw UsageError(describe({"", 0, "--set"}, fmt::format("'{}'", setting),
-                                  "parameters.* with --prior: the rest comes out of its table"));
+                                  "parameters.* with --prior: everything else is in its table"));
   }
 
   static SpeedChange change_from(const std::string& text) {
@@ -149,27 +150,27 @@ int run_simulate(const Arguments& arguments) {
   CommandLine line(
       {.name = "simulate",
        .operands = "",
-       .about = "Simulates a walker. --config names a model file, --set changes one "
-                "value of the model.\nWrites states.csv, events.csv, model.yaml, "
-                "strip.svg, strip.png, animation.mp4 and run.json.\nExit code 4 when the walker "
-                "fell or its simulation diverged; the files are written all the same.",
+       .about = "Simulates a walker. --config names a model file, --set changes one value of the "
+                "model.\nWrites states.csv, events.csv, model.yaml, strip.svg, strip.png, "
+                "animation.mp4 and run.json.\nThe exit code is 4 if the walker fell or its "
+                "simulation diverged; the files are written in any case.",
        .example =
            "walktrack simulate --model kneed --prior --speed 1.3 --speed-at 5:1.6 -o out/gait"});
   options.declare(line);
   line.options().add_options()(
       "duration", po::value(&job.duration)->default_value(job.duration)->value_name("S"),
-      "s of simulated time")("seconds", po::value(&job.duration)->value_name("S"),
-                             "the same as --duration")(
+      "simulated time, s")("seconds", po::value(&job.duration)->value_name("S"),
+                           "the same as --duration")(
       "steps", po::value(&job.steps)->default_value(0)->value_name("N"),
       "stop after so many steps; 0: no limit")(
       "sample",
       po::value(&job.sample_interval)->default_value(job.sample_interval)->value_name("S"),
-      "s between rows of states.csv, a whole number of --step for the articulated body")(
+      "time between rows of states.csv, s; for the articulated body a multiple of --step")(
       "slow", po::value(&job.slow_motion)->default_value(job.slow_motion)->value_name("N"),
-      "the animation is so many times slower than life")(
-      "no-pictures", po::bool_switch(&no_pictures), "tables only")(
+      "how many times the animation is slower than reality")(
+      "no-pictures", po::bool_switch(&no_pictures), "write tables only")(
       "extremes", po::bool_switch(&extremes),
-      "instead: a table of how each integrator fares at the extremes (minutes)");
+      "write a table of the errors of every integrator in extreme cases instead (takes minutes)");
   prior.declare(line);
   if (!line.parse(arguments)) return kDone;
   if (extremes) {

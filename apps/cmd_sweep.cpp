@@ -29,16 +29,17 @@ void declare(CommandLine& line, SweepOptions& options) {
       "layers, "
       "arms, keypoints (off:on), model, path, config (files or presets), or any key of 'walktrack "
       "config'; default particles=75:150:300,scale=60:120");
-  add("seeds", po::value(&options.seeds)->value_name("N"), "seeds of each setting; default 3");
+  add("seeds", po::value(&options.seeds)->value_name("N"),
+      "number of seeds for each setting; default 3");
   add("repeats", po::value(&options.repeats)->value_name("N"),
-      "times that each run is done, for its time; default 1");
+      "number of times that each run is repeated to measure its time; default 1");
   add("truth", po::value(&options.truth)->value_name("FILE"),
-      "what errors are measured against; default: the scene's truth, else its most accurate "
-      "setting");
+      "truth against which errors are measured; default: the truth of the scene, otherwise a run "
+      "with the most accurate setting");
   add("want-fps", po::value(&options.fps)->value_name("N"),
       "recommend a setting for this many frames/s");
   add("want-error-mm", po::value(&options.error_mm)->value_name("MM"),
-      "recommend a setting for an error of at most this");
+      "recommend a setting for an error of at most this value");
   line.operand("SCENE.yaml", &options.scene);
 }
 
@@ -57,8 +58,9 @@ int run_sweep(const Arguments& arguments) {
        .operands = "SCENE.yaml",
        .about = "Measures what accuracy costs: tracks the scene with every combination of settings "
                 "and several\nseeds, and writes error, lost frames and speed of each as a table "
-                "and a picture, with the settings\nthat nothing beats and words on which to use. "
-                "Interrupted or run again it does what is not done;\n-y measures all again.",
+                "and a picture, with the settings\nfor which no other setting is both faster and "
+                "more accurate, and a recommendation. If it is run\nagain, it measures only what "
+                "is missing; -y measures everything again.",
        .example = "walktrack sweep data/demo/scene.yaml -o out/sweep --over particles=50:100 "
                   "--seeds 2"});
   declare(line, options);

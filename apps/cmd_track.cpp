@@ -58,26 +58,27 @@ int run_track(const Arguments& arguments) {
   CommandLine line(
       {.name = "track",
        .operands = "SCENE.yaml",
-       .about =
-           "Tracks the subject of one scene: 3-D joints and angles with their "
-           "uncertainty,\nan overlay video for each camera, and run.json, in the "
-           "folder --output.\nThe scene is checked before; what is wrong with it "
-           "stops it with exit code 3.\nEnds with 4 when a quality check failed: the report and "
-           "run.json say which, what it means\nand what to do then.",
+       .about = "Tracks the subject of one scene: 3-D joints and angles with their "
+                "uncertainty,\nan overlay video for each camera, and run.json, in the folder "
+                "--output.\nThe scene is checked first; an error in it stops the command with exit "
+                "code 3.\nThe exit code is 4 if a quality check failed: the report and run.json "
+                "say which one failed,\nwhat it means and what to do.",
        .example = "walktrack track data/demo/scene.yaml -o out/demo"});
   auto add = line.options().add_options();
   add("no-overlay", po::bool_switch(&no_overlay), "write no overlay videos");
   add("ignore-checks", po::bool_switch(&ignore_checks),
       "track even if checks of the scene fail (see walktrack check); the report says so");
   add("fps", po::value(&fps)->value_name("N"),
-      "keep to so many frames/s by adapting the particles, within budget.least_particles and "
-      "budget.most_particles; results then depend on the machine's speed: not deterministic");
-  add("budget-ms", po::value(&budget_ms)->value_name("N"), "the same, as milliseconds a frame");
+      "track this many frames/s by adapting the number of particles between budget.least_particles "
+      "and budget.most_particles; results then depend on the speed of the machine and are not "
+      "deterministic");
+  add("budget-ms", po::value(&budget_ms)->value_name("N"),
+      "the same as --fps, in milliseconds for each frame");
   add("resume", po::bool_switch(&resume),
-      "go on from the last checkpoint of a run that was killed or interrupted, to the same bytes; "
-      "with -y, one that does not fit is left behind");
+      "continue from the last checkpoint of a run that was killed or interrupted, with the same "
+      "result as without interruption; with -y a checkpoint that does not fit is ignored");
   add("json-line", po::bool_switch(&json_line),
-      "print the result, or what went wrong, as one line of JSON");
+      "print the result, or the error, as one line of JSON");
   line.operand("SCENE.yaml", &scene);
   if (!line.parse(arguments)) return kDone;
   TrackJob job;
@@ -97,7 +98,7 @@ int run_track(const Arguments& arguments) {
   const bool cut_short = outcome.status == TrackStatus::kCutShort;
   const bool listed = !outcome.failed_checks.empty();  // in the summary
   if (!outcome.message.empty() && !cut_short && !listed) control.say(outcome.message);
-  if (outcome.resumable) control.say("interrupted; run again with --resume to go on from here");
+  if (outcome.resumable) control.say("interrupted; run again with --resume to continue from here");
   control.say(summary_text(outcome));
   // Said last, and even with --quiet, though what came before it is kept.
   if (cut_short) throw InputError(outcome.message);

@@ -15,7 +15,7 @@ namespace po = boost::program_options;
 
 namespace {
 
-constexpr char kWords[] = "words that are no options";  // no option on the line can have this name
+constexpr char kWords[] = "words that are not options";  // no option on the line can have this name
 
 std::vector<std::string> long_names(const po::options_description& options) {
   std::vector<std::string> names;
@@ -67,17 +67,17 @@ po::options_description common_options(CommonOptions& common) {
       "configuration: a YAML file, or a preset: fast, balanced or accurate");
   add("set", po::value(&common.settings)->composing()->value_name("KEY=VALUE"),
       "set one parameter; see 'walktrack config'");
-  add("output,o", po::value(&common.output)->value_name("PATH"), "where the results go");
+  add("output,o", po::value(&common.output)->value_name("PATH"), "folder or file for the results");
   add("seed", po::value(&common.seed)->value_name("N"), "seed of all random numbers");
   add("threads", po::value(&common.threads)->value_name("N"),
       "threads, 0 = all that the process may use");
   add("yes,y", po::bool_switch(&common.overwrite),
       "overwrite a complete result, but no file that walktrack did not write");
   add("progress", po::value(&common.progress)->value_name("HOW"),
-      "auto: a bar on a terminal, else a line every half minute; json: progress, messages and "
-      "errors as lines of JSON on stderr; none");
-  add("quiet", po::bool_switch(&common.quiet), "errors only");
-  add("verbose", po::bool_switch(&common.verbose), "say more");
+      "auto: a bar on a terminal, otherwise a line every half minute; json: progress, messages and "
+      "errors as lines of JSON on stderr; none: no progress");
+  add("quiet", po::bool_switch(&common.quiet), "print errors only");
+  add("verbose", po::bool_switch(&common.verbose), "print more messages");
   add("help,h", "this text");
   return options;
 }
@@ -182,7 +182,7 @@ void CommandLine::refuse(const std::vector<std::string>& options,
   for (const std::string& option : options)
     if (given(option))
       throw UsageError(
-          describe({"", 0, "--" + option}, "an option that means nothing here", allowed));
+          describe({"", 0, "--" + option}, "an option that has no effect here", allowed));
 }
 
 std::string CommandLine::required_output() const {

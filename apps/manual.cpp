@@ -50,12 +50,11 @@ void print_beginning() {
   fmt::print(".TH WALKTRACK 1 \"\" \"walktrack {}\" \"User Commands\"\n", version);
   fmt::print(
       ".SH NAME\nwalktrack \\- tracks a walking person in calibrated video with a physical gait "
-      "model\n.SH SYNOPSIS\n.B walktrack\n.I COMMAND\n[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n"
-      "walktrack follows one walking person through the videos of one or more calibrated cameras\n"
-      "with a particle filter whose motion model is a simulated walker. It writes joints, angles,\n"
-      "gait and forces with their uncertainty, overlay videos and a report to look at and send "
-      "on.\n"
-      ".SH COMMANDS\n");
+      "model\n.SH SYNOPSIS\n.B walktrack\n.I COMMAND\n[\\fIOPTIONS\\fR]\n.SH "
+      "DESCRIPTION\nwalktrack follows one walking person through the videos of one or more "
+      "calibrated cameras\nwith a particle filter whose motion model is a simulated walker. It "
+      "writes joints, angles,\ngait and forces with their uncertainty, overlay videos and a "
+      "report.\n.SH COMMANDS\n");
 }
 
 void print_end() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Puts gcovr's summary, by module, into a document between its marks.
 
-    scripts/coverage_table.py SUMMARY.json DOCUMENT.md
+    scripts/coverage_table.py SUMMARY.json DOCUMENT.md COMMAND
 """
 import collections
 import datetime
@@ -45,12 +45,12 @@ def percent(counts, what):
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) != 4:
         sys.exit(__doc__)
     files = json.loads(pathlib.Path(sys.argv[1]).read_text())["files"]
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, check=True, text=True,
                             stdout=subprocess.PIPE).stdout.strip()
-    head = f"Measured on {datetime.date.today()} at commit {commit}: `scripts/coverage.sh`."
+    head = f"Measured on {datetime.date.today()} at commit {commit}: `{sys.argv[3]}`."
     document = pathlib.Path(sys.argv[2])
     block = "\n".join([head, "", *table(files), ""])
     text, count = MARKED.subn(lambda found: f"{found[1]}{block}{found[2]}", document.read_text())

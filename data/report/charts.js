@@ -5,11 +5,11 @@ function readNorms(text, name) {
   const lines = text.split(/\r?\n/), notes = lines.filter((line) => line[0] === '#').map((line) => line.slice(1).trim());
   const rows = lines.filter((line) => line.trim() && line[0] !== '#').map((line) => line.split(',').map((cell) => cell.trim()));
   const head = rows.shift() ?? [], at = Object.fromEntries(head.map((column, i) => [column, i]));
-  if (head[0] !== 'percent') throw new Error(`${name}: the header begins with percent, not with '${head[0] ?? ''}'`);
+  if (head[0] !== 'percent') throw new Error(`${name}: the header has to begin with percent, and it begins with '${head[0] ?? ''}'`);
   const numbers = rows.map((row) => row.map((cell) => cell === '' ? NaN : Number(cell)));
   const wrong = numbers.findIndex((row, i) => row.length !== head.length || row.some((value) => !isFinite(value)) ||
     row[0] < 0 || row[0] > 100 || (i > 0 && row[0] <= numbers[i - 1][0]));
-  if (wrong >= 0) throw new Error(`${name}: row ${wrong + 1} below the header is no row of numbers with a percent that grows from 0 to 100`);
+  if (wrong >= 0) throw new Error(`${name}: row ${wrong + 1} below the header is not a row of numbers with a percent that grows from 0 to 100`);
   if (numbers.length < 2) throw new Error(`${name}: there are fewer than two rows`);
   const told = notes.find((note) => note.startsWith('who:'));
   return {who: told ? told.slice(4).trim() : name.replace(/\.csv$/i, ''), source: notes.filter((note) => note !== told).join(' '), percent: numbers.map((row) => row[0]),
@@ -113,8 +113,8 @@ function drawCycles() {
   for (const [name, what] of Object.entries(angles)) cycleChart(byId('cycle-charts'), data.angles, name, what);
   byId('cycle-caution').replaceChildren(...analysed ? [] : [element('p', {className: 'caution'}, roughAngles)]);
   byId('motion-range').replaceChildren(table(['mean curve, °', 'least', 'greatest', 'range', 'greatest at %', 'at strike', `mean of ${norms.who}`], rangeRows(), 'angle ranges'));
-  byId('normal-note').textContent = `Bold: mean of the strides; thin: each stride; ${analysed ? '' : 'coloured band: 5–95 % of the filter’s particles; '}dashes: toe-off. ` +
-    `${norms.source} ${norms === shippedNorms ? 'The definitions differ (see the limits below): compare shape and range before level.' : ''}`;
+  byId('normal-note').textContent = `Bold lines: mean of the strides; thin lines: each stride; ${analysed ? '' : 'coloured bands: 5–95 % of the filter’s particles; '}dashed lines: toe-off. ` +
+    `${norms.source} ${norms === shippedNorms ? 'Its angles are defined differently (see the limits below): compare shape and range before the level.' : ''}`;
 }
 
 // The reader's own norms, from files that the browser reads and nobody else.
@@ -186,15 +186,15 @@ function startForces() {
   byId('force-totals').className = analysed ? '' : 'rough';
   const n = run.numbers;
   byId('force-totals').append(table(['whole walk', ''], [
-    ['Way of the centre of mass, m', fixed(n.distance_m, 2)],
+    ['Path of the centre of mass, m', fixed(n.distance_m, 2)],
     ['Positive work of hips, knees and ankles, J', fixed(n.positive_work_j, 0)],
     ['Negative work, J', fixed(n.negative_work_j, 0)],
-    ['Cost of transport (positive work per weight and way)', fixed(n.cost_of_transport, 3)],
+    ['Cost of transport (positive work divided by weight and path)', fixed(n.cost_of_transport, 3)],
     ['Greatest vertical load of a foot, body weights', fixed(n.peak_foot_load_body_weights, 2)],
   ], 'forces of the whole walk'));
-  byId('force-note').textContent = 'By inverse dynamics of the tracked body: computed from its motion, not measured. Moments are those of the muscles, ' +
-    'positive as the angle is. In double support the sharing between the feet is a model; near the ends of the tracked span values lean on extrapolation. ' +
-    `All scale with the mass of ${data.subject.mass_kg} kg.`;
+  byId('force-note').textContent = 'The forces are computed from the motion by inverse dynamics of the tracked body, not measured. Moments are those of the muscles, ' +
+    'with the signs of the angles. In double support the division between the feet is a model; near the ends of the tracked frames the values depend on extrapolation. ' +
+    `All values are proportional to the mass of ${data.subject.mass_kg} kg.`;
 }
 
 function timeChart(caption, description, values, label, more = {}) {
@@ -226,7 +226,7 @@ function fitChart(series) {
   const lines = Object.entries(series).filter(([name]) => name.startsWith('overlap_percent.'))
     .map(([name, values], i) => ({camera: name.slice('overlap_percent.'.length), values, shade: shades[i % shades.length]}));
   if (!lines.length) return;
-  timeChart('How well the figure lies on the person', 'Overlap of figure and foreground over time, by camera',
+  timeChart('Overlap of the figure with the foreground', 'Overlap of figure and foreground over time, by camera',
     lines.map(({camera, values, shade}) => [values, shade, 1.5, camera]), '%', {scales: {y: {range: [0, 100]}}});
   const caption = byId('time-charts').lastChild.querySelector('small');
   for (const {camera, shade} of lines) caption.append(element('i', {className: 'swatch', style: `background: ${shade}`}), `${camera} `);
@@ -244,18 +244,18 @@ function startTimes() {
     }
   };
   const none = times.map(() => null);
-  timeChart('Feet on the ground', 'When each foot stood, left above right', [[none, colours.trunk]], 'right  left',
+  timeChart('Feet on the ground', 'Times at which each foot was on the ground, left above right', [[none, colours.trunk]], 'right  left',
     {scales: {y: {range: [0.1, 1.7]}}, draw: [contacts]});
   if (analysed) return;
   fitChart(series);
   timeChart('Speed over the ground', 'Speed over time', [[series.speed, colours.trunk]], 'm/s');
-  timeChart('Left foot carries the body: probability', 'Probability of left stance', [[series.left_stance, colours.left]], '', {scales: {y: {range: [-0.05, 1.05]}}});
+  timeChart('Probability that the left foot is the stance foot', 'Probability of left stance', [[series.left_stance, colours.left]], '', {scales: {y: {range: [-0.05, 1.05]}}});
   timeChart(`Effective number of particles (of ${run.config.filter.particles})`, 'Effective sample size over time',
     [[series.ess, colours.trunk], [times.map(() => run.config.filter.resample_below * run.config.filter.particles), '#b0b8c0', 1]], '', {scales: {y: {range: (u, min, max) => [0, max * 1.05]}}});
   const residuals = Object.keys(series).filter((name) => name.startsWith('keypoint_residual_px.'));
   if (residuals.length > 0) {
     const strokes = [colours.trunk, colours.left, colours.right];
-    timeChart('Detected points to the reported pose, median of a frame', 'Distance of detected keypoints from the pose over time, a line for each camera',
+    timeChart('Distance of the detected points from the reported pose, median of a frame', 'Distance of detected keypoints from the pose over time, a line for each camera',
       residuals.map((name, i) => [series[name], strokes[i % strokes.length]]), 'px');
   }
   timeChart('Log-evidence of the frame', 'Log-evidence over time', [[series.log_evidence, colours.trunk]], 'nats');

@@ -124,14 +124,14 @@ function verdict() {
 function words() {
   const {unit, draws, seed} = data.method;
   const banded = data.comparisons[0].samples.slice(1).every((sample) => Object.values(sample.parameters).every((one) => one.with_bands !== false));
-  byId('method').textContent = `Intervals and bands: 95 %, bootstrap over ${unit} (bootstrap-t, ${draws} draws, seed ${seed}); the band of a curve holds the whole of it ` +
-    '(greatest deviation over the cycle). With few strides they are too wide rather than too narrow, and with fewer than three in a group there are none.';
-  byId('parameter-note').textContent = `Detectable change: 1.96 √(SEM² + SEM²), with few ${unit} Student’s t for 1.96; SEM: of each group its scatter over ${unit}` +
-    (banded ? ' and the tracker’s own uncertainty together. ' : '; of results without bands there is no uncertainty of the measurement in it. ') +
-    '“Not told apart” is not “the same”. ' + (byStrides && data.groups.some(({trials}) => trials.length > 1)
-      ? 'Strides of all recordings of a group count alike: where these are of several people or days, compare with --unit trials.' : '');
-  byId('curve-note').textContent = 'From a heel strike to the next of the same foot. ' +
-    'Ankle angles of a video are rough: differences between them need large numbers of strides.';
+  byId('method').textContent = `Intervals and bands: 95 %, bootstrap over ${unit} (bootstrap-t, ${draws} draws, seed ${seed}); the band of a curve holds for the whole curve at once ` +
+    '(greatest deviation over the cycle). With few strides the bands are too wide rather than too narrow; groups of fewer than three strides have no bands.';
+  byId('parameter-note').textContent = `Detectable change: 1.96 √(SEM² + SEM²), with the value of Student’s t instead of 1.96 for few ${unit}. The SEM of a group is its scatter over ${unit}` +
+    (banded ? ' together with the uncertainty of the tracker. ' : '; results without bands add no uncertainty of the measurement to it. ') +
+    '“Not told apart” does not mean “the same”. ' + (byStrides && data.groups.some(({trials}) => trials.length > 1)
+      ? 'The strides of all recordings of a group have the same weight: if the recordings are of several people or days, compare with --unit trials.' : '');
+  byId('curve-note').textContent = 'A cycle goes from one heel strike to the next heel strike of the same foot. ' +
+    'Ankle angles of a video are rough: many strides are needed to see differences between them.';
   byId('trial-table').append(table(['group', 'recording', 'strides left', 'strides right', 'quality'],
     data.groups.flatMap(({name, trials}) => trials.map((t) => [name, t.folder, `${t.strides.left}`, `${t.strides.right}`,
       t.failed_checks.length ? `failed: ${t.failed_checks.join('; ')}` : t.status])), 'recordings'));

@@ -16,7 +16,8 @@
 namespace walktrack {
 inline namespace body {
 
-// Clothes and skin that look alike. Which classes are told apart is the likelihood's matter.
+// Classes of clothes and skin that look alike. The likelihood decides which classes it
+// distinguishes.
 enum class Appearance { kTrunk, kLegs, kFeet, kHead, kArms };
 inline constexpr int kAppearanceCount = 5;
 

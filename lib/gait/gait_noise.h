@@ -10,11 +10,12 @@ inline namespace gait {
 
 // Noise of the controls, drawn once a step, and of the torques, drawn once a time step.
 struct GaitNoise {
-  double relative = 0.05;  // sd of stiffness, damping and impulse. 0.02 makes step lengths and
-                           // durations vary by the 2-3 % of people; a filter needs twice that as
-                           // room for what the model lacks (0.05: 5-6 % at 1.3 to 1.6 m/s)
-  double rest = 0.025;     // rad, sd of rest angles: the same in units of a typical rest angle
-  double torque = 0.002;   // sd of a joint's torque held over 1/30 s, of M g L
+  // Sd of stiffness, damping and impulse. 0.02 makes step lengths and durations vary by the 2-3 %
+  // of people; a filter needs twice that as more, because the model differs from people (0.05: 5-6
+  // % at 1.3 to 1.6 m/s)
+  double relative = 0.05;
+  double rest = 0.025;    // rad, sd of rest angles: the same in units of a typical rest angle
+  double torque = 0.002;  // sd of a joint's torque held over 1/30 s, of M g L
 };
 
 // 1 + sd z, z normal and cut at 3 (none of 1,000 particles leaves a gait's basin by a single draw,

@@ -47,7 +47,7 @@ double growth_per_step(const SectionMatrix& step_matrix);
 double gait_cost(const GaitObjective& objective, const GaitVector& gait, const WalkedStep& step);
 
 // All of it for a cycle; kUnwalkable where a step or a difference of steps fails.
-inline constexpr double kUnwalkable = 5;  // any walking gait is cheaper
+inline constexpr double kUnwalkable = 5;  // by hand: any walking gait is cheaper
 double objective_value(const KneedModel& model, const GaitObjective& objective,
                        const GaitVector& gait);
 

@@ -11,8 +11,11 @@ namespace {
 
 using namespace anthropometry;
 
-constexpr double kArcRadius = 0.3;           // of the leg length
-constexpr double kArcForward = 0.05 / 1.75;  // of the stature
+// The roll-over shape of the human foot: its radius, of the leg length (Adamczyk, Collins & Kuo
+// 2006, J. Exp. Biol. 209), and how far its centre lies ahead of the ankle, of the stature (by
+// hand).
+constexpr double kArcRadius = 0.3;
+constexpr double kArcForward = 0.05 / 1.75;
 
 double inertia(double mass, double radius) { return mass * radius * radius; }
 

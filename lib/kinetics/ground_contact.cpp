@@ -32,7 +32,8 @@ LoadShares all_on(Side side) {
 }
 
 // The point nearest to `centre` within a sole. Heel and tip lie .47 and .57 of the way from ankle
-// to ball behind and ahead of it (body/subject.cpp: ankle at 23 %, ball at 72 % of the foot).
+// to ball behind and ahead of it (body/subject.cpp: ankle at 23 %, ball at 72 % of the foot). Half
+// the width of a sole, m, is set by hand.
 Vector2d within_sole(const FootPlace& place, const Vector2d& centre) {
   constexpr double kBehind = .47, kAhead = 1.57, kHalfWidth = .05;
   const Vector2d bone = place.ball - place.ankle;

@@ -3,17 +3,18 @@
 //
 // Events are those of metrics/gait.h. A contact's row holds its own strike and toe-off, the step
 // that ended in it (from the other foot's contact before) and the stride that began with it (to the
-// next strike of the same foot). Where an end of the motion cuts a contact, what it would need is
-// NaN.
+// next strike of the same foot). If an end of the motion cuts a contact, the numbers that cannot be
+// computed are NaN.
 //
-// Bands come from an ensemble: motions that the tracker holds for possible as well (a few particles
-// of every frame). Each is read like the motion itself. A contact's band holds the value and lies
-// between the 5 and 95 % points of the members that saw the same contact; a summary's, of how much
-// the members differ from the motion over the contacts that both have. NaN if fewer than half of
-// the members, or fewer than five, know. It says how far the tracker is from certain, not how far
-// its model is from the person; metrics/gait_error.h adds that.
+// Bands come from an ensemble of motions that are as likely for the tracker (a few particles of
+// every frame). The same numbers are computed for each of them. The band of a contact contains the
+// value and the 5 and 95 % quantiles of the members that have the same contact; the band of a
+// summary comes from the differences between the members and the motion over the contacts that both
+// have. It is NaN if fewer than half of the members, or fewer than five, have the number. The band
+// is the uncertainty of the tracker, without the difference between its model and the person;
+// metrics/gait_error.h adds that.
 //
-// What few steps cannot tell is NaN too: a symmetry needs two contacts of either side, a spread
+// Numbers that need more steps are NaN, too: a symmetry needs two contacts of each side, a spread
 // from step to step needs three steps.
 //
 // Seconds, metres; shares of the stride in per cent; the ground is z = 0.
@@ -39,7 +40,7 @@ struct Banded {
 enum ContactColumn {
   kFootStrike,
   kToeOff,
-  kSupportTransfer,  // when the model's weight changed onto this foot: the check on the strike
+  kSupportTransfer,  // when this foot became the stance foot in the model, to check the strike
   kStepLength,       // along the direction of walking
   kStepWidth,        // across it
   kStepTime,         // strike to strike
@@ -61,7 +62,8 @@ struct ContactRow {
   std::array<Banded, kContactColumnCount> at;
 };
 
-// The numbers of a summary: means over contacts, but the speed of the whole way.
+// The numbers of a summary: means over contacts, except for the speed, which is that of the whole
+// walk.
 enum SummaryColumn {
   kSpeed,
   kCadence,  // 60 / mean step time
@@ -95,7 +97,7 @@ struct GaitTable {
   std::array<Banded, kSymmetryCount> symmetry;
 };
 
-// When a model's weight changed onto a foot.
+// When a foot became the stance foot in a model.
 struct SupportTransfer {
   Side side = Side::kLeft;
   Banded time;

@@ -1,5 +1,5 @@
-// What can be said of a motion without a truth: feet that slide, feet in the ground, trembling,
-// steps that do not belong to the way that the body goes, speeds that nobody walks at.
+// Measures of a motion that need no truth: feet that slide, feet below the ground, jitter, steps
+// that do not fit the path of the body, and speeds that are too high for a walk.
 #pragma once
 
 #include "body/motion.h"
@@ -19,7 +19,7 @@ struct Plausibility {
   double penetrating_share = 0;
   // Mean magnitude of the third derivative of the seven scored joints, m/s^3.
   double jitter = 0;
-  // Along the way, m; 0 without steps.
+  // Along the walk, m; 0 without steps.
   double longest_step = 0, shortest_step = 0;
   // The shortest time from one strike to the next, as a share of the median one; from one to the
   // next of the same foot counts as two. 1 with less than three times.

@@ -110,7 +110,7 @@ class Observer {
              const PosedBody* body = nullptr);
 
   // An observer made of the same configuration and input that takes the state of another one, left
-  // there between two frames, goes on as that one. InputError for a state of images of another
+  // there between two frames, continues like that one. InputError for a state of images of another
   // size.
   ObserverState state() const;
   void resume(ObserverState state);

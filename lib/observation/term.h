@@ -1,20 +1,21 @@
-// What a likelihood term is. CONTRIBUTING.md says how to add one; terms.h holds the list of all of
-// them.
+// The definition of a likelihood term. CONTRIBUTING.md says how to add one; terms.h has the list of
+// all terms.
 //
-// A term is a struct that is never made. kName is what results call it, kStage says when particles
-// are asked, kAsksBefore whether they need the pose of the frame before as well, kSwitches which
-// flags of the configuration turn it on (none: it is always there), describe() their keys.
+// A term is a struct of which no object is made. kName is its name in results, kStage says when it
+// is computed for particles, kAsksBefore whether it needs the pose of the frame before as well,
+// kSwitches which flags of the configuration turn it on (none: it is always on), describe() the
+// keys of these flags.
 //
-// Evidence is what one frame of one camera holds for it, a base of CameraEvidence; State what it
-// remembers from frame to frame, a base of ObserverState. Memory is that with its rules: prepare()
-// while particles are still busy with the frame before, complete() when they are done, learn() from
-// the pose that was found.
+// Evidence is the data of one frame of one camera for this term, a base of CameraEvidence; State is
+// the data that it keeps from frame to frame, a base of ObserverState. Memory is the state with its
+// functions: prepare() while particles of the frame before are still being weighed, complete()
+// afterwards, learn() from the pose that was found.
 //
-// says() tells whether a frame's evidence holds anything, log_likelihood() what it says of a body,
-// up to a constant of the frame, in nats, from any number of threads and without allocations,
-// cost() the CPU time of a frame.
+// says() returns whether a frame has any evidence for this term; log_likelihood() returns the
+// log-likelihood of a body up to a constant of the frame, in nats, and may be called from any
+// number of threads and does not allocate; cost() returns the CPU time of a frame.
 //
-// A term that is off says nothing, prepares nothing and holds no memory.
+// A term that is off has no evidence, prepares nothing and uses no memory.
 #pragma once
 
 #include <span>
@@ -35,12 +36,12 @@ struct ObserverInput;    // observer.h
 struct ObserverSetting;  // observed_frame.h
 struct ObservedFrame;    // observed_frame.h
 
-// Delayed acceptance (filter/particle_filter.h): a move that one stage rejects is not shown to the
-// next. Terms that are quick or strong come first.
+// Delayed acceptance (filter/particle_filter.h): a move that one stage rejects is not computed for
+// the next one. Terms that are quick or strong come first.
 enum class TermStage {
   kEarly,   // the first camera's before anything else, those of other cameras with the late terms
   kLate,    // after all early terms of the first camera
-  kTracks,  // never of a particle: only of whole tracks
+  kTracks,  // never for a particle, only for whole tracks
 };
 
 // A body and where its parts are. Lives on the stack.
@@ -59,12 +60,12 @@ struct PosedBody {
 // A flag of the configuration, observation.<key>.enabled.
 struct TermSwitch {
   std::string_view key;
-  std::string_view plan_name;  // what `walktrack plan` calls it
-  std::string_view what;       // and says of it
+  std::string_view plan_name;  // its name in `walktrack plan`
+  std::string_view what;       // and its description there
   bool (*on)(const ObservationConfig&);
 };
 
-// What there is to be done in a frame of one camera.
+// The work for a frame of one camera.
 struct TermWork {
   double region_px = 0;  // pixels of the shrunk image around the subject
   double rows = 0;       // that the subject covers there
@@ -80,7 +81,7 @@ struct TermCost {
 // Empty for a term that is off.
 using TermCosts = std::vector<TermCost>;
 
-// A pose that was found in the frame observed last.
+// The pose that was found in the frame observed last.
 struct FoundPose {
   const CapsuleList& capsules;
   const PosedBody* body;  // nullptr = not known

@@ -1,5 +1,5 @@
-// The likelihood terms: the one list that evidence, likelihood, configuration, plan and reports go
-// through. The order is that of sums and of tables.
+// The list of all likelihood terms, over which evidence, likelihood, configuration, plan and
+// reports iterate. Its order is that of sums and tables.
 //
 //   log p(images | pose) = sum over terms and cameras of T::log_likelihood + constant
 #pragma once
@@ -19,7 +19,7 @@ template <typename... T>
 struct TermList {
   static constexpr size_t kCount = sizeof...(T);
 
-  // Members of all terms under one roof: each keeps its own names.
+  // The members of all terms in one struct; each term keeps its own names.
   struct Evidence : T::Evidence... {};
   struct State : T::State... {};
 
@@ -28,7 +28,8 @@ struct TermList {
   static constexpr void each(F&& f) {
     (f.template operator()<T>(), ...);
   }
-  // Something of each term in one: map<std::tuple, MemoryOf>, made from the same arguments.
+  // A tuple with one object for each term, such as map<std::tuple, MemoryOf>, made from the same
+  // arguments.
   template <template <typename...> typename Of, template <typename> typename From>
   using map = Of<From<T>...>;
   template <template <typename...> typename Of, template <typename> typename From, typename... A>
@@ -39,25 +40,25 @@ struct TermList {
 
 using Terms = TermList<SilhouetteTerm, FlowTerm, LegOrderTerm, KeypointTerm>;
 
-// What a frame of one camera says.
+// The evidence of a frame of one camera.
 struct CameraEvidence : Terms::Evidence {
   double pixel_weight = 1;  // independent pixels in a pixel: the temper of all sums over pixels
 };
 
-// What an observer of one camera has learned and remembers between frames.
+// What an observer of one camera has learned and keeps between frames.
 struct ObserverState : Terms::State {};
 
-// Whether particles are asked about a term at all.
+// Whether a term is computed for particles at all.
 template <typename Term>
 inline constexpr bool kWeighsParticles = Term::kStage != TermStage::kTracks;
 
-// Whether a term can tell a track's left leg from its right one by itself.
+// Whether a term alone can distinguish a track's left leg from its right one.
 template <typename Term>
 inline constexpr bool kTellsLegsApart = requires {
   &Term::names_log_odds;
 };
 
-// Of one camera: all terms that need no frame before.
+// For one camera: all terms that need no frame before.
 inline double still_log_likelihood(const ObservationConfig& config, const CameraEvidence& evidence,
                                    const Camera& camera, const PosedBody& body) {
   double sum = 0;
@@ -69,7 +70,7 @@ inline double still_log_likelihood(const ObservationConfig& config, const Camera
   return sum;
 }
 
-// By term, in the order of the list; NaN = it says nothing.
+// By term, in the order of the list; NaN if it has no evidence.
 using TermValues = std::array<double, Terms::kCount>;
 
 // The flags that turn terms on.

@@ -1,5 +1,5 @@
-// How well a figure lies on the person, by the evidence of its frame: as far as it and the
-// foreground cover each other, and against figures that are free to stand beside it.
+// How well a figure fits the person, by the evidence of its frame: the overlap of the figure with
+// the foreground, and a comparison with the same figure at places beside it.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,14 @@ namespace walktrack {
 inline namespace tracker {
 
 struct FigureFit {
-  std::vector<double> overlap;  // by camera (Overlap::share); NaN where nothing is known
-  // By how much the images speak more for the best of the figures that stand 5 to 40 cm beside this
-  // one, or turn away from it by 15 or 30 degrees, than for this one: a share of what they say for
-  // that. 0 if they speak for none of them more, or for none at all.
+  std::vector<double> overlap;  // by camera (Overlap::share); NaN if it is unknown
+  // How much better the best of the figures that stand 5 to 40 cm beside this one, or are turned by
+  // 15 or 30 degrees, explains the images than this one, as a share of the log-likelihood of that
+  // best figure. 0 if none of them explains the images better, or if none explains them at all.
   double better_beside = 0;
 };
 
-// Of the evidence, only planes and pixel weights are read.
+// Only the planes and the pixel weights of the evidence are used.
 FigureFit figure_fit(const TrackerScene& scene, const SceneEvidence& evidence, const Pose& pose);
 
 }  // namespace tracker

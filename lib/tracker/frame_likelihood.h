@@ -1,6 +1,6 @@
-// What the images of one frame say about particles, in stages that are asked one after the other: a
-// proposal that the first camera speaks against need not be shown to the others
-// (filter/particle_filter.h). The terms and their stages are those of observation/terms.h.
+// The likelihood of particles given the images of one frame, in stages that are computed one after
+// the other: a proposal that the first camera rejects need not be compared with the images of the
+// others (filter/particle_filter.h). The terms and their stages are those of observation/terms.h.
 #pragma once
 
 #include "filter/particle_filter.h"
@@ -12,18 +12,19 @@ inline namespace tracker {
 
 class FrameLikelihood {
  public:
-  // `with_motion`: particles have a frame before this one, so that flow says something.
+  // `with_motion`: particles have a frame before this one, so that the flow term can be computed.
   FrameLikelihood(const TrackerScene& scene, const SceneEvidence& evidence, bool with_motion);
 
-  // The early terms of the first camera, then all else: those of the other cameras, and the late
-  // terms that say anything. More stages would save little more, and every stage that can reject a
-  // move costs some that all of them together would accept.
+  // The first stage has the early terms of the first camera, the second stage all other terms:
+  // those of the other cameras, and the late terms. More stages would save little more time, and
+  // every stage that can reject a move rejects some that all terms together would accept.
   int stages() const { return evidence_.size() > 1 || late_ ? kMaxStages : 1; }
 
   class Account {
    public:
     Account(const FrameLikelihood& frame, const WalkerParticle& particle);
-    // Log-likelihood of that stage's images, nats; the sum over all stages is the particle's.
+    // Log-likelihood of that stage, nats; the sum over all stages is the log-likelihood of the
+    // particle.
     double operator()(int stage) const;
 
    private:
@@ -44,7 +45,7 @@ class FrameLikelihood {
 
   Account operator()(const WalkerParticle& particle) const { return {*this, particle}; }
 
-  // What each term says of a particle, by camera.
+  // The log-likelihood of a particle, by term and camera.
   std::vector<TermValues> by_term(const WalkerParticle& particle) const;
 
  private:
@@ -52,7 +53,7 @@ class FrameLikelihood {
   bool asks(const CameraEvidence& camera) const {
     return (with_motion_ || !Term::kAsksBefore) && Term::says(camera);
   }
-  // Whether any term that is `wanted` is asked about any camera.
+  // Whether any term that is `wanted` is used for any camera.
   template <typename F>
   bool any(const F& wanted) const {
     bool found = false;
@@ -66,8 +67,8 @@ class FrameLikelihood {
   const TrackerScene& scene_;
   const SceneEvidence& evidence_;
   bool with_motion_;
-  bool late_;    // any late term says something
-  bool before_;  // any term is asked that compares with the frame before
+  bool late_;    // whether there is any late term
+  bool before_;  // whether any term compares with the frame before
 };
 
 }  // namespace tracker

@@ -10,7 +10,7 @@ SubjectModel::SubjectModel(const BodyModel& model, const GaitPrior& prior,
       frame_scale(noise_scale(*moves, motion, model, dt)),
       markov(markov_steps(*moves, motion, dt)),
       figures(model, prior) {
-  // Other models do without a walker, or have none that could rest.
+  // The other models have no walker, or none that can stand.
   if (motion.standing && motion.model == MotionKind::kKneed)
     standing = standing_process(*moves, motion, dt);
 }

@@ -1,4 +1,4 @@
-// What follows from the body that is tracked, and what all frames of a scene share.
+// Everything that follows from the body that is tracked, and that all frames of a scene share.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ struct SubjectModel {
   SubjectModel(const BodyModel& model, const GaitPrior& prior, const MotionConfig& config,
                double dt);
 
-  MotionConfig motion;  // to the body's scale
+  MotionConfig motion;  // at the body's scale
   std::unique_ptr<const MotionModel> moves;
   NoiseScale frame_scale;
   MarkovSteps markov;
@@ -28,17 +28,17 @@ struct TrackContext {
   const TrackerScene& scene;
   const GaitPrior& prior;
   const TrackerConfig& config;
-  const SubjectModel& subject;  // of the scene's body
+  const SubjectModel& subject;  // for the scene's body
   uint64_t seed;
   int threads;
 
   const Body& body() const { return scene.model.body; }
 };
 
-// What a frame of a filter needs.
+// Everything that a frame of the filter needs.
 WalkerFilterContext filter_context(const TrackContext& context);
-// The same for the first frame around a walk, whose noise is as wide as the walk is uncertain: the
-// scene has stated it, or it was detected.
+// The same for the first frame around a walk, whose noise is as wide as the walk is uncertain.
+// `given`: the scene has stated the walk; otherwise it was detected.
 WalkerFilterContext first_filter_context(const TrackContext& context, bool given);
 
 }  // namespace tracker

@@ -1,17 +1,18 @@
-// The tracker: frames of evidence in, poses with their uncertainty out.
+// The tracker turns the evidence of frames into poses with their uncertainty. Its modes:
 //
 //   searching  for a walk in a sliding window of frames (tracker/detect/walk_search.h)
-//              which is tried out on the window (tracker/start/trial.h). A person of unknown size
-//              is sized up by the same window (tracker/detect/stature.h), once.
+//              which is tried out on the window (tracker/start/trial.h). The height of a subject,
+//              if it is unknown, is estimated from the same window, once
+//              (tracker/detect/stature.h).
 //   starting   hypotheses over phase and side compete for a while
 //              (tracker/start/start_hypotheses.h)
 //   tracking   for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h)
-//   lost       the monitor says so (tracker/modes/monitor.h); searching again, for a while only
-//              where the subject can be
+//   lost when the monitor decides so (tracker/modes/monitor.h); searching again, for a while only
+//   where the subject can be
 //
 // Modes are values (tracker/modes/track_mode.h). Frames before the walk was found, and while it was
-// lost, are reported as not tracked. Searching looks a window ahead, so records come out late at
-// first and one for one afterwards.
+// lost, are reported as not tracked. Searching needs a whole window, so that records come out late
+// at first and one for each frame afterwards.
 #pragma once
 
 #include <deque>
@@ -24,7 +25,7 @@
 namespace walktrack {
 inline namespace tracker {
 
-// All that the next frame of a tracker in its tracking mode depends on.
+// Everything on which the next frame of a tracker in its tracking mode depends.
 struct TrackerState {
   uint32_t frame = 0, starts = 0;
   FilterState<WalkerParticle> filter;
@@ -39,17 +40,20 @@ class Tracker {
   Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig& config, uint64_t seed,
           int threads);
 
-  // Takes the next frame; hands back the records of all frames that are finished now, in order.
+  // Takes the next frame and returns the records of all frames that are finished now, in order.
   std::vector<FrameRecord> push(const SceneEvidence& evidence);
   // The records of frames that still wait at the end of the video.
   std::vector<FrameRecord> finish();
 
-  // From the next frame on, so many particles: those there are become more or fewer in proportion
-  // to their weights.
-  void use_particles(int count);
+  // Sets the number of particles from the next frame on: the present particles become more or fewer
+  // in proportion to their weights.
+  void use_particles(int count) {
+    config_.filter.particles = count;
+    if (tracking()) walktrack::use_particles(count, std::get<Tracking>(mode_));
+  }
 
-  // Whether the next frame's evidence is to hold its picture: a walk that is looked for in front of
-  // one camera has its legs told apart by it.
+  // Whether the next frame's evidence has to hold its image: for one camera, the labels of the legs
+  // of a walk that is searched come from the images.
   bool wants_picture() const {
     return is_searching(mode_) && !scene_.initial && scene_.cameras.size() == 1;
   }
@@ -57,23 +61,23 @@ class Tracker {
   bool tracking() const { return is_tracking(mode_); }
   // While tracking():
   const ParticleSet<WalkerParticle>& particles() const { return tracked().filter.particles(); }
-  // Their mean in the newest frame, whatever is reported of it; after push().
+  // The mean of the particles in the newest frame, which is not the reported pose; after push().
   const Pose& mean_pose() const { return tracked().mean_pose; }
-  // Where that is over the ground; after resume(), too.
+  // The place of that mean over the ground; also after resume().
   Eigen::Vector2d mean_place() const { return walktrack::mean_place(tracked()); }
 
   // Times that the track was lost after it had been found.
   int losses() const { return losses_; }
-  // Who is tracked: the scene's model until they have been sized up, if it does not know their
-  // size.
+  // The body that is tracked: the scene's model, until the height has been estimated if the scene
+  // does not state it.
   const Body& body() const { return scene_.model.body; }
   const BodyModel& model() const { return scene_.model; }
-  // What came of that; nullopt while there is no need.
+  // The estimated height; nullopt if there is none.
   std::optional<Stature> stature() const { return stature_; }
 
-  // A tracker of the same scene, configuration and seed that takes the state of another one goes on
-  // as that one. There is a state only while tracking(): what a search has in hand is large and
-  // short-lived.
+  // A tracker of the same scene, configuration and seed that resumes the state of another one
+  // continues like that one. There is a state only while tracking(): the data of a search are large
+  // and short-lived.
   TrackerState state() const;
   void resume(TrackerState state);
 
@@ -82,13 +86,13 @@ class Tracker {
   void consume(const SceneEvidence& evidence, Records& out);
   void search(const SceneEvidence& evidence, Records& out);
   void look_for_walk(Records& out);
-  bool start_at(const DetectedWalk& walk, Records& out);
-  bool start_standing(const DetectedWalk& walk, Records& out);
+  bool start_at(const DetectedWalk& walk, size_t lead, Records& out);
+  bool start_sized(const DetectedWalk& walk, Records& out);
   bool start_unsized(const DetectedWalk& walk, Records& out);
   void start_as_given(Records& out);
   Starting started(const DetectedWalk& walk, std::optional<double> stride_phase);
   void report(Records records, const SceneEvidence& newest, Records& out);
-  void set_height(double height);
+  void set_height(double height, const std::optional<Stature>& estimate);
 
   const Tracking& tracked() const { return std::get<Tracking>(mode_); }
   bool wants_size() const { return !scene_.size_known && !stature_; }

@@ -1,4 +1,4 @@
-// How to track: the configurations of the tracker's parts, each of which is where the part is.
+// The configuration of the tracker. The configurations of its parts are defined beside the parts.
 #pragma once
 
 #include "filter/particle_filter.h"
@@ -10,7 +10,7 @@
 namespace walktrack {
 inline namespace tracker {
 
-// What is reported of a frame: the particles' mean, or the most probable pose near it
+// The pose that is reported for a frame: the particles' mean, or the most probable pose near it
 // (tracker/smooth/refinement.h).
 enum class EstimateKind { kMean, kMap };
 
@@ -20,8 +20,8 @@ struct TrackerConfig {
   DetectorConfig detector;
   StartConfig start;
   MonitorConfig monitor;
-  int samples = 20;        // particles kept of every frame to show the spread
-  double model_error = 1;  // multiplies what bands hold beyond the particles' spread
+  int samples = 20;        // particles of every frame that are kept to show the spread
+  double model_error = 1;  // factor on the part of the bands that is not the particles' spread
   EstimateKind estimate = EstimateKind::kMap;
 };
 

@@ -23,7 +23,7 @@ int frames_in(double seconds, double dt) {
 
 std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed,
                                   double heading) {
-  constexpr int kFigures = 6;  // by hand; half of them do for a first look
+  constexpr int kFigures = 6;  // by hand; half of them suffice for a first search
   const double leg = leg_length(model.body.lengths);
   const double unit_speed = std::sqrt(model.walker.parameters.gravity * leg);
   const PriorGait gait = gait_at(prior, in_plane(model, heading).parameters, speed,

@@ -1,4 +1,4 @@
-// What the frames of one scene share, and what the images of one frame say about a pose.
+// Everything that the frames of a scene share, and the evidence of one frame.
 #pragma once
 
 #include <optional>
@@ -15,25 +15,27 @@ namespace walktrack {
 inline namespace tracker {
 
 struct TrackerScene {
-  std::vector<Camera> cameras;  // of the images that the evidence is about (Observer::camera)
+  std::vector<Camera>
+      cameras;  // cameras of the images from which the evidence comes (Observer::camera)
   BodyModel model;
   ObservationConfig observation;
-  double dt = 1.0 / 30;                 // s between frames
-  std::optional<DetectedWalk> initial;  // where the walk starts; without it, it is searched for
+  double dt = 1.0 / 30;  // s between frames
+  std::optional<DetectedWalk>
+      initial;  // where the walk starts; if it is missing, the walk is searched
   int initial_frame = 0;
   std::optional<double> initial_phase;  // of the stride, 0 = left foot strike
-  bool size_known = true;               // the model's; otherwise it is estimated
+  bool size_known = true;  // the height of the model is right; otherwise it is estimated
 };
 
-// Frames of `dt` s in a span of time, at least two.
+// Number of frames, `dt` s apart, in a span of time, at least two.
 int frames_in(double seconds, double dt);
 
 // By camera, in the order of TrackerScene::cameras.
 using SceneEvidence = std::vector<CameraEvidence>;
 
-// A walker's poses through a step of the usual gait of a speed (m/s) on the slope that `heading`
-// meets, root above the origin, the pose's own heading 0: one of them resembles any such walker in
-// any frame, whichever foot stands.
+// A walker's poses over a step of the usual gait of a speed (m/s) on the slope of `heading`, with
+// the root above the origin and the pose's own heading 0. In every frame one of them resembles such
+// a walker, whichever foot stands.
 std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed,
                                   double heading);
 

@@ -14,11 +14,11 @@ inline namespace tracker {
 
 namespace {
 
-// Share of the filter's moves that change the course, the others change the frame's noise.
+// Share of the filter's moves that change the global pose; the others change the frame's noise.
 // By hand; sensitivity not measured.
 constexpr double kCourseMoves = 0.3;
 
-// Walkers that go together: some full vectors, and still enough groups for every thread.
+// Walkers in a group: some full vectors, and still enough groups for every thread.
 constexpr size_t kGroup = 32;
 
 struct Streams {

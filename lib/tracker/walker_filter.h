@@ -1,5 +1,4 @@
-// One frame of a particle filter over walkers: propagate, weigh, move, and what the particles then
-// say.
+// One frame of a particle filter over walkers: propagate, weigh, move, estimate.
 #pragma once
 
 #include <vector>
@@ -23,29 +22,29 @@ struct FrameRecord {
   ImageInformation images;
   FilterReport filter;
   double mean_log_likelihood = 0;       // mean log-likelihood of the particles, nats
-  std::vector<JointPositions> samples;  // a few particles, to show their spread
+  std::vector<JointPositions> samples;  // a few particles that show the spread
   int fallen = 0, diverged = 0;
   StrideModes modes;
-  double names = 0;  // nats that this frame's keypoints speak for the legs' names
-  // By camera: what each term says of the best particle, nats; NaN = nothing. Only of tracked
-  // frames after the start.
+  double names = 0;  // log-odds of the legs' labels by this frame's keypoints, nats
+  // By camera: log-likelihood of the best particle by term, nats; NaN if a term has none. Only for
+  // tracked frames after the start.
   std::vector<TermValues> evidence;
-  // By camera, what a pose detector saw of the frame; empty where none was asked.
+  // By camera, the keypoints of the frame; empty if there are none.
   std::vector<KeypointEvidence> keypoints;
-  FigureFit fit;      // of the pose before frames around it are heard and feet planted
-  double moving = 0;  // m^2 of a picture that are newly covered while nobody is tracked
+  FigureFit fit;      // of the pose before it is smoothed and before feet are held in place
+  double moving = 0;  // area that is newly covered in an image while nobody is tracked, m^2
 };
 
 struct WalkerFilterContext {
   const TrackerScene& scene;
   MotionContext motion;
-  int samples;  // particles kept of a frame
+  int samples;  // particles of a frame that are kept
   int threads;
-  double model_error = 1;  // multiplies what tracker/smooth/model_error.h adds to the spreads
+  double model_error = 1;  // factor on the deviations that tracker/smooth/model_error.h adds
 };
 
-// Takes `filter` through frame number `frame`. `first`: the particles have just been drawn, and
-// only their noise is to be added. The record is not tracked when no particle survives.
+// Advances `filter` to frame number `frame`. `first`: the particles have just been drawn, and only
+// their noise is added. If no particle survives, the record is one of a frame that is not tracked.
 FrameRecord advance(const WalkerFilterContext& context, const SceneEvidence& evidence,
                     uint32_t frame, uint64_t seed, bool first, WalkerFilter& filter);
 

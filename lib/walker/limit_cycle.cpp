@@ -80,7 +80,8 @@ VectorXcd characteristic(const VectorXcd& multipliers, Index size) {
 }
 
 // Whether `found` lies where the branch of `before` was predicted to go and is as stable. Along a
-// branch both differences shrink with the step, between branches they do not.
+// branch both differences shrink with the step, between branches they do not. The shares are set by
+// hand.
 bool continues(const LimitCycle& before, const LimitCycle& found, const VectorXd& predicted) {
   constexpr double kOff = 0.5;          // of the way that the point has come
   constexpr double kNear = 1e-3;        // of the point's own size: too near to tell
@@ -130,7 +131,8 @@ std::optional<LimitCycle> find_limit_cycle(const ReturnMap& plain_map, const Sec
 
 FollowedCycle follow_limit_cycle(const MapFamily& family, const VectorXd& guess, double from,
                                  double to, const CycleOptions& options) {
-  constexpr double kFirstShare = 0.25, kSmallestShare = 2e-3, kTangentShare = 1e-4;  // of the way
+  constexpr double kFirstShare = 0.25, kSmallestShare = 2e-3,
+                   kTangentShare = 1e-4;  // of the way; by hand
   const auto at = [&](double share) { return from + share * (to - from); };
   const auto cycle_at = [&](double share, const VectorXd& near_it, const CycleOptions& how) {
     const double value = at(share);

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 // instant are within rounding of it.
 constexpr double kOnGuard = 1e-11;
 // Pieces in which a step is searched for the crossing of a guard that starts at zero, rises and
-// falls again.
+// falls again. By hand.
 constexpr int kScanPieces = 16;
 
 std::optional<WalkerState> smooth_step(const Walker& walker, const WalkerState& state, double dt,
@@ -82,7 +82,7 @@ class Crossing {
 
   // The time of the smallest value in [0, h], by golden section.
   double lowest(double h) const {
-    constexpr double kGolden = 0.6180339887498949;
+    constexpr double kGolden = 0.6180339887498949;  // the golden ratio less one
     double low = 0, high = h;
     for (int i = 0; i < 40 && high - low > options_.event_tolerance; ++i) {
       const double left = high - kGolden * (high - low), right = low + kGolden * (high - low);

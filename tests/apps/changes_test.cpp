@@ -84,7 +84,8 @@ TEST_F(Changes, ATrackSaysWhatHasChanged) {
   refused({}, "side.mp4 has changed");
   const ProgramResult done = track({"-y"});
   EXPECT_EQ(done.exit_code, 0);
-  EXPECT_THAT(done.err, HasSubstr("made again, for it was of other settings or inputs (side.mp4"));
+  EXPECT_THAT(done.err,
+              HasSubstr("made again, because it was made with other settings or inputs (side.mp4"));
   EXPECT_NE(record("a"), first);
   EXPECT_THAT(track().err, HasSubstr("these very settings and inputs"));
 }
@@ -106,7 +107,7 @@ TEST_F(Changes, ABatchKeepsNamesAndDoesTheRest) {
   EXPECT_EQ(preset.exit_code, 2);
   EXPECT_THAT(preset.err, AllOf(HasSubstr("3 complete, 0 degraded, 0 failed, 0 left"),
                                 HasSubstr("2 sequences are left as they are"),
-                                HasSubstr("\n  seed 1 -> 2: a, b\n"), HasSubstr("-y does them")));
+                                HasSubstr("\n  seed 1 -> 2: a, b\n"), HasSubstr("-y tracks them")));
   EXPECT_EQ(record("out/a"), a);
   EXPECT_THAT(record("out/c"), HasSubstr("\"seed\": 2"));
   EXPECT_EQ(batch({"--seed", "2", "-y"}).exit_code, 0);

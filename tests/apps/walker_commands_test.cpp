@@ -126,7 +126,7 @@ TEST(SimulateCommand, RefusesWhatItWouldNotDo) {
   refused(with(kneed, {"--sample", "1e-6", "--duration", "100"}), "1e+08 rows");
   refused(with(kneed, {"--slow", "1000", "--duration", "1000"}), "frames of animation");
   refused(with(kneed, {"--duration", "1", "--seconds", "2"}), "one of them");
-  refused(with(kneed, {"--feedback", "0.5"}), "allowed: it together with --prior");
+  refused(with(kneed, {"--feedback", "0.5"}), "allowed: this option together with --prior");
   refused(with(kneed, {"--threads", "many"}), "threads");
   refused(with(prior, {"--set", "slope=0.2"}), "0.2 rad of slope, allowed: -0.08 to 0.08");
   refused(with(prior, {"--step-length", "0.35"}), "0.35 m at 1.3 m/s, allowed: 0.");

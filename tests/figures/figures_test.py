@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Documents state what was measured: every marked table of a document is the kept one, of a commit of this history
-that is not too old, the fit sets of constants and the sets on which they are quoted are disjoint, and README.md
-states no measured figure outside of such a table without a link to a dated report."""
+that is not too old, the fit sets of constants and the sets on which they are quoted are disjoint, and README.md and
+the modules' pages state no measured figure outside of such a table without its source: a link to a dated report, the
+commit, or "by hand"."""
 import pathlib
 import re
 import subprocess
@@ -11,6 +12,8 @@ import tomllib
 FOLDER = pathlib.Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
 FIGURE = re.compile(r"\b\d+(?:[.,]\d+)?\s?(?:mm|cm|degrees|frames/s|ms a frame|nats)(?!\w)")
+REPORT = re.compile(r"\]\((?:lib|reports|\.\./\w+/reports)/|`lib/\w+/reports/")
+OTHER_SOURCE = re.compile(r"at commit [0-9a-f]{7}|by hand")  # on the page of a module
 MEASURED = re.compile(r"^Measured on \d{4}-\d\d-\d\d at commit ([0-9a-f]{7,}) ")
 
 
@@ -19,10 +22,10 @@ def git(*words):
 
 
 def commits_since(commit):
-    """To what is measured; None where the history does not say."""
+    """To the code that is measured, documents left out; None where the history does not say."""
     if git("cat-file", "-e", f"{commit}^{{commit}}").returncode != 0:
         return None
-    counted = git("rev-list", "--count", f"{commit}..HEAD", "--", "lib", "configs")
+    counted = git("rev-list", "--count", f"{commit}..HEAD", "--", "lib", "configs", ":!*.md")
     return int(counted.stdout) if counted.returncode == 0 else None
 
 
@@ -65,12 +68,14 @@ def wrong_quotes(quote):
             yield f"{quote['text']}: '{phrase}' is not what {quote['table']}.md has measured"
 
 
-def figures_without_source(text):
+def figures_without_source(place):
+    text = (ROOT / place).read_text()
     text = re.sub(r"<!-- figures: .*?<!-- end of figures -->", "", text, flags=re.DOTALL)
     text = re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)
     for paragraph in re.split(r"\n\s*\n|\n(?=- )|\n(?=\|)", text):
-        if FIGURE.search(paragraph) and "](lib/" not in paragraph:
-            yield f"README.md: a figure without its table or report: {' '.join(paragraph.split())[:100]}"
+        sourced = REPORT.search(paragraph) or (place != "README.md" and OTHER_SOURCE.search(paragraph))
+        if FIGURE.search(paragraph) and not sourced:
+            yield f"{place}: a figure without its table or report: {' '.join(paragraph.split())[:100]}"
 
 
 def main():
@@ -78,7 +83,8 @@ def main():
     wrong = [fault for table in spec["table"] for fault in faults_of(table, spec["most_commits"])]
     wrong += [fault for fit in spec["fit"] for fault in mixed_sets(fit)]
     wrong += [fault for quote in spec["quote"] for fault in wrong_quotes(quote)]
-    wrong += figures_without_source((ROOT / "README.md").read_text())
+    pages = ["README.md", *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("lib/*/README.md"))]
+    wrong += [fault for page in pages for fault in figures_without_source(page)]
     print("\n".join(wrong) or f"{len(spec['table'])} tables are as they were measured")
     return 1 if wrong else 0
 

@@ -96,7 +96,7 @@ TEST(ViconCalibration, NamesWhatIsWrong) {
   EXPECT_THAT(message("FOCAL_LENGTH=\"1650.5\"", "FOCAL_LENGTH=\"0\""),
               HasSubstr("a positive number"));
   // As where the coefficients were those of another unit.
-  EXPECT_THAT(message(" 6e-08 ", " 0.06 "), HasSubstr("k1 k2 p1 p2 k3 miss by"));
+  EXPECT_THAT(message(" 6e-08 ", " 0.06 "), HasSubstr("k1 k2 p1 p2 k3 describe only to"));
   EXPECT_THAT(message(" 6e-08 ", " 1e300 "), HasSubstr("a lens without end"));
   EXPECT_THAT(message("WORLD_ERROR=\"0.4\"/>",
                       "/>\n<KeyFrame ORIENTATION=\"0 0 0 1\" POSITION=\"0 0 0\"/>"),

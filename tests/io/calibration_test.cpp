@@ -99,9 +99,9 @@ TEST(OpenCvCalibration, RefusesMatricesThatAreNoRotation) {
   EXPECT_THAT(message_with(good, "2, 0, 0, 0, 0, -2, 0, 2, 0"),
               HasSubstr("a rotation scaled by 2"));
   EXPECT_THAT(message_with(good, "1, 0, 0, 0, 0, -1, 0, 1, 0.2"),
-              HasSubstr("a matrix that is no rotation"));
+              HasSubstr("a matrix that is not a rotation"));
   EXPECT_THAT(message_with(good, "0, 0, 0, 0, 0, 0, 0, 0, 0"),
-              HasSubstr("a matrix that is no rotation"));
+              HasSubstr("a matrix that is not a rotation"));
 }
 
 TEST(ReadCalibration, NamesTheFormatsItKnows) {

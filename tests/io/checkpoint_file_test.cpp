@@ -45,7 +45,7 @@ TEST_F(CheckpointFile, IsOfNoUseForAnythingElseAndSaysForWhat) {
   other[1].second = "abd";
   const FoundCheckpoint found = read_checkpoint(path_, other);
   EXPECT_FALSE(found.checkpoint);
-  EXPECT_THAT(found.unfit, HasSubstr("of other settings or inputs (scene abc -> abd)"));
+  EXPECT_THAT(found.unfit, HasSubstr("with other settings or inputs (scene abc -> abd)"));
   EXPECT_EQ(found.changed, "scene abc -> abd");
 }
 
@@ -62,9 +62,9 @@ TEST_F(CheckpointFile, ADamagedOneIsNotBelieved) {
     std::string damaged = sound;
     damaged[at] = static_cast<char>(damaged[at] ^ 4);
     folder_.write("checkpoint.bin", damaged);
-    EXPECT_THAT(read_checkpoint(path_, kOrigin).unfit, HasSubstr("no sound checkpoint")) << at;
+    EXPECT_THAT(read_checkpoint(path_, kOrigin).unfit, HasSubstr("no valid checkpoint")) << at;
     folder_.write("checkpoint.bin", sound.substr(0, at));
-    EXPECT_THAT(read_checkpoint(path_, kOrigin).unfit, HasSubstr("no sound checkpoint")) << at;
+    EXPECT_THAT(read_checkpoint(path_, kOrigin).unfit, HasSubstr("no valid checkpoint")) << at;
   }
 }
 

@@ -174,7 +174,8 @@ TEST_F(Calibrate, AWrongPointIsNamedByItsLine) {
     if (i == 3) pixel.x() += 60;
   };
   EXPECT_THAT(error_of(points_job(slip)),
-              testing::AllOf(HasSubstr("points.csv:5:"), HasSubstr("misses the others' camera")));
+              testing::AllOf(HasSubstr("points.csv:5:"),
+                             HasSubstr("a point that does not fit the others")));
 }
 
 TEST_F(Calibrate, PointsThatDetermineNothingAreRefused) {

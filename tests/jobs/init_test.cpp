@@ -169,21 +169,22 @@ TEST_F(Init, OfTwoVideosWantsAWalk) {
                                    place_ / "two"),
                           {});
               }),
-              HasSubstr("found nobody whom the pose network sees"));
+              HasSubstr("found no person that the pose network detects"));
   const fs::path folder = kSharedData / "opencap_squats";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
   EXPECT_THAT(message_of([&] {
                 init_pair(pair_job(folder, {"cam0.mp4", "cam1.mp4"}, 1.80, place_ / "two"), {});
               }),
-              HasSubstr("somebody who stays in one place"));
+              HasSubstr("a person who stays in one place"));
   EXPECT_FALSE(fs::exists(place_ / "two"));
 }
 
 TEST_F(Init, SaysWhenNobodyWalksThroughThePicture) {
   EXPECT_THAT(
       message_of([&] { init_scene(job(kDemo / "side_background.mp4", 1.75), {}); }),
-      HasSubstr("side_background.mp4: found nobody who is seen whole, allowed: somebody who "
-                "walks through the picture from the side"));
+      HasSubstr(
+          "side_background.mp4: found no person whose head and feet are visible, allowed: a person "
+          "who walks through the picture, seen from the side"));
   EXPECT_FALSE(fs::exists(place_.path() / "out"));
   EXPECT_THAT(message_of([&] { init_scene(job(place_ / "no.mp4", 1.75), {}); }),
               HasSubstr("no.mp4"));

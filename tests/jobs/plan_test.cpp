@@ -219,7 +219,7 @@ TEST(Plan, AdvisesWhatASceneDoesNotNeed) {
   one_camera.cameras.resize(1);
   const Plan lean = plan_with({}, one_camera);
   EXPECT_TRUE(lean.advice.empty()) << advice(lean);
-  EXPECT_THAT(plan_text(lean), HasSubstr("Nothing in it seems more"));
+  EXPECT_THAT(plan_text(lean), HasSubstr("Nothing in this model seems to be more"));
   // Flow that is all there is cannot be spared.
   const Plan flow =
       plan_with({"observation.background.enabled=false", "observation.foreground.enabled=false",

@@ -228,7 +228,7 @@ TEST_F(Resume, ACheckpointOfSomethingElseIsRefusedOrLeftBehind) {
     FAIL() << "another seed";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(),
-                testing::HasSubstr("of other settings or inputs (seed 1 -> 2); -y starts anew"));
+                testing::HasSubstr("with other settings or inputs (seed 1 -> 2); -y starts anew"));
   }
   EXPECT_TRUE(fs::exists(folder_ / "killed/checkpoint.bin"));
   other.config.values.seed = 1;

@@ -151,7 +151,7 @@ TEST_F(Sweep, RunsOfAnotherConfigurationAreNotReusedOrOverwrittenUnasked) {
   run_sweep(each, {});
   each.config.values.tracker.filter.moves = 2;
   EXPECT_THAT(message_of<UsageError>([&] { run_sweep(each, {}); }),
-              HasSubstr("of other settings or inputs (filter.moves 1 -> 2); -y"));
+              HasSubstr("with other settings or inputs (filter.moves 1 -> 2); -y"));
   each.again = true;
   EXPECT_NO_THROW(run_sweep(each, {}));
 }

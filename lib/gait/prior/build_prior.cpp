@@ -235,7 +235,7 @@ class Builder {
     solved_[at(n)] = 1;
   }
 
-  static constexpr int kSweepRounds = 2;
+  static constexpr int kSweepRounds = 2;  // of an optimisation in a sweep; by hand
   const PriorGrid& grid_;
   GaitPrior prior_;
   std::vector<char> solved_;

@@ -9,7 +9,7 @@ inline namespace gait {
 namespace {
 
 // Bounds of a feedback's correction, in square roots of stiffness and damping relative to the
-// gait's own, and absolute for rest angles (rad) and relative for the impulse.
+// gait's own, and absolute for rest angles (rad) and relative for the impulse. By hand.
 constexpr double kMaxCorrection = 0.4;
 constexpr double kMaxRestCorrection = 0.3;
 

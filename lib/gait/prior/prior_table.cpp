@@ -69,7 +69,7 @@ NodeShares node_shares(const PriorAxes& axes, const GaitTarget& at) {
 }
 
 GaitTarget shifted(GaitTarget target) {
-  constexpr double kShift = 0.1;
+  constexpr double kShift = 0.1;  // of the way to the preferred step length; by hand
   target.step_length += kShift * (preferred_step_length(target.speed) - target.step_length);
   return target;
 }

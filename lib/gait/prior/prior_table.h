@@ -16,7 +16,8 @@ struct GaitTarget {
 };
 
 // Step length that people choose, 0.694 m (v / 1.25 m/s)^0.42 for a leg of 0.9275 m, in leg
-// lengths: the middle of a table's second axis, nothing else.
+// lengths (the power is that of Grieve 1968, as Kuo 2001, J. Biomech. Eng. 123, quotes it). It is
+// only used as the middle of a table's second axis.
 double preferred_step_length(double speed);
 
 // Nodes stand on speeds x ratios x slopes, the slope running fastest. Axes ascend.

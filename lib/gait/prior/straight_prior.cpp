@@ -9,7 +9,8 @@ namespace walktrack {
 inline namespace gait {
 namespace {
 
-// Bound of a feedback's correction, of the control; of 0.05 where that is smaller.
+// Bound of a feedback's correction, as a share of the control, or of kLeastControl if the control
+// is smaller. By hand.
 constexpr double kMaxStraightCorrection = 0.4;
 constexpr double kLeastControl = 0.05;
 
@@ -34,7 +35,7 @@ StraightNode blended(const StraightPrior& prior, const GaitTarget& at) {
 GaitTarget nearest_valid(const StraightPrior& prior, const GaitTarget& wished) {
   const GaitTarget at = within(prior, wished);
   const double preferred = preferred_step_length(at.speed);
-  constexpr double kStride = 0.01;  // of the preferred step
+  constexpr double kStride = 0.01;  // of the preferred step; by hand
   const double span = (prior.ratios.back() - prior.ratios.front()) * preferred;
   for (double shift = 0; shift <= span; shift += kStride * preferred)
     for (const double side : {-1.0, 1.0}) {

@@ -51,7 +51,7 @@ FoundCheckpoint read_checkpoint(const std::filesystem::path& path, const Origin&
   const std::string_view digest = rest.substr(0, kDigestBytes);
   if (headed) rest.remove_prefix(kDigestBytes);
   if (!headed || sha256(rest) != digest)
-    return {{}, fmt::format("{}: found no sound checkpoint of this format", path.string())};
+    return {{}, fmt::format("{}: found no valid checkpoint of this format", path.string())};
   return parse_checkpoint(rest, path.native(), origin);
 }
 
@@ -63,7 +63,8 @@ FoundCheckpoint parse_checkpoint(std::string_view bytes, std::string_view file,
   const std::string changed = differences(checkpoint.origin, origin);
   if (!changed.empty())
     return {{},
-            fmt::format("{}: the checkpoint is of other settings or inputs ({})", file, changed),
+            fmt::format("{}: the checkpoint was made with other settings or inputs ({})", file,
+                        changed),
             changed};
   state_fields(archive, checkpoint);
   if (!archive.at_end()) archive.fail("more than it announces");

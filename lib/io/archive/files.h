@@ -16,7 +16,7 @@ inline namespace io {
 std::string read_text_file(const std::filesystem::path& path, size_t max_bytes);
 
 // The whole text as one finite number in C notation, blanks around it ignored; nullopt if it is
-// anything else. The locale has no say.
+// anything else. It does not depend on the locale.
 std::optional<double> number_from_text(std::string_view text);
 
 // The shortest text that reads back as the same double.

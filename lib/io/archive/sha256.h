@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4): the digest by which two results are told to be the same.
+// SHA-256 (FIPS 180-4): the digest that shows whether two results are the same.
 #pragma once
 
 #include <string>

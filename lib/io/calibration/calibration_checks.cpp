@@ -36,8 +36,11 @@ Eigen::Matrix3d checked_rotation(const Eigen::Matrix3d& matrix, const Complain& 
         (matrix.transpose() * matrix / (scale * scale) - identity).cwiseAbs().maxCoeff() <=
         kRotationTolerance;
     complain("rotation",
-             scaled ? fmt::format("a rotation scaled by {:g}", scale)
-                    : fmt::format("a matrix that is no rotation (R'R is off by {:.2g})", error),
+             scaled
+                 ? fmt::format("a rotation scaled by {:g}", scale)
+                 : fmt::format(
+                       "a matrix that is not a rotation (R'R differs from the identity by {:.2g})",
+                       error),
              "an orthonormal 3x3 matrix or a Rodrigues vector");
   }
   if (matrix.determinant() < 0) {

@@ -45,7 +45,7 @@ void set_inverse_distortion(Camera& camera,
   for (Eigen::Index i = 0; i < count; ++i)
     worst = std::max(worst, missed.segment<2>(2 * i).cwiseProduct(camera.focal_px).norm());
   if (!(worst <= kMostLensMisfit) || !k.allFinite())
-    complain(key, fmt::format("a lens that k1 k2 p1 p2 k3 miss by {:.2g} px", worst),
+    complain(key, fmt::format("a lens that k1 k2 p1 p2 k3 describe only to {:.2g} px", worst),
              fmt::format("at most {:g} px", kMostLensMisfit));
   set_distortion(camera, std::vector<double>(k.data(), k.data() + 5));
 }

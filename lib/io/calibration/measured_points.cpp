@@ -38,9 +38,9 @@ MeasuredPoints read_measured_points(const std::filesystem::path& path) {
     out.lines.push_back(row.line);
   }
   if (out.pixels.size() < kFewestPoints)
-    throw InputError(
-        describe({table.file, 0, ""}, fmt::format("{} points", out.pixels.size()),
-                 fmt::format("at least {}; eight or more tell mistakes apart", kFewestPoints)));
+    throw InputError(describe(
+        {table.file, 0, ""}, fmt::format("{} points", out.pixels.size()),
+        fmt::format("at least {}; with eight or more, mistakes can be found", kFewestPoints)));
   if (on_one_line(out.world))
     throw InputError(describe({table.file, 0, ""}, "points that all lie on one line",
                               "points spread over the ground that the camera sees"));

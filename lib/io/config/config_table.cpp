@@ -63,7 +63,8 @@ void add_motion(ParameterTable& table) {
             {"markov", MotionKind::kMarkov}},
            "dynamics of a particle: the kneed walker, a walker with straight legs, or none");
   m.choice("path", &M::path, {{"spatial", Path::kSpatial}, {"sagittal", Path::kSagittal}},
-           "path of the walk: anywhere, or a straight line in whose upright plane all joints move");
+           "path of the walk: free in space, or a straight line, with all joints moving in its "
+           "upright plane");
   m.number("markov_noise_scale", &M::markov_noise_scale, 0, 100,
            "factor on the noise of model markov");
   m.number("torso_torque", &M::torso_torque, 0, 10, "noise of the torso torque, M g L per sqrt(s)");
@@ -152,21 +153,22 @@ void add_search(ParameterTable& table) {
 
 void add_track(ParameterTable& table) {
   using T = TrackerConfig;
-  ParameterGroup<T> t(table, "track", "keeping the track", &Config::tracker);
+  ParameterGroup<T> t(table, "track", "when a track is lost, and what is reported",
+                      &Config::tracker);
   using M = MonitorConfig;
   ParameterGroup<M> m(table, "track", "", &Config::tracker, &T::monitor);
   m.number("lost_below", &M::lost_below, 0, 1,
            "share of the likelihood's median below which a frame counts as lost");
   m.number("lost_after", &M::lost_after, 0, 100,
            "time below lost_below after which the track is lost, s");
+  m.number("outscored_after", &M::outscored_after, 0, 100,
+           "time after which the track is lost if its likelihood is lower than that of a rigid "
+           "figure, s");
   m.number(
-      "outscored_after", &M::outscored_after, 0, 100,
-      "time of a lower likelihood than that of a rigid figure after which the track is lost, s");
-  m.number("off_detected_after", &M::off_detected_after, 0, 100,
-           "time of lying on none of the people whose keypoints are seen after which the track is "
-           "lost, s");
+      "off_detected_after", &M::off_detected_after, 0, 100,
+      "time after which the track is lost if the figure lies on none of the detected people, s");
   m.number("reacquire_within", &M::reacquire_within, 0, 1000,
-           "time in which a lost subject is searched only within walking distance, s");
+           "time for which a lost subject is searched only within walking distance, s");
   t.number("model_error", &T::model_error, 0, 100,
            "factor on the part of the 90 % bands that is not the particles' spread");
   t.choice("estimate", &T::estimate, {{"mean", EstimateKind::kMean}, {"map", EstimateKind::kMap}},

@@ -16,7 +16,7 @@ namespace {
 // Pixels. Two panels above each other, names of the estimates between title and curves.
 constexpr double kWidth = 900, kLeft = 60, kRight = 880, kLegendLine = 18, kTop = 44;
 constexpr double kPanel = 220, kBetween = 64, kBottom = 76;
-constexpr double kBarShare = 0.8;  // of a joint's room
+constexpr double kBarShare = 0.8;  // of the width for a joint
 
 // From zero to the first round error at or above `most`.
 SvgAxis error_axis(double most, double top) {

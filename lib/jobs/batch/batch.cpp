@@ -81,7 +81,7 @@ class Queue {
   }
 
  private:
-  // What failed, and what is in the way, is for its own worker to see to and to say.
+  // The worker of a sequence reports its failures, and files that are in the way.
   bool may_steal(const Sequence& sequence) const {
     if (fs::exists(sequence.output / kFailureFile)) return false;
     if (decide(job_, sequence).todo != Todo::kFirst) return false;

@@ -2,12 +2,12 @@
 // one costs one row of a table and nothing else.
 //
 // OUT/<sequence>/ is the result folder of one sequence (see io/archive/result_folder.h) with
-// log.txt, what its process said, and failure.txt, why there is no result. Run again, complete
-// sequences are passed over and all others done, from their checkpoints where they have left any;
-// those whose result or checkpoint is of other settings or inputs are left as they are and named,
-// or done again if that is wanted; see batch_changes.h.
-// Several workers may share OUT: each claims a sequence before it does it (sequence_claim.h).
-// summary.csv, failures.txt and batch.html are made from the folders as they stand.
+// log.txt, the messages of its process, and failure.txt, the reason if there is no result. A batch
+// that is run again skips complete sequences and tracks all others, from their checkpoints if they
+// have any. Sequences whose result or checkpoint was made with other settings or inputs are left as
+// they are and reported, or tracked again if that is wanted; see batch_changes.h. Several workers
+// may share OUT: each claims a sequence before it tracks it (sequence_claim.h). summary.csv,
+// failures.txt and batch.html are made from the result folders as they are.
 #pragma once
 
 #include <filesystem>

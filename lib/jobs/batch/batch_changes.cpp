@@ -50,7 +50,7 @@ std::string changes_in(const fs::path& folder, const fs::path& scene,
 }
 
 Decision decide(const BatchJob& job, const Sequence& sequence) {
-  if (!fs::exists(sequence.output))  // which is all there is to say of most of a million
+  if (!fs::exists(sequence.output))  // which is the case for most of a million sequences
     return {job.retry_failed ? Todo::kNothing : Todo::kFirst};
   // A failure may stand beside a complete result: then the last try to make it again failed.
   const bool failed =

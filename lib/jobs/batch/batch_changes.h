@@ -1,5 +1,5 @@
-// Which sequences a batch has to do: what is not complete, and which results of an earlier batch
-// were made otherwise than this one would make them.
+// The sequences that a batch has to track: those that are not complete, and those whose results
+// were made by an earlier batch in another way than this one would make them.
 #pragma once
 
 #include <functional>

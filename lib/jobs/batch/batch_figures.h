@@ -1,4 +1,4 @@
-// What a table of many results says about each: some numbers of its run.json and gait.json.
+// The numbers of a result, from its run.json and gait.json, that tables of many results contain.
 #pragma once
 
 #include <array>

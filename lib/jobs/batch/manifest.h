@@ -1,13 +1,14 @@
-// A list of sequences in a file: what `batch --manifest` does in the place of those below a folder.
+// A list of sequences in a file, which `batch --manifest` tracks instead of those below a folder.
 //
-// One path a line, from the manifest's folder (of standard input, from the working directory) and,
-// where wanted, after a tab the name of its result folder below the output. Without it the name is
-// the path's, as find_sequences() makes it: "a/b/scene.yaml" is "a/b", "/data/a/one.yaml" is
-// "data/a/one", from the manifest's folder where it lies below. Empty lines and those that begin
-// with '#' are passed over. Whether a file is there is the matter of its own sequence.
+// Each line has a path relative to the manifest's folder (for standard input, to the working
+// directory) and may have, after a tab, the name of its result folder below the output. Without a
+// name it is made from the path, as by find_sequences(): "a/b/scene.yaml" is "a/b",
+// "/data/a/one.yaml" is "data/a/one"; for paths below the manifest's folder it is relative to that.
+// Empty lines and lines that begin with '#' are ignored. Whether a file exists is only checked when
+// its sequence is tracked.
 //
-// A manifest may have millions of lines: it is read anew each time that it is gone through, and
-// eight bytes a line are held while it is looked at for the first time.
+// A manifest may have millions of lines: it is read anew every time that it is iterated over, and
+// eight bytes for each line are kept in memory while it is read for the first time.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The sequences of a batch, in their order: those found below a folder, which are held, or the rows
-// of a manifest, which are not.
+// The sequences of a batch in their order: those found below a folder, which are kept in memory, or
+// the rows of a manifest, which are not.
 #pragma once
 
 #include <optional>

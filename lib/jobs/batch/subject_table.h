@@ -1,4 +1,4 @@
-// What the sequences of each subject come to, for the batch's page.
+// The means over the sequences of each subject, for the batch's page.
 #pragma once
 
 #include <array>

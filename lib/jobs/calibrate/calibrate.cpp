@@ -209,14 +209,15 @@ std::string calibrate_text(const CalibrateOutcome& outcome) {
     out += fmt::format(" (± {:.1f} {:.1f})", outcome.focal_sd->x(), outcome.focal_sd->y());
   out += fmt::format(", centre {:.1f} {:.1f} px\n", camera.centre_px.x(), camera.centre_px.y());
   if (outcome.lens_rms_px)
-    out +=
-        fmt::format("lens: {} views, misses {:.3f} px rms\n", outcome.views, *outcome.lens_rms_px);
+    out += fmt::format("lens: {} views, reprojection error {:.3f} px rms\n", outcome.views,
+                       *outcome.lens_rms_px);
   if (outcome.place_rms_px) {
     const Eigen::Vector3d at = camera_centre(camera);
     const CameraInspection view = inspect_camera(camera, 1.75);
     out += fmt::format(
-        "place: {:.3f} {:.3f} {:.3f} m, looking {:.1f} deg down, misses {:.3f} px rms\n", at.x(),
-        at.y(), at.z(), deg_from_rad(view.tilt), *outcome.place_rms_px);
+        "place: {:.3f} {:.3f} {:.3f} m, looking {:.1f} deg down, reprojection error {:.3f} px "
+        "rms\n",
+        at.x(), at.y(), at.z(), deg_from_rad(view.tilt), *outcome.place_rms_px);
   }
   for (const std::string& note : outcome.notes) out += "note: " + note + "\n";
   return out;

@@ -32,7 +32,7 @@ cv::Mat lens_picture(const BoardViews& views, const LensFit& fit) {
       draw_stroke(image, at, at - kEnlargement * fit.misses[v][i], kMiss);
     }
   }
-  draw_caption(image, fmt::format("{} views: green found, red the miss x{:.0f}; rms {:.2f} px",
+  draw_caption(image, fmt::format("{} views: green found, red error x{:.0f}; rms {:.2f} px",
                                   views.points.size(), kEnlargement, fit.rms_px));
   return image;
 }

@@ -45,20 +45,20 @@ size_t odd_one_out(const Camera& lens, const MeasuredPoints& points, double& rms
   const std::string allowed = fmt::format("at most {:.1f} px: pixels, metres or the lens are wrong",
                                           kLargestRmsShare * lens.width_px);
   if (!fit || !std::isfinite(fit->rms_px))
-    throw InputError(describe({file, 0, ""}, "points that no place of the camera fits", allowed));
+    throw InputError(describe({file, 0, ""}, "points that fit no place of the camera", allowed));
   if (camera_centre(fit->camera).z() <= 0)
     throw InputError(describe({file, 0, ""}, "a camera under the ground", "z up, ground z = 0"));
   double rms_without = 0;
   const size_t odd = odd_one_out(lens, points, rms_without);
   const bool alone = points.pixels.size() > 5 && rms_without < 0.3 * fit->rms_px;
-  throw InputError(describe({file, alone ? points.lines[odd] : 0, ""},
-                            alone
-                                ? fmt::format("a point that misses the others' camera; without it "
-                                              "they fit to {:.1f} px, with it",
-                                              rms_without) +
-                                      fmt::format(" to {:.1f} px", fit->rms_px)
-                                : fmt::format("points that miss by {:.1f} px", fit->rms_px),
-                            allowed));
+  throw InputError(describe(
+      {file, alone ? points.lines[odd] : 0, ""},
+      alone ? fmt::format("a point that does not fit the others; the reprojection error without it "
+                          "is {:.1f} px, with it",
+                          rms_without) +
+                  fmt::format(" {:.1f} px", fit->rms_px)
+            : fmt::format("points with reprojection errors of {:.1f} px (rms)", fit->rms_px),
+      allowed));
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ Eigen::Vector3d upright_axis(const std::vector<std::pair<std::string, Camera>>& 
   return out;
 }
 
-// Scenes take z for up and z = 0 for the floor, unless they are told.
+// In scenes z is up and the floor is z = 0 unless the scene states something else.
 std::vector<std::string> notes_about_axes(
     const std::vector<std::pair<std::string, Camera>>& cameras) {
   const Eigen::Vector3d up = upright_axis(cameras);

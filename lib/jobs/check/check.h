@@ -1,14 +1,14 @@
-// `walktrack check`: the doctor for scenes. Says of every camera where it stands and what it sees,
-// and finds the mistakes that calibrations and recordings have: a camera underground or upside
-// down, millimetres for metres, a transposed or inverted pose, a wrong image size, unequal or
-// varying frame rates, turned phone video, cameras out of step. A mistake comes with its cure.
+// `walktrack check`: checks a scene. It says where every camera stands and what it sees, and finds
+// the usual mistakes of calibrations and recordings: a camera underground or upside down,
+// millimetres for metres, a transposed or inverted pose, a wrong image size, unequal or varying
+// frame rates, turned phone video, cameras out of step. A mistake comes with its cure.
 //
-// What costs little of it is done before a scene is tracked, too: calibrations, sizes, rates and
-// time stamps without decoding a frame; of two cameras or more the first frames, to see whether
-// they are in step.
+// The checks that cost little are made before a scene is tracked, too: calibrations, sizes, rates
+// and time stamps without decoding a frame, and for two or more cameras the first frames, to see
+// whether they are in step.
 //
-// What makes a scene unreadable (a matrix that is no rotation, a mirrored one, unknown keys) is an
-// InputError of the readers, with its place and cure.
+// Mistakes that make a scene unreadable (a matrix that is not a rotation, a mirrored one, unknown
+// keys) are InputErrors of the readers, with their place and cure.
 #pragma once
 
 #include <filesystem>

@@ -17,7 +17,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// What a room, a street or a roof allows; beyond it the reader of the report should look twice.
+// Usual heights in a room, a street or on a roof; a camera outside of them may be calibrated
+// wrongly.
 constexpr double kLowest = 0.05, kHighest = 50;  // m above the ground
 constexpr double kMostRoll = 1.05;               // rad
 constexpr double kSmallestPerson = 12;           // px
@@ -172,9 +173,10 @@ double undistorted_view(const Camera& camera) {
 void check_lens(const SceneCamera& camera, CheckReport& report) {
   const double view = undistorted_view(camera.camera);
   if (camera.camera.lens != Lens::kFisheye && view > kWidestView) {
-    report.findings.push_back({camera.name, true,
-                               fmt::format("sees {:.0f} degrees at once", deg_from_rad(view)),
-                               "the focal length must be in pixels, not in millimetres"});
+    report.findings.push_back(
+        {camera.name, true,
+         fmt::format("has a field of view of {:.0f} degrees", deg_from_rad(view)),
+         "the focal length must be in pixels, not in millimetres"});
     return;
   }
   if (!lens_covers_image(camera.camera)) {

@@ -1,4 +1,4 @@
-// The parts of `walktrack check`. Each looks at one thing and adds its findings.
+// The parts of `walktrack check`. Each checks one property and adds its findings.
 #pragma once
 
 #include <filesystem>

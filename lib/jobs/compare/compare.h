@@ -1,11 +1,11 @@
-// `walktrack compare`: what differs between groups of results (before and after, two treatments),
-// or between the left and the right side of one group: joint angles over the gait cycle, and gait
-// parameters, as a page, JSON and tables.
+// `walktrack compare`: the differences between groups of results (before and after, two
+// treatments), or between the left and the right side of one group, in joint angles over the gait
+// cycle and in gait parameters, as a page, JSON and tables.
 //
 // Differences are a group's mean minus the first group's. Bands and intervals are bootstrapped over
 // strides, or over results where these are of several people or days
-// (metrics/statistics/mean_difference.h). What a difference has to exceed to be more than the
-// scatter of strides and the tracker's own uncertainty together is the minimal detectable change, t
+// (metrics/statistics/mean_difference.h). The smallest difference that exceeds the scatter of
+// strides and the tracker's own uncertainty together is the minimal detectable change, t
 // sqrt(SEM_a^2 + SEM_b^2), where SEM^2 of a group = SD^2 / n over its strides + (SD by the results'
 // own bands)^2 / number of results, and t is Student's at 97.5 % (1.96 with many strides) with the
 // degrees of freedom that Welch gives the strides.

@@ -1,4 +1,5 @@
-// What `walktrack compare` takes from a result: the curves and numbers of every stride, by side.
+// The data that `walktrack compare` reads from a result: the curves and numbers of every stride, by
+// side.
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // `walktrack analyse`: gait, joint angles and forces of a motion that is already there (motion
 // capture, another tracker, an edited joints.csv) as a result folder: the tables of
 // jobs/track/results/motion_tables.h, report.html, run.json. Without particles there are no bands.
-// Forces of a motion beside whose file run.json says that it was tracked are smoothed as `track`
-// smooths them.
+// If a run.json beside the motion's file says that the motion was tracked, its forces are smoothed
+// as `track` smooths them.
 #pragma once
 
 #include <filesystem>

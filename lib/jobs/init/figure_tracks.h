@@ -1,4 +1,4 @@
-// Who is who from frame to frame, of figures that a camera sees.
+// Follows the figures that a camera sees from frame to frame.
 #pragma once
 
 #include <cstddef>

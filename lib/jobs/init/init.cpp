@@ -63,19 +63,21 @@ std::vector<SeenStature> checked_positions(const InitJob& job, const SeenWalk& w
   for (const WalkerPosition& position : stride_positions(walk.figures, walk.looks_hz))
     out.push_back(position.seen);
   const auto trouble = [&](const std::string& found) {
-    throw InputError(describe({job.video.string(), 0, ""}, found,
-                              "somebody who walks through the picture from the side, seen whole, "
-                              "head and feet, for a second or more, higher than a tenth of it"));
+    throw InputError(
+        describe({job.video.string(), 0, ""}, found,
+                 "a person who walks through the picture, seen from the side, with head and feet "
+                 "visible for a second or more, and higher than a tenth of the picture"));
   };
-  if (walk.figures.empty()) trouble("nobody who is seen whole");
+  if (walk.figures.empty()) trouble("no person whose head and feet are visible");
   if (out.empty())
-    trouble(fmt::format("somebody seen whole in {} frames only", walk.figures.size()));
+    trouble(fmt::format("a person whose head and feet are visible in only {} frames",
+                        walk.figures.size()));
   const auto [left, right] =
       std::minmax_element(walk.figures.begin(), walk.figures.end(),
                           [](const SeenFigure& a, const SeenFigure& b) { return a.u_px < b.u_px; });
   const double size = out[out.size() / 2].bottom_px - out[out.size() / 2].top_px;
   if (right->u_px - left->u_px < kLeastWay * size)
-    trouble("somebody who stays in one place, or comes straight towards the camera");
+    trouble("a person who stays in one place, or comes straight towards the camera");
   return out;
 }
 

@@ -1,14 +1,15 @@
-// `walktrack init`: from a video of somebody who walks past a camera, and their height, to a scene
-// that can be tracked, without a chessboard or a measured point.
+// `walktrack init`: makes a scene that can be tracked from a video of a person who walks past a
+// camera and their height, without a chessboard or measured points.
 //
 // The camera stands still and nearly level, and sees the walk from the side. Scale and floor come
-// from where head and feet are over the walk (camera/view_from_walker.h), the focal length from a
-// stated field of view, else from what the file says of its lens or its telephone, else from a
-// usual one. Speeds and steps across the picture need the scale alone; distance from the camera and
-// everything across the walk are as uncertain as the focal length, and are not to be used, unless
-// lengths on the floor are known: the sides and diagonals of a tile.
+// from the places of head and feet during the walk (camera/view_from_walker.h), the focal length
+// from a stated field of view, otherwise from the lens or the telephone that the file names,
+// otherwise from a usual value. Speeds and steps across the picture need only the scale. The
+// distance from the camera and all lengths across the walk are as uncertain as the focal length and
+// are not to be used, unless lengths on the floor are known, such as the sides and diagonals of a
+// tile.
 //
-// Of two videos of one walk, from cameras that stand still: jobs/init/init_pair.h.
+// For two videos of one walk, from cameras that stand still, see jobs/init/init_pair.h.
 #pragma once
 
 #include <filesystem>
@@ -51,7 +52,7 @@ struct InitOutcome {
 // InputError where nobody is seen to walk through the picture, or not whole.
 InitOutcome init_scene(const InitJob& job, const JobControl& control);
 
-// For people: what came of it, with bands, and what it may be used for.
+// The result in words, with bands, and what it may be used for.
 std::string init_text(const InitOutcome& outcome);
 
 }  // namespace jobs

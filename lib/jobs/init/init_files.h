@@ -1,4 +1,4 @@
-// What the scenes and records of `walktrack init` have in common.
+// The parts that the scenes and records of `walktrack init` for one and two videos have in common.
 #pragma once
 
 #include <filesystem>

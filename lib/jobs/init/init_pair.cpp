@@ -51,7 +51,7 @@ void check_way(const InitPairJob& job, const std::vector<Eigen::Vector3d>& place
   double way = 0;
   for (const Eigen::Vector3d& place : places) way = std::max(way, (place - places.front()).norm());
   if (way < kLeastPairWay * job.height)
-    throw InputError(describe({job.videos[0].string(), 0, ""}, "somebody who stays in one place",
+    throw InputError(describe({job.videos[0].string(), 0, ""}, "a person who stays in one place",
                               "somebody who walks through both videos at the same time"));
 }
 
@@ -140,7 +140,7 @@ Outputs outputs_of(const InitPairJob& job) {
 
 std::string lag_text(const InitPairOutcome& out) {
   if (out.start_frame == 0) return "none that shows";
-  return fmt::format("{} began {:.2f} s (± {:.2f}) before {}, which the scene takes out",
+  return fmt::format("{} began {:.2f} s (± {:.2f}) before {}, which the scene corrects",
                      kNames[out.early], std::abs(out.views.lag.value), 2 * out.views.lag.sd,
                      kNames[1 - out.early]);
 }

@@ -1,10 +1,10 @@
-// `walktrack init` of two videos: from one walk that two cameras saw at the same time, and the
-// subject's height, to a scene that can be tracked.
+// `walktrack init` for two videos: makes a scene that can be tracked from one walk that two cameras
+// saw at the same time and the subject's height.
 //
-// Both cameras stand still. The pose network sees the subject's joints in both; where their rays
-// meet tells how the cameras stand to each other, how long their lenses are and by how much one
-// clock is behind the other (observation/two_views/two_views.h). Metric in all directions, as good
-// as the height and the lenses are known.
+// Both cameras stand still. The pose network sees the subject's joints in both; their rays have to
+// meet, which determines the pose of the cameras relative to each other, their focal lengths and
+// the lag between their clocks (observation/two_views/two_views.h). All lengths are metric, and as
+// exact as the height and the lenses are known.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ struct InitPairOutcome {
 // Errors of seen_person.h and two_views.h.
 InitPairOutcome init_pair(const InitPairJob& job, const JobControl& control);
 
-// For people: what came of it, with bands, and what it may be used for.
+// The result in words, with bands, and what it may be used for.
 std::string init_pair_text(const InitPairOutcome& outcome);
 
 }  // namespace jobs

@@ -1,4 +1,4 @@
-// What is taken for the lens of a video that nobody calibrated.
+// The lens that is assumed for a video that was not calibrated.
 #pragma once
 
 #include <filesystem>

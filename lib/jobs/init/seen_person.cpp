@@ -85,7 +85,7 @@ SeenPerson seen_person(const std::filesystem::path& video, const std::optional<d
     out.frames.push_back(figure.frame);
   }
   if (out.moments.empty())
-    throw InputError(describe({video.string(), 0, ""}, "nobody whom the pose network sees",
+    throw InputError(describe({video.string(), 0, ""}, "no person that the pose network detects",
                               "a video of somebody who walks"));
   return out;
 }

@@ -1,4 +1,4 @@
-// The keypoints of whoever goes farthest in a video, by the program's pose network.
+// The keypoints, by the program's pose network, of the person who moves farthest in a video.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
-// Where head and feet of the one who walks are in a video whose camera is not known: from what
-// differs from the background, and where the program has its pose network only where that sees a
-// person.
+// The places of head and feet of a walking person in a video whose camera is not known: from pixels
+// that differ from the background and, if the program has the pose network, only where the network
+// detects a person.
 #pragma once
 
 #include <optional>

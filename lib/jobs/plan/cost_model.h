@@ -1,7 +1,6 @@
-// What a frame of tracking is expected to cost: counts of what has to be done, times what each
-// takes.
+// The expected cost of a frame of tracking: the counts of the operations times the cost of each.
 //
-//   decoding     a d                      a: pixels of a camera's frame as it is filmed
+//   decoding     a d                      a: pixels of a camera's frame as it was recorded
 //   pose network i                        for every cut-out that it looks at
 //   each likelihood term that is on, see Term::cost (observation/terms.h), such as
 //     background   b r                    r: pixels of the shrunk image around the walker

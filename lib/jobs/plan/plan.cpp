@@ -134,10 +134,10 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
   items.fact("legs, trunk", true, "tilt, hips, knees and ankles in the walk's upright planes",
              "always: the subject's body");
   items.fact("sideways", values.tracker.motion.path == Path::kSpatial,
-             "turning, pelvic obliquity, hips sideways, 6 angles more",
+             "turning, pelvic obliquity, hips moving sideways, 6 more angles",
              items.origin("motion.path"));
   items.flag("head", "body.head", values.body.head, "head and neck");
-  items.flag("arms", "body.arms", values.body.arms, "both arms, 6 angles more");
+  items.flag("arms", "body.arms", values.body.arms, "both arms, 6 more angles");
   for (const TermSwitch& term : term_switches())
     items.flag(std::string(term.plan_name), fmt::format("observation.{}.enabled", term.key),
                term.on(values.observation), std::string(term.what));
@@ -153,21 +153,25 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
   const auto without = std::count_if(scene.cameras.begin(), scene.cameras.end(), learns_from_video);
   const bool left_out = leaves_people_out(scene, values);
   items.fact("bystanders", left_out,
-             "who stand are left out of a background learned from the video, by the pose network",
+             "people who stand are found by the pose network and left out of a background learned "
+             "from the video",
              without == 0 ? "every camera has pictures of the empty scene"
                           : items.origin("observation.background.without_people"));
-  items.fact("search", !scene.initial, "finding the walk in a window of frames, until it is found",
+  items.fact("search", !scene.initial,
+             "a search for the walk in a window of frames, until it is found",
              scene.initial ? "the scene says where the walk begins" : "the scene has no `initial`");
   items.fact("size", !scene.height_given,
-             "the subject's height, from the first window in which they are found",
+             "the subject's height, estimated from the first window in which the subject is found",
              scene.height_given ? "the scene gives subject.height"
                                 : "the scene does not give subject.height");
   const bool paced = values.budget.frame_ms > 0;
-  items.fact("budget", paced,
-             paced ? fmt::format("{} to {} particles, by the clock: not deterministic",
-                                 values.budget.least_particles, values.budget.most_particles)
-                   : "particles adapted to a time per frame",
-             items.origin("budget.frame_ms"));
+  items.fact(
+      "budget", paced,
+      paced ? fmt::format(
+                  "{} to {} particles, depending on the time that frames take: not deterministic",
+                  values.budget.least_particles, values.budget.most_particles)
+            : "particles adapted to a time per frame",
+      items.origin("budget.frame_ms"));
   return items.take();
 }
 
@@ -187,7 +191,7 @@ std::vector<std::pair<std::string, double>> memory_of(const Scene& scene, const 
   std::vector<std::pair<std::string, double>> out{
       {"particles", plan.work.particles * plan.state.bytes_per_particle},
       {"start hypotheses of the first half second", hypotheses * plan.state.bytes_per_particle},
-      {"frames as filmed", 2 * 3 * filmed},
+      {"frames as recorded", 2 * 3 * filmed},
       {"log-ratios around the subject", sizeof(int32_t) * region * std::max(1, plan.work.classes)}};
   if (images.background.enabled) {
     out.emplace_back("background", 5 * sizeof(float) * shrunk);
@@ -228,9 +232,8 @@ void advise_cameras(const Scene& scene, const Config& config, double all,
   Scene one = scene;
   one.cameras = {scene.cameras[side.value_or(0)]};
   out.push_back(fmt::format(
-      "Cameras: speed, steps and sagittal angles need one camera at the side{}; that {}. Step "
-      "width, "
-      "turning and the distance to the camera need a second one.",
+      "Cameras: speed, steps and sagittal angles need only one camera at the side{}; this {}. Step "
+      "width, turning and the distance to the camera need a second one.",
       side ? fmt::format(" ({})", one.cameras[0].name) : "", saving(total_ms(one, config), all)));
 }
 
@@ -245,12 +248,12 @@ std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& c
   const ObservationConfig& images = values.observation;
   if (is_on(images.flow) && (images.background.enabled || images.foreground.enabled))
     out.push_back(
-        fmt::format("Flow: silhouettes hold the track of a subject who stands out from the "
-                    "scene; observation.flow.enabled=off {}.",
+        fmt::format("Flow: silhouettes suffice for a subject who stands out from the background; "
+                    "observation.flow.enabled=off {}.",
                     without("observation.flow.enabled=off")));
   if (is_on(images.keypoints) && scene.cameras.size() > cameras_in_doubt(scene))
     out.push_back(
-        fmt::format("Keypoints: with {} cameras silhouettes alone tell left from right; "
+        fmt::format("Keypoints: with {} cameras silhouettes alone suffice to tell left from right; "
                     "observation.keypoints.enabled=off {}.",
                     scene.cameras.size(), without("observation.keypoints.enabled=off")));
   if (values.body.arms)
@@ -261,7 +264,7 @@ std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& c
   const double usual = ObservationConfig{}.person_px;
   if (images.person_px > usual)
     out.push_back(
-        fmt::format("Scale: above {:g} px of person height little is won; "
+        fmt::format("Scale: more than {:g} px of person height gain little accuracy; "
                     "observation.person_px={:g} {}.",
                     usual, usual, without(fmt::format("observation.person_px={:g}", usual))));
   const int usual_particles = FilterConfig{}.particles;

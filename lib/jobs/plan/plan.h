@@ -1,5 +1,5 @@
-// `walktrack plan`: what tracking a scene would model and why, what it would cost, and what the
-// scene does not need. Nothing is tracked: costs are those of cost_model.h.
+// `walktrack plan`: says what tracking a scene would model and why, what it would cost, and what
+// the scene does not need. It tracks nothing: the costs are those of cost_model.h.
 #pragma once
 
 #include <filesystem>

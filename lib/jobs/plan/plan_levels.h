@@ -1,4 +1,4 @@
-// The levels of the model, each with all that the one before has, and the lowest that a scene
+// The levels of the model, each of which includes the one before, and the lowest level that a scene
 // needs:
 //
 //   sagittal path  legs and trunk in upright planes of one heading, for a side view of one camera;

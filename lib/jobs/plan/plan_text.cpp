@@ -47,12 +47,15 @@ const char* mark(const PlanLevel& level) {
 }
 
 std::string levels_text(const Plan& plan) {
-  std::string out = "\nLevels of the model: numbers a particle carries, drawn anew in a frame\n";
+  std::string out =
+      "\nLevels of the model: numbers in the state of a particle, and how many are drawn anew in a "
+      "frame\n";
   for (const PlanLevel& level : plan.levels.levels)
     out += fmt::format("  {:<14} {:3} {:3}  {}{}\n", level.name, level.state.dimension(),
                        level.state.noise, fmt::join(level.settings, " "), mark(level));
   return out + fmt::format(
-                   "Lowest that suffices, by the scene:\n  {}.\nProved by measurement:\n"
+                   "The lowest level that suffices for this scene:\n  {}.\nA measurement shows "
+                   "whether it does:\n"
                    "  walktrack sweep {} -o out/levels --over path=sagittal:spatial\n",
                    plan.levels.why, plan.scene.string());
 }
@@ -61,10 +64,8 @@ std::string cost_text(const Plan& plan) {
   const double all = plan.cost.sum();
   std::string out = fmt::format(
       "\nTime of a frame, {:g} particles: {:.1f} ms of CPU, {:.3g} frames/s on one thread of the "
-      "machine "
-      "that the\ncosts were measured on. Shares and ratios carry over to other machines, times "
-      "only "
-      "roughly;\n'walktrack sweep' measures yours.\n",
+      "machine on which the\ncosts were measured. Shares and ratios hold for other machines, too, "
+      "times only roughly;\n'walktrack sweep' measures them on yours.\n",
       plan.work.particles, all, kMsPerSecond / all);
   for (const auto& [stage, ms] : stages(plan.cost))
     if (ms > 0)
@@ -80,27 +81,28 @@ std::string plan_text(const Plan& plan) {
                   plan.cameras.size(), plan.cameras.size() == 1 ? "" : "s", plan.frame_rate);
   for (const PlanCamera& camera : plan.cameras)
     out += fmt::format(
-        "  {}: {}x{} px, worked on at 1/{} of it, where a person is {:.0f} px high; "
-        "{:.0f} % of the time\n",
+        "  {}: {}x{} px, shrunk to 1/{} of it, where a person is {:.0f} px high; {:.0f} % of the "
+        "time\n",
         camera.name, camera.width_px, camera.height_px, camera.shrink, camera.person_px,
         kInPercent * camera.ms / plan.cost.sum());
   out += '\n';
   out += items_text(plan);
   const PlanState& s = plan.state;
   out += fmt::format(
-      "\nState: {} numbers a particle (walker {}, standing foot and way {}, angles and their rates "
-      "{}, controls {}),\n{} drawn anew in a frame; "
-      "{:.0f} bytes with its copies, most of them fixed\n",
+      "\nState: {} numbers for each particle (walker {}, stance foot and path {}, angles and their "
+      "rates {}, controls {}),\n{} of them drawn anew in every frame; {:.0f} bytes with copies, "
+      "most of which do not depend on the model\n",
       s.dimension(), s.walker, s.place, s.pose, s.controls, s.noise, s.bytes_per_particle);
   out += levels_text(plan);
   out += cost_text(plan);
-  out += "\nMemory, besides the program's own\n";
+  out += "\nMemory, in addition to that of the program itself\n";
   for (const auto& [what, bytes] : plan.memory)
     out += fmt::format("  {:<38} {:7.2f} MiB\n", what, bytes / kMiB);
-  if (plan.advice.empty()) return out + "\nNothing in it seems more than the scene needs.\n";
-  out += "\nWhat the scene may not need\n";
+  if (plan.advice.empty())
+    return out + "\nNothing in this model seems to be more than the scene needs.\n";
+  out += "\nWhat could be left out\n";
   for (const std::string& sentence : plan.advice) out += fmt::format("- {}\n", sentence);
-  return out + "'walktrack sweep' proves each on this scene.\n";
+  return out + "'walktrack sweep' measures on this scene what each would cost in accuracy.\n";
 }
 
 std::string plan_json(const Plan& plan) {

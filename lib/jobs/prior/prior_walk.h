@@ -1,5 +1,5 @@
-// A walk out of a table of gaits: at every support transfer the walker takes the controls
-// of the gait at the speed wanted by then, corrected by the feedback: `walktrack simulate --prior`.
+// A walk from a table of gaits: at every support transfer the walker gets the controls of the gait
+// at the present target speed, corrected by the feedback: `walktrack simulate --prior`.
 #pragma once
 
 #include "gait/walk_plan.h"

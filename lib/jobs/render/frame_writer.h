@@ -1,5 +1,5 @@
-// Where the frames of one camera go: a video, or a folder of numbered PNG images. Images hold what
-// was rendered to the last bit; an encoder adds its own, and does not promise the same twice.
+// Writes the frames of one camera as a video or as a folder of numbered PNG images. Images hold
+// exactly what was rendered; a video encoder changes it, and not always in the same way.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// A walk of the kneed walker as cameras would see it, with what the ground did to its feet: the
-// motion of `walktrack render` whose truth includes forces.
+// A walk of the kneed walker as cameras would see it, with its ground reactions: the motion of
+// `walktrack render` whose truth includes forces.
 //
 // The walker walks in a vertical plane. Hips and feet are half a hip width to either side of it,
 // feet lie where its round feet roll (rolled_ankle of tracker/state/particle.h), a swinging foot

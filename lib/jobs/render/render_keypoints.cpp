@@ -36,7 +36,7 @@ constexpr std::array kPoints{std::pair{kNose, Joint::kHead},
 constexpr std::array kLegPairs{std::pair{kLeftHip, kRightHip}, std::pair{kLeftKnee, kRightKnee},
                                std::pair{kLeftAnkle, kRightAnkle},
                                std::pair{kLeftBigToe, kRightBigToe}};
-constexpr double kLeastConfidence = 0.4;
+constexpr double kLeastConfidence = 0.4;  // of a made point; by hand
 // Streams of random numbers beyond those of cameras' sensors; a camera has some for each person.
 constexpr uint32_t kStreams = 1u << 30, kStreamsOfCamera = 1u << 10;
 

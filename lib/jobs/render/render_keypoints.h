@@ -1,5 +1,5 @@
-// What a pose detector would write of a rendered video, with the faults that are asked for:
-// OpenPose JSON with the 26 points of HALPE_26, one file a frame.
+// Keypoints of a rendered video as a pose detector would write them, with the errors that the
+// options state: OpenPose JSON with the 26 points of HALPE_26, one file for each frame.
 //
 // A point's error is normal, with a standard deviation of noise x height of the person in the
 // picture / sqrt(confidence); confidences are spread evenly over 0.4 to 1. The face has a nose (the

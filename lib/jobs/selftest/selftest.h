@@ -1,7 +1,7 @@
 // `walktrack selftest`: extremes that recordings and configurations can hold, each tried on the
 // installed program with videos made on the spot. Every trial has to end as
 //   tracked    the walker was followed, within kTrackedWithin of the truth where there is one
-//   degraded   there is a result that says itself what it lacks (exit 4 of `track`), or whose
+//   degraded there is a result that says what is wrong with it (exit 4 of `track`), or whose
 //              figures are stated here
 //   reported   the input was refused with a message for the user
 // Anything else is a failure: a number that is not finite, a crash, a hang, memory without bound.

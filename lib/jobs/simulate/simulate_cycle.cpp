@@ -49,7 +49,8 @@ VectorXd settled_guess(const Walker& walker, VectorXd x, const CycleJob& job) {
   for (int i = 0; i < job.settling_steps; ++i) {
     const auto next = map(x);
     if (!next) {
-      throw std::runtime_error(fmt::format("no limit cycle: the guess falls in step {}", i + 1));
+      throw std::runtime_error(
+          fmt::format("no limit cycle: the walker falls in step {} from its start state", i + 1));
     }
     x = *next;
   }

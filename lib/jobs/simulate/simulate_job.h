@@ -1,4 +1,4 @@
-// `walktrack simulate`: a walker through time, as tables, pictures and an animation.
+// `walktrack simulate`: simulates a walker and writes tables, pictures and an animation.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
-// The kneed walker at the extremes: how each integrator fares over time steps, stiffness, mass
-// ratios, slopes and degenerate postures. Every cell is one of three words, and never a NaN:
+// The kneed walker in extreme cases: the errors of each integrator for time steps, stiffness, mass
+// ratios, slopes and degenerate postures. Every cell of the table is one of three words, and never
+// a NaN:
 //   accurate   ends within `tolerance` of the reference in every angle, with the same fate
 //   degraded   ends sound or fallen, but farther away
 //   diverged   reported as such

@@ -118,7 +118,7 @@ class Sweep {
         changes_since(track.output, origin_of_track(track.scene, track.config));
     if (changed.empty()) return true;
     throw UsageError(
-        fmt::format("{} holds a run of other settings or inputs ({}); -y measures all runs again",
+        fmt::format("{} holds a run with other settings or inputs ({}); -y measures all runs again",
                     track.output.string(), changed));
   }
 

@@ -1,13 +1,13 @@
-// `walktrack sweep`: how much accuracy a scene's tracking gives for its time. Every setting of a
-// grid tracks the scene with several seeds; written are
-//   sweep.csv, sweep.json, sweep.md   one row a setting, and in words which one to use
+// `walktrack sweep`: measures the accuracy of tracking a scene against its time. The scene is
+// tracked with every setting of a grid and several seeds; the files are
+//   sweep.csv, sweep.json, sweep.md   one row for each setting, and which one to use
 //   sweep.svg                         error against time, the settings that nothing beats joined
 //   runs/<setting>/seed_<n>/          every run's own result folder
-// A run whose folder is complete, of the same scene, configuration and program, is not done again:
-// a sweep that was interrupted goes on, one with more values or seeds measures what is new. Seeds
-// are the outer loop, so that a change of the machine's load meets all settings alike, and what was
-// done before an interruption is a whole, if coarser, picture. Errors follow from inputs and seeds
-// alone; times do not.
+// A run whose folder is complete, of the same scene, configuration and program, is not repeated: a
+// sweep that was interrupted continues, and one with more values or seeds measures only these.
+// Seeds are the outer loop, so that a change of the machine's load affects all settings equally,
+// and the runs before an interruption cover all settings. Errors depend only on inputs and seeds;
+// times do not.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// The grid of a sweep: which parameters are turned, to which values, and what that makes of a scene
-// and its configuration.
+// The grid of a sweep: the parameters that are varied, their values, and the scene and
+// configuration for each combination.
 //
 //   particles=50:100:300      filter.particles           scale=60:120     observation.person_px
 //   moves, layers, arms       filter.moves, filter.max_layers, body.arms

@@ -1,7 +1,8 @@
-// How many particles a frame can afford, from the time that frames have taken:
+// The number of particles that a frame can have within its budget, from the time that frames have
+// taken:
 //   seconds = fixed + particles * each
 // `fixed` (decoding, evidence) and `each` (the filter) are measured in every frame and averaged
-// over the last ten or so. The one place where the clock has a say in results.
+// over the last ten or so. Only here results depend on the clock.
 #pragma once
 
 #include "io/config/config.h"

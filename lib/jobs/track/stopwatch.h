@@ -1,4 +1,4 @@
-// What time went into: the clock's, and that of all threads that worked.
+// Measures the time of stages: wall time, and the CPU time of all threads.
 #pragma once
 
 #include <chrono>

@@ -58,7 +58,7 @@ void require_a_term(const ObservationConfig& observation) {
 std::string trouble_with(const Checkpoint& checkpoint, const TrackJob& job) {
   const fs::path file = job.output / kCheckpointFile;
   if (checkpoint.observers.size() != job.scene.cameras.size())
-    return fmt::format("{}: the checkpoint is of another number of cameras", file.string());
+    return fmt::format("{}: the checkpoint has another number of cameras", file.string());
   return frame_file_trouble(job.output / kFramesFile, checkpoint.records, checkpoint.record_bytes);
 }
 
@@ -73,8 +73,9 @@ void see_to_earlier_result(const TrackJob& job, const Origin& origin, const JobC
                                                  : "other settings or inputs (" + changed + ")"));
   }
   if (!changed.empty())
-    control.say(fmt::format("{}: made again, for it was of other settings or inputs ({})",
-                            job.output.string(), changed));
+    control.say(
+        fmt::format("{}: made again, because it was made with other settings or inputs ({})",
+                    job.output.string(), changed));
 }
 
 struct LookedAt {

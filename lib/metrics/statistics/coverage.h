@@ -1,4 +1,4 @@
-// Whether stated intervals hold the truth as often as they say.
+// How often stated intervals contain the truth.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// What nothing beats: of measured trades of cost for error, those with no other that costs at most
-// as much and errs at most as much, and does better in one of the two.
+// The Pareto front of cost and error: the measured settings for which no other setting has at most
+// the same cost and at most the same error, and is better in one of the two.
 #pragma once
 
 #include <span>
@@ -12,7 +12,8 @@ struct Trade {
   double cost, error;  // any units; smaller is better
 };
 
-// By trade. Equal trades are on the front together; one with a NaN never is, and beats nothing.
+// By setting. Equal settings are on the front together; a setting with a NaN never is, and excludes
+// no other.
 std::vector<bool> pareto_front(std::span<const Trade> trades);
 
 }  // namespace metrics

@@ -53,7 +53,8 @@ class AppearanceModel {
   Counts empty_counts() const;
   void learn(const ColourBins& bins, const Counts& counts);
 
-  // By class. A model that takes the states of another one of the same classes goes on as that one.
+  // By class. A model that resumes the states of another one of the same classes continues like
+  // that one.
   const std::vector<AppearanceState>& states() const { return states_; }
   void resume(std::vector<AppearanceState> states) { states_ = std::move(states); }
 

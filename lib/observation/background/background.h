@@ -1,4 +1,5 @@
-// What each pixel looks like without the walker, and how probable a frame's pixels are under that.
+// The model of the empty scene: the look of each pixel without the subject, and the probability of
+// a frame's pixels under it.
 //
 // Per pixel: mean of (Y, Co, Cg), a variance of luma and one of chroma, and the luma gradient
 // of the mean image. With I the observed pixel, mu the mean times the frame's gain:
@@ -10,8 +11,8 @@
 // or anything for the one pixel in ten that lies beside an edge. The maximum stands for the sum:
 // the parts hardly overlap.
 //
-// Variances are at least those of the sensor noise plus what an edge does that shakes by
-// `jitter_px`, so a model can be made of a single image.
+// Variances are at least those of the sensor noise plus that of an edge that moves by `jitter_px`,
+// so that a model can be made from a single image.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@
 namespace walktrack {
 inline namespace observation {
 
-// Precision of a pixel that hardly any frame showed without people: what is behind them is not
-// known, and the pixel says nothing. Far below that of any that was seen.
+// Precision of a pixel that hardly any frame showed without people: the background behind them is
+// not known, and the pixel gives no evidence. Far below the precision of every pixel that was seen.
 inline constexpr float kNeverSeen = 1e-6F;
 inline bool never_seen(float precision) { return precision <= 2 * kNeverSeen; }
 
@@ -34,7 +35,7 @@ struct BackgroundModel {
   std::vector<float> luma_precision, chroma_precision;  // 1 / variance
 };
 
-// Where the light is measured: points of a grid over the image.
+// The places at which the light is measured: points of a grid over the image.
 struct LightPoint {
   int x, y;
   size_t pixel;  // in row order
@@ -51,7 +52,7 @@ void background_log_density(const BackgroundModel& model, const BackgroundConfig
                             std::span<float> out);
 
 // Moves the means of every `skip`-th row, from row `phase` on, towards the pixels of the frame that
-// the model explains: slow drift of the light is followed, a body never taken in.
+// the model explains: it follows a slow drift of the light and never learns a body.
 void follow_drift(BackgroundModel& model, const BackgroundConfig& config, const cv::Mat& bgr,
                   double gain, int phase, int skip);
 

@@ -51,8 +51,8 @@ Channel most_telling(const std::vector<Sample>& samples) {
   return best;
 }
 
-// Where most samples crowd: the middle of the shortest run of sorted values that holds `share` of
-// them (the shorth). Breaks down only when another colour fills a larger share.
+// Where the samples are densest: the middle of the shortest run of sorted values that holds `share`
+// of them (the shorth). Breaks down only when another colour fills a larger share.
 size_t densest_run(const std::vector<Sample>& sorted, Channel channel, size_t length) {
   const auto spread = [&](size_t i) {
     return sorted[i + length - 1].*channel - sorted[i].*channel;

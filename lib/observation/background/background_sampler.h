@@ -10,23 +10,25 @@
 namespace walktrack {
 inline namespace observation {
 
-// Collects frames in bounded memory and makes the model of them. Frames may show people: each pixel
-// takes the colour it shows most often, so a place must be free in the largest share of the frames,
-// not in all.
+// Collects frames in bounded memory and learns the model from them. Frames may show people: each
+// pixel gets the colour that it has most of the time, so that a place has to be free in the largest
+// share of the frames, not in all.
 class BackgroundSampler {
  public:
   // Frames are shrunk by the whole factor `shrink` by area averaging.
   BackgroundSampler(const BackgroundConfig& config, int shrink);
 
-  // Frames are spread evenly over all that were added, whatever their number.
+  // The frames that are kept are spread evenly over all frames that were added, whatever their
+  // number.
   void add(const cv::Mat& frame_bgr);
 
   int frames() const { return static_cast<int>(kept_.size()); }
-  // One of those that are kept: shrunk, BGR; valid until the next is added.
+  // One of the frames that are kept, shrunk, in BGR; valid until the next frame is added.
   cv::Mat frame(int index) const;
 
-  // Leaves out of the model what a kept frame shows where `mask` (8-bit, of that frame's size) is
-  // not 0. A pixel that hardly any frame shows free is kNeverSeen. After the last frame was added.
+  // Leaves out of the model the pixels of a kept frame at which `mask` (8-bit, of that frame's
+  // size) is not 0. A pixel that is free in hardly any frame becomes kNeverSeen. To be called after
+  // the last frame was added.
   void hide(int index, const cv::Mat& mask);
 
   // The same for any number of threads. Throws InputError when no frame was added.

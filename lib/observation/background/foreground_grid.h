@@ -1,4 +1,4 @@
-// A frame's foreground in coarse cells: enough to tell whether somebody moves.
+// A frame's foreground in coarse cells, which suffice to see whether somebody moves.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ inline namespace observation {
 
 struct ForegroundGrid {
   int columns = 0, rows = 0;
-  std::vector<uint8_t> covered;  // by row: whether most of the cell's pixels speak for a body
+  std::vector<uint8_t> covered;  // by row: whether most of the cell's pixels look like a body
 };
 
 // Cells are squares of `cell_px`; what is left over at the right and below is left out. No cells

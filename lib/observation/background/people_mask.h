@@ -1,4 +1,4 @@
-// Where in a picture people are, by the points of a pose detector.
+// The pixels of people in a picture, from the points of a pose detector.
 #pragma once
 
 #include <opencv2/core/mat.hpp>

@@ -51,7 +51,7 @@ cv::Mat median_frame(const std::vector<cv::Mat>& all) {
 
 // Where anything moves, and so much around it that closing gaps there is as in the whole image.
 cv::Rect moving_part(const cv::Mat& moving) {
-  constexpr int kAround = 4;
+  constexpr int kAround = 4;  // px, the reach of closing gaps
   const cv::Rect found = cv::boundingRect(moving);
   if (found.empty()) return {};
   const cv::Rect whole({}, moving.size());

@@ -1,5 +1,5 @@
-// What moves in a video, quickly: in each frame the largest blob that differs from the median
-// frame.
+// A fast search for what moves in a video: in each frame the largest blob that differs from the
+// median frame.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
-// Who can be seen whole in a picture of a camera that stands still: what differs from the
-// background, in one piece or where a pose network sees a person. Pictures may be worked on shrunk
-// (shrink.h).
+// People who are wholly visible in a picture of a camera that stands still: pixels that differ from
+// the background, in one piece or where a pose network detects a person. Pictures may be shrunk
+// first (shrink.h).
 #pragma once
 
 #include <optional>
@@ -37,8 +37,9 @@ struct WholeFigure {
 // the picture's edge.
 std::vector<WholeFigure> whole_figures(const cv::Mat& mask, int shrink);
 
-// All of the mask that is where a person was detected, for a figure may be in pieces; nothing where
-// head or ankles were not, or less of them stands out than of somebody whole.
+// All of the mask that lies where a person was detected, because a figure may be in pieces; nothing
+// if the head or the ankles were not detected, or if less of the person stands out than of a whole
+// figure.
 std::optional<WholeFigure> whole_figure_of(const DetectedPerson& person, const cv::Mat& mask,
                                            int shrink);
 

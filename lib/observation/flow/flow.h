@@ -1,5 +1,5 @@
-// Optical flow without measuring it: how probable a frame is after the one before, if a body has
-// moved from one pose to the other.
+// Optical flow without measuring it: the probability of a frame given the frame before, if a body
+// has moved from one pose to the other.
 //
 // With the grey images I (now) and J (before), and S the visible silhouette, every pixel u of the
 // frame is one of three kinds:
@@ -8,20 +8,21 @@
 //   uncovered, u in S_before and not in S_now: background that J does not show; I(u) is as the
 //     background's model says, or anything at all without one;
 //   background at rest: I(u) is Student-t about J(u).
-// So for any two poses this is a normalised density of all pixels asked, and what counts is
+// For any two poses this is a normalised density of all pixels that are used, and the term is
 //   sum over S_now [log p_body - log p_rest] + sum over S_before \ S_now [log p_uncovered - log
 //   p_rest],
-// zero for a body at rest. Squares of the t's scale: noise^2 + (error_px^2 + error_share^2 |u -
-// w|^2) |grad J|^2, of a body at rest as of background. J is as bright as I: the light's gain
-// between the frames has been taken out.
+// which is zero for a body at rest. The squared scale of the Student-t is noise^2 + (error_px^2 +
+// error_share^2 |u - w|^2) |grad J|^2, of a body at rest as of background. J is as bright as I: the
+// light's gain between the frames has been taken out.
 //
-// What moves beside the body and is no part of it (arms that it does not have, shadows, people
-// behind) must not pull the body to where it is: a tenth of the pixels, at rest or of the body, may
-// be anything, which bounds how strange one can be.
+// Moving things that are no part of the body (arms that it does not have, shadows, people behind)
+// must not pull the body towards them: a tenth of the pixels, at rest or of the body, may have any
+// colour, which bounds the effect of a single pixel.
 //
-// Asked are the pixels of a lattice a few centimetres apart on the body, after smoothing to match,
-// and each counts for its area. Flow that is measured first is wrong at the very places that matter
-// (reports/flow.md); no particle needs it: each brings its own motion along.
+// The pixels that are used form a lattice with a spacing of a few centimetres on the body, after
+// smoothing that matches this spacing, and each counts for its area. Measured flow would be wrong
+// at exactly the places that matter (reports/flow.md), and it is not needed, because each particle
+// has its own motion.
 #pragma once
 
 #include <vector>
@@ -49,8 +50,8 @@ struct EarlierPixel {
 
 // Two successive frames around a walker.
 struct FlowField {
-  PixelRect area;  // pixels that the density is of
-  int step = 1;    // px between those asked: (area.x0 + column step, area.y0 + row step)
+  PixelRect area;  // pixels of the density
+  int step = 1;  // px between the pixels that are used: (area.x0 + column step, area.y0 + row step)
   int columns = 0, rows = 0;
   std::vector<FlowCell> cells;  // row by row; none when there is no frame before
   LogRatioPlanes uncovered;     // prefix sums of FlowCell::uncovered, x and y being column and row

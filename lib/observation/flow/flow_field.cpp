@@ -16,8 +16,8 @@ namespace {
 constexpr double kLattice = 0.045;  // m: three across a leg
 constexpr double kReach = 0.7;      // m that a foot swings between frames, at seven a second
 constexpr int kLeastReach = 16;     // px
-// Of the smoothing, in steps of the lattice: what lies between its pixels is heard as well.
-// By hand.
+// Of the smoothing, in steps of the lattice, so that the pixels between those of the lattice
+// contribute, too. By hand.
 constexpr double kSmoothing = 0.4;
 constexpr double kLeastSmoothing = 0.8;  // px
 constexpr double kNats = 64;             // bound of a cell's sum, never met
@@ -83,6 +83,51 @@ class UncoveredDensity {
   double plain_, shadow_, darkest_, unknown_;
 };
 
+// log of the Student-t of a pixel at rest, about the same pixel of the frame before.
+class RestDensity {
+ public:
+  explicit RestDensity(const FlowConfig& c)
+      : dof_(c.dof),
+        peak_(log_t_peak(c.dof)),
+        noise2_(c.noise * c.noise),
+        error2_(c.error_px * c.error_px) {}
+
+  double log_density(double grey, const EarlierPixel& was) const {
+    const double off = grey - static_cast<double>(was.grey);
+    const double scale2 = noise2_ + error2_ * static_cast<double>(was.slope2);
+    return peak_ + 0.5 * dof_ * std::log(scale2) -
+           0.5 * (dof_ + 1) *
+               std::log(dof_ * scale2 +
+                        std::min(off * off, static_cast<double>(kStrangest) * scale2));
+  }
+
+ private:
+  double dof_, peak_, noise2_, error2_;
+};
+
+// The lattice over out.area, and the part of the image around it that may be compared.
+void lay_lattice(const PixelRect& image, double metres_per_px, FlowField& out) {
+  const PixelRect& area = out.area;
+  out.step = lattice_step(area, metres_per_px);
+  out.columns = (area.width() + out.step - 1) / out.step;
+  out.rows = (area.height() + out.step - 1) / out.step;
+  const int reach = std::max(kLeastReach, static_cast<int>(std::lround(kReach / metres_per_px)));
+  out.known =
+      intersection({area.x0 - reach, area.y0 - reach, area.x1 + reach, area.y1 + reach}, image);
+}
+
+const EarlierPixel& pixel_before(const FlowField& field, int x, int y) {
+  return field
+      .before[static_cast<size_t>(y - field.known.y0) * static_cast<size_t>(field.known.width()) +
+              static_cast<size_t>(x - field.known.x0)];
+}
+
+double luma_precision(const BackgroundModel& model, int x, int y) {
+  return static_cast<double>(
+      model.luma_precision[static_cast<size_t>(y) * static_cast<size_t>(model.width) +
+                           static_cast<size_t>(x)]);
+}
+
 void keep_before(const cv::Mat& past, FlowField& out) {
   cv::Mat gradient_x, gradient_y;  // grey levels per px
   cv::Sobel(past, gradient_x, CV_32F, 1, 0, 3, 1.0 / 8);
@@ -126,12 +171,7 @@ void make_flow_field(const ObservationConfig& config, const GreyImage& before, c
   out.cells.clear();
   out.area = area;
   if (area.empty()) return;
-  out.step = lattice_step(area, metres_per_px);
-  out.columns = (area.width() + out.step - 1) / out.step;
-  out.rows = (area.height() + out.step - 1) / out.step;
-  const int reach = std::max(kLeastReach, static_cast<int>(std::lround(kReach / metres_per_px)));
-  out.known = intersection({area.x0 - reach, area.y0 - reach, area.x1 + reach, area.y1 + reach},
-                           {0, 0, now.width, now.height});
+  lay_lattice({0, 0, now.width, now.height}, metres_per_px, out);
   const double sigma = std::max(kLeastSmoothing, kSmoothing * out.step);
   const cv::Mat past =
       smoothed(view_of(before)(rect_of(out.known)), sigma) * light_gain(before, now);
@@ -139,38 +179,20 @@ void make_flow_field(const ObservationConfig& config, const GreyImage& before, c
   const cv::Mat present = smoothed(view_of(now)(rect_of(area)), sigma);
   cv::Mat empty;
   if (background.model) empty = smoothed(grey_of(*background.model, area), sigma);
-  const FlowConfig& flow = config.flow;
-  const double peak = log_t_peak(flow.dof);
-  const double noise2 = flow.noise * flow.noise, error2 = flow.error_px * flow.error_px;
+  const RestDensity at_rest(config.flow);
   const UncoveredDensity density(config.background);
-  for (int row = 0; row < out.rows; ++row) {
-    const int y = row * out.step;
-    for (int column = 0; column < out.columns; ++column) {
-      const int x = column * out.step;
+  for (int y = 0; y < area.height(); y += out.step)
+    for (int x = 0; x < area.width(); x += out.step) {
       const double grey = static_cast<double>(present.at<float>(y, x));
-      const EarlierPixel& was = out.before[static_cast<size_t>(area.y0 + y - out.known.y0) *
-                                               static_cast<size_t>(out.known.width()) +
-                                           static_cast<size_t>(area.x0 + x - out.known.x0)];
-      const double off = grey - static_cast<double>(was.grey);
-      const double scale2 = noise2 + error2 * static_cast<double>(was.slope2);
-      const double rest =
-          peak + 0.5 * flow.dof * std::log(scale2) -
-          0.5 * (flow.dof + 1) *
-              std::log(flow.dof * scale2 +
-                       std::min(off * off, static_cast<double>(kStrangest) * scale2));
+      const double rest = at_rest.log_density(grey, pixel_before(out, area.x0 + x, area.y0 + y));
       double uncovered = -std::log(kLevels);
-      if (background.model) {
-        const size_t i =
-            static_cast<size_t>(area.y0 + y) * static_cast<size_t>(background.model->width) +
-            static_cast<size_t>(area.x0 + x);
+      if (background.model)
         uncovered =
             density.log_density(grey, background.gain * static_cast<double>(empty.at<float>(y, x)),
-                                static_cast<double>(background.model->luma_precision[i]));
-      }
+                                luma_precision(*background.model, area.x0 + x, area.y0 + y));
       out.cells.push_back({static_cast<float>(grey), static_cast<float>(rest),
                            static_cast<float>(uncovered - rest)});
     }
-  }
 }
 
 void block(const cv::Mat& blocked, FlowField& field) {

@@ -3,14 +3,15 @@
 // pose, the nearer leg was at n one frame ago and the farther one at f. With the grey images I
 // (now) and J (before),
 //   log ratio = (dof + 1)/2 [ log(dof + (I(u) - J(f))^2 / s^2) - log(dof + (I(u) - J(n))^2 / s^2) ]
-// speaks for the pose's order of the legs against the other one, s^2 the variance of a difference
-// (frame_pair.h), squares over s^2 at most 9. Both orders have the same outline: where silhouettes
-// from the side cannot tell left from right, this can.
+// is the evidence for the pose's order of the legs against the other one, s^2 the variance of a
+// difference (frame_pair.h), squares over s^2 at most 9. Both orders have the same outline: where
+// silhouettes from the side cannot tell left from right, this can.
 //
-// Asked are pixels well inside both legs, hidden by nothing else, and only below where hands swing:
-// an arm that the body does not have swings with the leg that is farther away and would speak for
-// the wrong order. A pixel that looks like the empty scene, now or where it would come from, shows
-// no leg and says nothing; so does cloth without texture or shade.
+// Only pixels well inside both legs are used, which are hidden by nothing else and lie below the
+// swinging hands: an arm, which the body does not have, swings with the leg that is farther away
+// and would be evidence for the wrong order. A pixel that looks like the empty scene, now or at the
+// place from which it would come, shows no leg and gives no evidence, and neither does cloth
+// without texture or shading.
 #pragma once
 
 #include <span>
@@ -22,7 +23,7 @@
 namespace walktrack {
 inline namespace observation {
 
-// The pixels that would be asked lie in here; empty while the legs do not overlap. `parts`: of the
+// The area of the pixels that would be used; empty while the legs do not overlap. `parts`: of the
 // body whose capsules these are.
 PixelRect leg_overlap(std::span<const Part> parts, const CapsuleList& now);
 

@@ -45,7 +45,7 @@ struct LegOrderTerm {
   static bool says(const CameraEvidence& evidence);
   static TermCosts cost(const ObservationConfig&, const TermWork&) { return {}; }
 
-  // How much more two successive frames of one camera speak for the legs' names than for the same
+  // Log-odds, by two successive frames of one camera, of the legs' labels against the same
   // poses with left and right swapped, nats; not tempered over frames.
   static double names_log_odds(const ObservationConfig& config, const Body& body,
                                const Camera& camera, const CameraEvidence& evidence_before,

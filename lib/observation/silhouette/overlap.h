@@ -1,11 +1,12 @@
-// How far a figure's silhouette and the foreground near it cover each other, in one camera.
+// The overlap of a figure's silhouette with the foreground near it, in one camera.
 //
-// A pixel's log-ratio says how surely it shows a body, or surely none. Weighted by that,
+// The log-ratio of a pixel says how certain it is that the pixel shows a body, or none. Weighted by
+// it,
 //   share = sum over both / (sum over either),
-// "both" being pixels of the silhouette that speak for a body, "either" besides them those of the
-// silhouette that speak against one and those near it, outside, that speak for one: the weighted
+// where "both" are the pixels of the silhouette that look like a body, and "either" are these, the
+// pixels of the silhouette that do not, and the pixels near it, outside, that do: the weighted
 // Jaccard index (intersection over union) of silhouette and foreground. Pixels of which nothing is
-// known, as behind occluders, count for nothing.
+// known, such as those behind occluders, are not counted.
 #pragma once
 
 #include "observation/silhouette/capsules.h"
@@ -23,8 +24,8 @@ struct Overlap {
   double share() const { return both / known(); }
 };
 
-// Near is what lies in the silhouette's bounding box, widened to all sides by kNearMargin of the
-// longer of its sides. A pixel speaks for a body if any of its parts may look so. By hand.
+// Near is everything in the silhouette's bounding box, widened to all sides by kNearMargin of the
+// longer of its sides. A pixel looks like a body if any part of the body may look so. By hand.
 inline constexpr double kNearMargin = 0.15;
 
 Overlap overlap(const LogRatioPlanes& planes, const CapsuleList& figure);

@@ -17,8 +17,9 @@ struct PairLag {
   int before = 0, after = 0;  // frames that the second camera shows things later than the first
   int changes_at = 0;         // frame from which `after` holds; equal lags: no change
   double sd = 0;              // frames, of `after` where nothing changes
-  // The time of one or more steps: a camera that stands a step further along the way than its
-  // calibration says sees the same. Or the time of a step is not known and this is no shorter.
+  // The lag is about the time of one or more steps: a camera that stands a step further along the
+  // walk than its calibration says would see the same. Also set if the time of a step is not known
+  // and the lag is not shorter than a step may be.
   bool may_be_steps = false;
 };
 // nullopt if the cameras see too little to tell.

@@ -1,4 +1,4 @@
-// How long a step takes, from how a walking figure rises and falls.
+// The time of a step, from the rise and fall of a walking figure.
 #pragma once
 
 #include <optional>

@@ -1,13 +1,13 @@
-// Where two cameras stand that saw one walker, from the walker's keypoints alone.
+// The poses of two cameras that recorded the same walk, from the subject's keypoints alone.
 //
 // Both cameras stand still and see the same person, about at the same time; their lenses are about
-// known. Every point that both see lies on two rays, which have to meet: that gives the cameras'
-// pose to each other up to its scale, their focal lengths and the lag between their clocks, by
-// bundle adjustment (Triggs et al., "Bundle adjustment - a modern synthesis", 1999) in which points
-// are where their rays are nearest, and bones do not change their length. The floor is level where
-// stance ankles stay as high, the trunk is upright and neither camera is turned much; the subject's
-// stature gives the scale (shares of it: Winter, "Biomechanics and motor control of human
-// movement", 2009, figure 4.1).
+// known. Every point that both see lies on two rays, which have to meet. This determines the pose
+// of the cameras relative to each other up to its scale, their focal lengths and the lag between
+// their clocks, by bundle adjustment (Triggs et al., "Bundle adjustment - a modern synthesis",
+// 1999) in which points are where their rays are nearest, and bones do not change their length. The
+// floor is level where stance ankles stay as high, the trunk is upright and neither camera is
+// turned much; the subject's stature gives the scale (shares of it: Winter, "Biomechanics and motor
+// control of human movement", 2009, figure 4.1).
 //
 // World: origin on the floor below the middle of the hips, mean of all moments; x to the right of
 // the first camera's picture, z up. Metres, radians, seconds; pixels have their centres at

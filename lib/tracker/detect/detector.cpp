@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 // By hand; sensitivity not measured.
 constexpr double kLeastHeight_px = 24;  // a smaller figure shows no gait
-constexpr size_t kScored = 12;          // frames that a climb looks at
+constexpr size_t kScored = 12;          // frames that are used by a climb
 constexpr double kApart = 0.5;          // m, between figures that count as two
 
 struct Outline {
@@ -50,13 +50,13 @@ bool visible_everywhere(std::span<const Camera> cameras, const Vector2d& positio
   return true;
 }
 
-// A straight walk and how well it explains a frame in the mean, nats.
+// A straight walk and its mean score for a frame, nats.
 struct Walk {
   DetectedWalk line;
   double score;
 };
 
-// The frames that a walk is looked for in.
+// The frames in which a walk is searched.
 struct Window {
   const WindowScore& score;
   size_t frames;
@@ -75,15 +75,15 @@ std::vector<double> scores_along(const Window& window, const DetectedWalk& line,
   return scores;
 }
 
-// How fast people walk, where nothing else is known: 1.25 +- .5 m/s. It matters along the viewing
-// rays, where images say little and a line may otherwise run off.
+// The prior of the speed, 1.25 +- .5 m/s. It matters along the viewing rays, for which images
+// contain little evidence, so that a line might drift away without it.
 double log_prior(const DetectedWalk& line) {
   const double strange = (line.velocity.norm() - 1.25) / 0.5;
   return -0.5 * strange * strange;
 }
 
-// Log-posterior of a line, by frame: every frame counts alike, for where a line lies, above all how
-// far away, is a matter of all of them.
+// Log-posterior of a line, by frame: every frame has the same weight, because all of them determine
+// the place of a line, above all its distance.
 double line_score(const Window& window, const DetectedWalk& line, size_t stride = 1) {
   const std::vector<double> scores = scores_along(window, line, line.velocity, stride);
   return std::accumulate(scores.begin(), scores.end(), 0.0) / double(scores.size()) +
@@ -96,7 +96,7 @@ double mean_of_worst_third(std::vector<double> scores) {
   return std::accumulate(scores.begin(), scores.begin() + long(third), 0.0) / double(third);
 }
 
-// Standing in the middle of a line.
+// A figure that stands in the middle of a line.
 DetectedWalk halt(const Window& window, const DetectedWalk& line) {
   const double half = 0.5 * window.dt * double(window.frames - 1);
   return {line.position + half * line.velocity, Vector2d::Zero(), line.ray, 0, 0};
@@ -111,9 +111,9 @@ double share_over_standing(const Window& window, const DetectedWalk& line) {
   return 1 - mean(scores_along(window, halt(window, line), line.velocity, 1)) / walking;
 }
 
-// Whether the line explains the frames where it fails better than standing in its middle explains
-// those where that fails: neither somebody who stands there, nor two things that are always there,
-// make a walk.
+// Whether the line explains its worst frames better than a figure standing in its middle explains
+// the worst frames of that: a person who stands there, or two things that are always there, are not
+// a walk.
 bool moves(const Window& window, const DetectedWalk& line) {
   const DetectedWalk still = halt(window, line);
   const Vector2d& pace = line.velocity;
@@ -172,7 +172,7 @@ Walk looked_at(const Window& window, const DetectedWalk& line) {
   return {line, line_score(window, line, stride_of_climb(window))};
 }
 
-// Climbs as far as a pattern of this step leads.
+// Climbs until a pattern of this step finds no improvement.
 Walk climbed(Walk walk, const Window& window, const std::vector<Shift>& pattern, double step) {
   const double time = window.dt * double(window.frames - 1);
   for (bool better = true; better;) {
@@ -193,7 +193,7 @@ Walk climbed(Walk walk, const Window& window, const std::vector<Shift>& pattern,
   return walk;
 }
 
-// Of walks that have come so close that they climb to the same top, the best.
+// The best of each group of walks that are so close that they climb to the same maximum.
 void drop_doubles(double apart, double time, std::vector<Walk>& walks) {
   std::stable_sort(walks.begin(), walks.end(),
                    [](const Walk& a, const Walk& b) { return a.score > b.score; });
@@ -213,7 +213,7 @@ void refine(const Window& window, const Vector2d& camera_position, std::span<con
             std::vector<Walk>& walks) {
   const double time = window.dt * double(window.frames - 1);
   for (const double step : steps) {
-    // One of them is climbed with by all threads, several by one each.
+    // A single climb uses all threads; of several climbs each uses one.
     Window own = window;
     if (walks.size() > 1) own.threads = 1;
     parallel_for(walks.size(), window.threads, [&](size_t i) {
@@ -243,7 +243,7 @@ double spread_of(const Shift& shift, const Walk& walk, const Window& window) {
          std::sqrt(independent_looks(window.frames - 1, window.dt) * std::max(kFlat, -bent));
 }
 
-// How uncertain a walk is along the ray.
+// The uncertainty of a walk along the ray.
 void measure_spread(const Vector2d& ray, const Window& window, Walk& walk) {
   constexpr double kStep = 0.2;  // m; by hand
   const double time = window.dt * double(window.frames - 1);
@@ -262,8 +262,8 @@ double least_mean(std::span<const double> values, size_t span) {
   return least;
 }
 
-// The least score that a line has for a moment, nats, looking at every `stride`-th frame: for less
-// than that it may fail, as a person's long step has poses that no figure resembles.
+// The lowest score of a line over a moment, nats, using every `stride`-th frame. Over shorter times
+// the score may be low, because a person's long step has poses that no figure resembles.
 double worst_moment(std::span<const double> scores, double dt, size_t stride) {
   constexpr double kMoment = 0.15;  // s; by hand, a tenth of a stride
   const auto moment =
@@ -271,7 +271,7 @@ double worst_moment(std::span<const double> scores, double dt, size_t stride) {
   return least_mean(scores, std::min(moment, scores.size()));
 }
 
-// Nobody hidden or cut off: the score does not stay far below its median.
+// The person is not hidden or cut off: the score does not stay far below its median.
 bool seen_throughout(const Walk& walk, const Window& window, const DetectorConfig& config) {
   std::vector<double> scores = scores_along(window, walk.line, walk.line.velocity, 1);
   const double least = worst_moment(scores, window.dt, 1);
@@ -279,8 +279,8 @@ bool seen_throughout(const Walk& walk, const Window& window, const DetectorConfi
   return least >= config.least_score && least >= config.least_share * scores[scores.size() / 2];
 }
 
-// What fits worse than an empty scene for a moment, half-way up, is of somebody who is hidden then:
-// the last steps do not change that.
+// A line that fits worse than an empty scene over a moment, half-way through its climb, belongs to
+// a person who is hidden then: the last steps of the climb do not change this.
 bool worth_refining(const Walk& walk, const Window& window) {
   const size_t stride = stride_of_climb(window);
   return worst_moment(scores_along(window, walk.line, walk.line.velocity, stride), window.dt,

@@ -1,9 +1,9 @@
-// Finding a walking person before any tracking: along which straight line over the ground does a
-// walking figure of the subject's size best explain the foreground of a short stretch of video?
+// Finds a walking person before any tracking: the straight line over the ground along which a
+// walking figure of the subject's size explains the foreground of a short stretch of video best.
 //
-// One frame of one camera hardly tells how far away somebody is; a stretch of walking does, because
-// one speed and one size must fit every frame. Candidates of two frames propose lines, which are
-// scored on all frames and refined.
+// One frame of one camera hardly determines how far away a person is. A stretch of walking does,
+// because one speed and one size must fit every frame. Candidate places in two frames propose
+// lines, which are scored on all frames and refined.
 #pragma once
 
 #include <functional>
@@ -20,12 +20,12 @@ inline namespace tracker {
 
 // By hand; sensitivity not measured.
 struct DetectorConfig {
-  double window = 1.2;       // s of video that a walk is read from: two steps
-  double slowest = 0.35;     // m/s: who is slower is not walking
+  double window = 1.2;       // s of video in which a walk is searched: two steps
+  double slowest = 0.35;     // m/s, lowest speed of a walk
   double fastest = 3.0;      // m/s
-  double least_share = 0.5;  // no moment's score below this share of the window's median
-  double least_score = 6;    // nats, of the figure in any frame
-  int candidates = 10;       // places of a frame that lines are laid through
+  double least_share = 0.5;  // lowest score of a frame, as a share of the window's median
+  double least_score = 6;    // nats, lowest score of the figure in any frame
+  int candidates = 10;       // places of a frame through which lines are tried
   int grid_px = 8;           // spacing of the pixel grid at 640 px of image width
 };
 
@@ -37,9 +37,11 @@ struct DetectedWalk {
   Eigen::Vector2d ray = Eigen::Vector2d::UnitX();  // over the ground, away from the first camera
   double position_sd = 0, velocity_sd = 0;         // along the ray
   bool given = false;                              // by the scene, not found in a video
-  bool standing = false;                           // still, and will set off at that velocity
-  double score = 0;  // nats a frame: how much better than an empty scene the walk explains it
-  double over_standing = 0;  // share of that which standing in the walk's middle does not explain
+  bool standing = false;  // stands still, and will set off at that velocity
+  // Nats for each frame: how much better the walk explains it than an empty scene.
+  double score = 0;
+  // Share of the score that a figure standing in the middle of the walk does not reach.
+  double over_standing = 0;
 };
 
 struct Place {
@@ -57,7 +59,7 @@ using WindowScore = std::function<double(size_t frame, const Eigen::Vector2d& pl
 double side_on_heading(const Camera& camera, const Eigen::Vector2d& position);
 
 // Ground points under the pixel grid of `cameras[0]` at which the figure lies wholly inside the
-// image of every camera that has it in front.
+// image of every camera that has the point in front of it.
 std::vector<Eigen::Vector2d> standing_places(std::span<const Camera> cameras, double height,
                                              const DetectorConfig& config);
 
@@ -65,8 +67,8 @@ std::vector<Eigen::Vector2d> standing_places(std::span<const Camera> cameras, do
 std::vector<Place> find_figures(const PlaceScore& score, std::span<const Eigen::Vector2d> places,
                                 const DetectorConfig& config, int threads);
 
-// The two frames of a window that have to say where somebody may stand: through a candidate of each
-// go the lines that are tried.
+// The two frames of a window for which candidate places are needed: every line that is tried goes
+// through a candidate of each.
 struct WindowEnds {
   size_t early, late;
 };
@@ -75,12 +77,12 @@ WindowEnds window_ends(size_t frames);
 struct WindowCandidates {
   size_t frames;  // of the window
   std::span<const Place> early, late;
-  std::span<const DetectedWalk> lines{};  // further ones to try, from elsewhere
+  std::span<const DetectedWalk> lines{};  // further lines to try, which do not come from candidates
 };
 
-// The walk through a window's frames, dt apart; nullopt when nobody walks there, is cut
-// off by an edge or hidden in part of the frames. `camera_position`: where the camera stands that
-// sees the distance least (any, if several do).
+// The walk through a window's frames, which are dt apart; nullopt if nobody walks there, or if the
+// person is cut off by an edge or hidden in some of the frames. `camera_position`: the place of the
+// camera along whose rays the distance is least certain (any camera, if there are several).
 std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
                                         const WindowScore& score, double dt,
                                         const Eigen::Vector2d& camera_position,
@@ -90,13 +92,14 @@ std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
 DetectedWalk nearest_walk(const DetectedWalk& walk, size_t frames, const WindowScore& score,
                           double dt, const Eigen::Vector2d& camera_position);
 
-// How far the log-posterior of a line of `frames` frames, dt apart, grows with its score, nats for
-// one nat a frame: frames close in time err together.
+// By how many nats the log-posterior of a line through `frames` frames, dt apart, grows if its
+// score grows by one nat for each frame: the errors of frames that are close in time are
+// correlated.
 double independent_looks(size_t frames, double dt);
 
-// The figures are not the person: errors of what is read off them are so much larger than the
-// curvature of their log-posterior tells (measured on rendered walks, where lines were off by 0.05
-// to 0.15 m and 0.1 to 0.3 m/s along the ray).
+// The figures differ from the person: the errors of a detected line are larger by this factor than
+// the curvature of the log-posterior says (measured on rendered walks, on which lines were wrong by
+// 0.05 to 0.15 m and 0.1 to 0.3 m/s along the ray).
 inline constexpr double kStrangeFigure = 2;
 
 }  // namespace tracker

@@ -19,10 +19,10 @@ using Eigen::Vector3d;
 // Heights of joints that stay where they are in walking, shares of the body's (Drillis & Contini
 // 1966; the ankles' mean over a stride).
 constexpr double kShoulderHeight = 0.80, kHipHeight = 0.52, kAnkleHeight = 0.06;
-// By hand: a worse fit, share of the height in the image, is no person standing there.
+// By hand: with a worse fit, as a share of the height in the image, no person stands there.
 constexpr double kFits = 0.1;
 constexpr int kSteps = 8;  // of Gauss and Newton
-// By hand: nobody who walks goes further.
+// By hand: a person who walks does not move further.
 constexpr double kMostSpeed = 4, kJump = 0.5;  // m/s, m: between one frame's place and the next
 
 constexpr size_t index(PointKind kind) { return 2 * static_cast<size_t>(kind) - 1; }
@@ -114,7 +114,7 @@ Vector2d median(const std::vector<Vector2d>& values) {
   return out;
 }
 
-// Pairs that lie closer in time than a third of the track say little of the velocity.
+// Pairs that are closer in time than a third of the track hardly determine the velocity.
 KeypointLine line_through(const Track& track) {
   const double apart = (track.back().time - track.front().time) / 3;
   std::vector<Vector2d> velocities, places;

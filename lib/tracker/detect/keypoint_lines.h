@@ -1,11 +1,11 @@
-// Where somebody walks by their keypoints alone: lines over the ground that the search may begin
-// with; it is the likelihood that judges them.
+// Lines over the ground along which people walk, from keypoints alone. The search may begin with
+// these lines; the likelihood decides which of them are right.
 //
-// Of every person in every picture the place on the ground is that at which an upright figure of
-// the subject's height has its shoulders, hips and ankles where they were seen (least squares over
-// the place's two coordinates): the floor says how far, and the height says it again. People are
-// followed from frame to frame by the nearest place, and each track's line is the median of the
-// lines through its pairs of places (Theil 1950, Sen 1968), which a few strays do not move.
+// The place of a person in a picture is the ground point at which the shoulders, hips and ankles of
+// an upright figure of the subject's height fit the points that were seen (least squares over the
+// two coordinates of the place): both the floor and the height determine the distance. People are
+// followed from frame to frame by the nearest place, and the line of each track is the median of
+// the lines through its pairs of places (Theil 1950, Sen 1968), which a few outliers do not move.
 #pragma once
 
 #include <optional>
@@ -19,8 +19,8 @@
 namespace walktrack {
 inline namespace tracker {
 
-// Ground position, m, of a person of that height; nullopt where too little of them was seen, or
-// where no place explains it. `camera` is that of the image that the points are of.
+// Ground position, m, of a person of that height; nullopt if too few of their points were seen, or
+// if no place explains the points. `camera` is the camera of the image in which the points lie.
 std::optional<Eigen::Vector2d> place_of(const KeypointEvidence::Person& person,
                                         const Camera& camera, double height);
 
@@ -30,8 +30,8 @@ struct KeypointLine {
   int frames = 0;                                      // in which the person was seen
 };
 
-// The lines of one camera's people, most frames first: `frames` are `dt` s apart, the first at time
-// 0. Only of people who were seen for at least `least_seconds` from first to last.
+// The lines of the people in one camera, those with most frames first: `frames` are `dt` s apart,
+// the first one at time 0. Only people who were seen over at least `least_seconds` have a line.
 std::vector<KeypointLine> keypoint_lines(std::span<const KeypointEvidence* const> frames,
                                          const Camera& camera, double height, double dt,
                                          double least_seconds);

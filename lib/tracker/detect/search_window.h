@@ -1,6 +1,5 @@
-// What the frames of a window say of walks through it: the scores, places, lines and sizes that the
-// detector (tracker/detect/detector.h) and the estimate of the height (tracker/detect/stature.h)
-// ask for.
+// The evidence of the frames of a window: the scores, places, lines and sizes that the detector
+// (tracker/detect/detector.h) and the estimate of the height (tracker/detect/stature.h) need.
 #pragma once
 
 #include <deque>
@@ -26,22 +25,22 @@ struct SearchWindow {
 WindowScore window_score(const SearchWindow& window, const Body& body,
                          const PoseTemplates& figures);
 
-// Where somebody of that body may stand in a frame of the window.
+// Places at which a subject with that body may stand in a frame of the window.
 std::vector<Place> places_in_frame(const SearchWindow& window, size_t index, const Body& body,
                                    const PoseTemplates& figures);
 
-// The lines along which keypoints go at a walker's speed.
+// The lines along which keypoints move at the speed of a walk.
 std::vector<DetectedWalk> lines_by_keypoints(const SearchWindow& window);
 
-// Where the camera stands that is asked for distances.
+// The place of the camera along whose rays distances are measured.
 Eigen::Vector2d camera_position(const TrackerScene& scene);
 
-// The height that explains the window best along about that line, which figures of `height` have
-// seen.
+// The height that explains the window best near that line, which was found with figures of
+// `height`.
 SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double height);
 
-// The size and line that explain the window best. Figures of a wrong size may lay the line far off,
-// so it is looked for with others, too.
+// The size and the line that explain the window best. Figures of a wrong size may give a line that
+// is far off, so that the line is searched with other sizes, too.
 SizedWalk best_size(const SearchWindow& window, const DetectedWalk& found);
 
 }  // namespace tracker

@@ -11,12 +11,13 @@ inline namespace tracker {
 
 namespace {
 
-// Adults of both sexes, and room for others where images say it. By hand.
+// The prior of the height: adults of both sexes, wide enough for others if the images show them. By
+// hand.
 constexpr double kUsual = 1.70, kUsualSd = 0.15;  // m
 // Heights are tried in such steps, in these bounds, m.
 constexpr double kStep = 0.05, kLeast = 0.8, kMost = 2.3;
-// People differ from the figures in more than their size: hair, shoes, how upright they walk. By
-// hand; heights come out 13 to 25 mm off (reports/search.md).
+// People differ from the figures not only in size but also in hair, shoes and posture. By hand; the
+// errors of estimated heights are 13 to 25 mm (reports/search.md).
 constexpr double kOtherSd = 0.02;  // m
 
 double log_prior(double height) {

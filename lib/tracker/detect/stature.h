@@ -1,9 +1,11 @@
-// How tall is the person who walks along a line that was found with figures of a usual height?
+// Estimates the height of a person who walks along a line that was found with figures of a usual
+// height.
 //
-// Cameras over known ground see it: the feet show where somebody stands, the top of the head how
-// high that is. Figures taller and smaller, in steps, look for their own line near the one that was
-// found (tracker/detect/detector.h). The peak of their log-posterior is the height, its curvature
-// the spread (Laplace's approximation: Tierney & Kadane, JASA 81, 1986).
+// Cameras over known ground see the height: the feet show where the person stands, and the top of
+// the head shows how tall the person is. For each of several heights the best line near the one
+// that was found is searched (tracker/detect/detector.h). The peak of the log-posterior is the
+// height, its curvature gives the standard deviation (Laplace's approximation: Tierney & Kadane,
+// JASA 81, 1986).
 #pragma once
 
 #include <functional>
@@ -26,12 +28,13 @@ struct SizedWalk {
   DetectedWalk walk;  // its line for that height
 };
 
-// `walk`: of a window's frames, dt apart, as figures of `height` see it. `camera_position` as in
-// detect_walk.
+// `walk`: the walk in a window's frames, dt apart, as it was found with figures of `height`.
+// `camera_position` as in detect_walk.
 SizedWalk size_up(const DetectedWalk& walk, double height, size_t frames, const FigureScore& score,
                   double dt, const Eigen::Vector2d& camera_position);
 
-// The same person, all in proportion; lengths that a scene states stay, and so does the mass.
+// The same person with another height, all lengths in proportion; lengths that a scene states stay
+// the same, and so does the mass.
 BodyModel with_height(const BodyModel& model, double height);
 
 }  // namespace tracker

@@ -7,7 +7,8 @@ inline namespace tracker {
 
 namespace {
 
-// Frames before a walk are kept for so long, s, to follow somebody who stood there first. By hand.
+// Time for which frames before a walk are kept, s, to track a subject who stood there first. By
+// hand.
 constexpr double kStandingKept = 3;
 
 }  // namespace
@@ -15,6 +16,10 @@ constexpr double kStandingKept = 3;
 void WalkSearch::push(const SceneEvidence& evidence) {
   candidates_.emplace_back();
   window_.push_back(evidence);
+}
+
+bool WalkSearch::lasts(double seconds, double dt) const {
+  return static_cast<int>(window_.size()) >= frames_in(seconds, dt);
 }
 
 SearchWindow WalkSearch::view(const TrackContext& context, const SearchMoment& moment) const {
@@ -50,8 +55,8 @@ const std::vector<Place>& WalkSearch::candidates(const SearchWindow& window, siz
   return *found;
 }
 
-// Somebody who stands is now and then seen to walk slowly, above all along the viewing ray: such a
-// walk is believed when it has been seen for as long as the window.
+// A person who stands sometimes seems to walk slowly, above all along the viewing ray: such a walk
+// is accepted if it has been seen for as long as the window lasts.
 bool WalkSearch::walks_clearly(const TrackContext& context, const DetectedWalk& walk) {
   // Shares of the score. By hand; sensitivity not measured.
   constexpr double kClearly = 0.15, kSlightly = 0.05;

@@ -1,5 +1,5 @@
-// Looking for a walk in a window of frames that slides over the video (tracker/detect/detector.h),
-// and for somebody who stood before it (tracker/detect/standing_start.h).
+// Searches a walk in a window of frames that slides over the video (tracker/detect/detector.h), and
+// standing before it (tracker/detect/standing_start.h).
 #pragma once
 
 #include <deque>
@@ -12,43 +12,49 @@
 namespace walktrack {
 inline namespace tracker {
 
-// When and where the window is: number of its first frame, and where a subject who was lost was
-// last seen.
+// The number of the window's first frame, and where the subject was last seen if the track was
+// lost.
 struct SearchMoment {
   uint32_t first_frame;
   const std::optional<LastSeen>& last_seen;
 };
 
+// The shortest window that is searched, s: as long as start hypotheses compete.
+inline constexpr double kShortestWindow = 0.5;
+
 class WalkSearch {
  public:
-  // Takes the next frame into the window.
+  // Adds the next frame to the window.
   void push(const SceneEvidence& evidence);
   const std::deque<SceneEvidence>& window() const { return window_; }
-  // Frames before the window in which somebody may have stood who walks now; their records have not
-  // come out.
+  // Whether the window has the frames of so many seconds, which are `dt` apart.
+  bool lasts(double seconds, double dt) const;
+  // Number of frames before the window that are kept because the subject may have stood in them;
+  // their records have not been handed out.
   size_t waiting() const { return waiting_.size(); }
 
-  // The walk through the window; nullopt when nobody walks there, or not clearly.
+  // The walk through the window; nullopt if nobody walks there, or not clearly enough.
   std::optional<DetectedWalk> find(const TrackContext& context, const SearchMoment& moment);
-  // That walk with the subject's height.
+  // That walk together with an estimate of the subject's height.
   SizedWalk with_size(const TrackContext& context, const SearchMoment& moment,
                       const DetectedWalk& walk) const;
-  // The same of a walk whose line is certain.
+  // The same for a walk whose line is certain.
   SizedWalk with_size_along(const TrackContext& context, const SearchMoment& moment,
                             const DetectedWalk& walk) const;
-  // The subject has become of another size.
+  // To be called when the size of the subject has changed.
   void forget_places() { places_.clear(); }
 
-  // Somebody who stands before the walk, if anybody does; the score is that of both.
+  // Standing before the walk, if there is any; the score is that of standing and walking together.
   std::optional<StandingStart> standing_lead(const TrackContext& context,
                                              const DetectedWalk& walk) const;
-  // The window begins so many frames earlier, of those that wait; or later again.
+  // Moves the beginning of the window back by some of the frames that wait, or forward again.
   void reach_back(size_t frames);
   void let_go(size_t frames);
 
-  // The window begins a frame later; whether one that waited is given up.
+  // Moves the beginning of the window forward by a frame. Returns whether the oldest of the frames
+  // that wait was dropped.
   bool slide(const TrackContext& context);
-  // Hands over the window's frames; nothing waits any more.
+  // Hands over the window's frames; afterwards no frames wait any more.
   std::deque<SceneEvidence> take();
 
  private:
@@ -59,7 +65,7 @@ class WalkSearch {
   std::deque<SceneEvidence> waiting_, window_;
   std::deque<std::optional<std::vector<Place>>> candidates_;  // of the window's frames, once asked
   std::vector<Eigen::Vector2d> places_;                       // of a figure, once asked
-  size_t slight_walks_ = 0;  // windows in a row that show somebody who may as well stand
+  size_t slight_walks_ = 0;  // successive windows in which the person may as well stand
 };
 
 }  // namespace tracker

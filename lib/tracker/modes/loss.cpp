@@ -11,8 +11,8 @@ inline namespace tracker {
 
 namespace {
 
-// What a figure in the usual gait would score where the subject is believed to be, whichever way it
-// faces, nats.
+// The score, in nats, of a figure with the usual gait at the place of the subject, for the best of
+// several headings.
 double figure_score(const TrackContext& context, const SceneEvidence& evidence, const Pose& pose) {
   constexpr int kHeadings = 6;  // 60 degrees apart; by hand
   double best = -std::numeric_limits<double>::infinity();
@@ -26,8 +26,7 @@ double figure_score(const TrackContext& context, const SceneEvidence& evidence, 
   return best;
 }
 
-// Whether a figure lies on somebody whose keypoints are seen in any camera; nullopt where nobody's
-// are.
+// Whether a figure lies on a detected person in any camera; nullopt if nobody is detected.
 std::optional<bool> on_somebody(const TrackerScene& scene, const SceneEvidence& evidence,
                                 const PosedBody& figure) {
   std::optional<bool> out;

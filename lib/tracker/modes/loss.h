@@ -1,5 +1,5 @@
-// Whether a track is lost in a frame: what the monitor (tracker/modes/monitor.h) has to be told of
-// the frame's images, and what it then says.
+// Decides whether a track is lost in a frame: computes what the monitor (tracker/modes/monitor.h)
+// needs of the frame's images, and returns its decision.
 #pragma once
 
 #include "tracker/subject_model.h"
@@ -8,7 +8,7 @@
 namespace walktrack {
 inline namespace tracker {
 
-// The monitor takes in all that there is to say of the frame, unless no particle has survived it.
+// Updates the monitor with the frame, unless no particle has survived it.
 bool is_lost(const TrackContext& context, const SceneEvidence& evidence, const FrameRecord& record,
              MonitorState& monitor);
 

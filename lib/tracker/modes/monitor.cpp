@@ -12,15 +12,15 @@ inline namespace tracker {
 
 namespace {
 
-// Walkers that explain an image no better than this share of what a stiff figure does are lost:
-// where a person is a few dozen pixels high, a figure does nearly as well as the walker itself. By
-// hand; sensitivity not measured.
+// Walkers whose score is not above this share of the score of a rigid figure are lost. For a person
+// who is a few dozen pixels high, a rigid figure is nearly as good as the walker itself. By hand;
+// sensitivity not measured.
 constexpr double kFigureShare = 0.9;
 
 // A frame's own speed trembles. By hand.
 constexpr double kVelocityMemory = 1;  // s
 
-// By hand: half a step, and a change of speed or heading as of somebody who stops or turns aside.
+// By hand: half a step, and the change of velocity of a subject who stops or turns aside.
 constexpr double kNear = 0.5, kTurnsAside = 0.8;  // m, m/s
 
 double median(std::vector<double> values) {
@@ -45,7 +45,7 @@ bool is_fading(const MonitorConfig& config, double least_score, double dt, doubl
   const bool below = log_likelihood < least;
   state.frames_outscored = outscored ? state.frames_outscored + 1 : 0;
   state.frames_below = below || outscored ? state.frames_below + 1 : 0;
-  // Bad frames do not become the measure of good ones.
+  // Frames that are explained badly do not enter the median.
   if (state.frames_below == 0) past.push_back(log_likelihood);
   if (static_cast<int>(past.size()) > frames_in(config.evidence_window, dt)) past.pop_front();
   return state.frames_below >= frames_in(config.lost_after, dt) ||

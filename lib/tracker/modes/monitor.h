@@ -1,8 +1,8 @@
-// Whether what is tracked is still the subject, judged by what a filter cannot judge by itself: its
-// short-term evidence against its own long-term one, and against that of a figure that merely
-// stands in the same place (a failure monitor beside the estimator, as Thrun, Burgard & Fox 2005,
-// section 8.3.3, do for localisation); and whether the figure lies on anybody whose keypoints are
-// seen. Where the subject was last surely seen, and how they went on, says where to look for them.
+// Decides whether the track is still on the subject. It compares the filter's short-term evidence
+// with its own long-term evidence and with that of a rigid figure in the same place (monitoring for
+// failures, as Thrun, Burgard & Fox 2005, section 8.3.3, do for localisation), and looks whether
+// the figure lies on a person whose keypoints are detected. It also keeps where the subject was
+// last seen for certain, and their velocity, which say where to search for them.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,17 @@ inline namespace tracker {
 
 // By hand; sensitivity not measured.
 struct MonitorConfig {
-  double lost_below = 0.35;  // share of the likelihood's own median at which the track is lost
-  double lost_after = 1;     // s below it: so long may a walker be hidden
-  double outscored_after =
-      0.4;  // s of explaining the images worse than a stiff figure in its place
-  double off_detected_after = 0.5;  // s of lying on none of the people whose keypoints are seen
-  double evidence_window = 1.5;     // s of past likelihoods that the median is taken over
-  double reacquire_within = 4;  // s for which a lost walker is looked for only where they can be
+  // Share of the likelihood's median below which the track counts as lost
+  double lost_below = 0.35;
+  double lost_after = 1;  // s below it: the time for which a subject may be hidden
+  // s of explaining the images worse than a rigid figure in the same place
+  double outscored_after = 0.4;
+  double off_detected_after = 0.5;  // s of lying on none of the people who are detected
+  double evidence_window = 1.5;     // s of past likelihoods over which the median is taken
+  double reacquire_within = 4;      // s for which a lost subject is searched only within reach
 };
 
-// Where the walker was last surely seen, and how they went on.
+// Where the subject was last seen for certain, and their velocity.
 struct LastSeen {
   Eigen::Vector2d position = Eigen::Vector2d::Zero(), velocity = position;  // m, m/s
   uint32_t frame = 0;
@@ -33,29 +34,30 @@ struct LastSeen {
 
 struct MonitorState {
   std::optional<LastSeen> last_seen;
-  std::deque<double> log_likelihoods;  // of frames that were explained, the newest last
-  // In a row: explained badly, worse than by a stiff figure, and since the figure lay on somebody
-  // whose keypoints were seen.
+  std::deque<double> log_likelihoods;  // likelihoods of frames that were explained, the newest last
+  // Numbers of successive frames that were explained badly, that were explained worse than by a
+  // rigid figure, and in which the figure lay on no detected person.
   int frames_below = 0, frames_outscored = 0, frames_off = 0;
 };
 
-// A track begins whose first frames were explained that well.
+// Begins a track; the likelihoods are those of its first frames.
 void begin_watch(std::deque<double> log_likelihoods, MonitorState& state);
 
-// Takes in how well a frame was explained, by the particles and by a stiff figure in their place;
-// whether the track is lost. `least_score`: below it nothing counts as explained. `dt`: s a frame.
+// Updates with the scores of a frame, of the particles and of a rigid figure in the same place, and
+// returns whether the track is lost. A score below `least_score` does not count as explained. `dt`:
+// s between frames.
 bool is_fading(const MonitorConfig& config, double least_score, double dt, double log_likelihood,
                double figure, MonitorState& state);
 
-// Takes in whether the figure lies on somebody whose keypoints are seen, nullopt if nobody's are;
-// whether the track is lost.
+// Updates with whether the figure lies on a detected person (nullopt if nobody is detected), and
+// returns whether the track is lost.
 bool is_off_people(const MonitorConfig& config, double dt, std::optional<bool> on_somebody,
                    MonitorState& state);
 
-// Remembers where the walker is and how they have been going on.
+// Stores where the subject is, and their velocity.
 void see(const FrameEstimate& estimate, uint32_t frame, double dt, MonitorState& state);
 
-// Whether a walker who was lost can be at a place: not far from where they were going.
+// Whether a subject who was lost can be at a place: near where they were going.
 bool is_within_reach(const MonitorConfig& config, const std::optional<LastSeen>& last_seen,
                      const Eigen::Vector2d& place, uint32_t frame, double dt);
 

@@ -19,14 +19,14 @@ double strides_between(double a, double b) { return std::remainder(b - a, 1.0); 
 }  // namespace
 
 double stride_phase(const WalkerParticle& particle) {
-  constexpr double kBeforeStrike = 1 - 1e-9;  // who is late to strike is still about to
+  constexpr double kBeforeStrike = 1 - 1e-9;  // a strike that is late is still expected
   const double step =
       std::clamp(particle.walker.since_transfer / particle.aim.duration(), 0.0, kBeforeStrike);
   return 0.5 * (step + (particle.stance == Side::kLeft ? 0 : 1));
 }
 
 double leading_phase(std::span<const double> phases, std::span<const double> weights) {
-  // Twice the angle is the same for both modes: it gives the line that they lie on.
+  // Twice the angle is the same for both modes and gives the line on which they lie.
   std::complex<double> doubled = 0;
   for (size_t i = 0; i < phases.size(); ++i)
     doubled += weights[i] * std::polar(1.0, 4 * kPi * phases[i]);
@@ -52,7 +52,7 @@ double mass_apart(double phase, std::span<const double> phases, std::span<const 
 
 StrideModes stride_modes(std::span<const WalkerParticle> particles,
                          std::span<const double> weights) {
-  // Particles that stand are at no place in a stride.
+  // Particles that stand have no phase.
   std::vector<double> phases, shares;
   phases.reserve(particles.size());
   shares.reserve(particles.size());
@@ -82,7 +82,7 @@ double phase_ahead(std::span<const WalkerParticle> particles, std::span<const do
 }
 
 bool label_switched(double expected, double phase) {
-  constexpr double kNear = 0.125;  // strides: half of what tells the modes apart
+  constexpr double kNear = 0.125;  // strides: half of the distance between the modes
   const auto legs_pass = [](double at) { return std::abs(std::remainder(at - 0.25, 0.5)) < kNear; };
   return legs_pass(expected) && legs_pass(phase) &&
          std::abs(strides_between(expected, phase)) > 0.5 - kNear;

@@ -35,13 +35,13 @@ std::vector<FrameRecord> start_frame(const TrackContext& context, const SceneEvi
   return hypotheses.decided() ? settle(mode) : std::vector<FrameRecord>{};
 }
 
-// Whether a set that takes one leg for the other goes unnoticed: several cameras see it, and only
-// the kneed walker reads poses anew (tracker/moves/phase_jump.h).
+// Whether a set can take one leg for the other unnoticed: several cameras see it, and only the
+// kneed walker makes phase jumps (tracker/moves/phase_jump.h).
 bool labels_may_switch(const TrackContext& context) {
   return context.scene.cameras.size() == 1 && context.config.motion.model == MotionKind::kKneed;
 }
 
-// Takes the particles through a frame. Where left and right have switched, legs are mirrored back.
+// Advances the particles by a frame. If left and right have switched, the legs are mirrored back.
 FrameRecord filter_frame(const TrackContext& context, const SceneEvidence& evidence, uint32_t frame,
                          WalkerFilter& filter) {
   const WalkerFilterContext now = filter_context(context);

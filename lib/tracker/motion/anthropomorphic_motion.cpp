@@ -15,7 +15,8 @@ inline namespace tracker {
 
 namespace {
 
-// Of its five torques the walker feels those of the hip and of the ground under the standing foot.
+// Of its five torques only those of the hip and of the ground under the stance foot act on the
+// walker.
 constexpr int kHipTorque = 1, kGroundTorque = 4;
 constexpr std::array<int, 3> kTorques{kTorqueNoise + kHipTorque, kTorqueNoise + kGroundTorque,
                                       noise_of(kPace)};

@@ -31,8 +31,8 @@ Matrix5 torque_distribution() {
 }
 // clang-format on
 
-// The aimed gait's first moment and its controls. Returns how long the walker still goes on to the
-// `phase` of its step, s.
+// Sets the first moment of the gait at which the particle aims, and its controls. Returns the time
+// to the `phase` of its step, s.
 double enter_gait(const MotionContext& context, double phase, WalkerParticle& particle) {
   const PriorGait gait = aimed_gait(context, particle);
   particle.aim = {gait.speed, gait.step_length};
@@ -43,7 +43,8 @@ double enter_gait(const MotionContext& context, double phase, WalkerParticle& pa
   return 0;
 }
 
-// Every walker on to its own moment, all in one batch: a step is as long as many frames.
+// Simulates every walker to its own moment, all in one batch, because a step is as long as many
+// frames.
 void walk_to(const KneedModel& model, std::span<const double> times,
              std::span<WalkerParticle> particles) {
   std::vector<KneedState> states;

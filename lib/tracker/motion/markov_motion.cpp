@@ -14,8 +14,8 @@ inline namespace tracker {
 
 namespace {
 
-// How the root's velocity wanders, m/s per sqrt(s), along and across the heading: root mean square
-// of its changes from frame to frame.
+// Noise of the root's velocity, m/s per sqrt(s), along and across the heading: root mean square of
+// its changes from frame to frame.
 constexpr double kAlong = 0.5, kAcross = 0.3;
 
 constexpr std::array<NoiseGroup, 5> groups_of(const BodyNoise& body) {
@@ -86,7 +86,7 @@ MarkovConstants free_constants(ResidualAngle residual) {
 
 void enter_figure(const MotionContext& context, double phase, WalkerParticle& particle) {
   const PriorGait gait = aimed_gait(context, particle);
-  // A frame ago is a frame ahead, mirrored in time, where the step has only begun.
+  // If the step has only begun, the pose a frame ago is the pose a frame later, mirrored in time.
   const double frame = context.dt / gait.period;
   const double sign = phase < frame ? -1 : 1;
   set_angles(pose_in_gait(context.model, gait, particle.stance, phase), particle.residual);
@@ -108,8 +108,8 @@ MarkovConstants MarkovMotion::constants(const MotionConfig& config, ResidualAngl
   return {leg_ * c.rest, c.time, leg_ * c.spread, leg_ * c.lowest, leg_ * c.highest, c.period};
 }
 
-// The root's height takes the place of an angle: it is in metres. It begins further off than it
-// wanders later, for the first figure is the gait's and not yet the subject's.
+// The root's height, in metres, takes the place of an angle. Its spread is larger at the start than
+// later, because the first figure is that of the gait and not yet that of the subject.
 double MarkovMotion::start_spread(const MotionConfig& config, ResidualAngle residual) const {
   constexpr double kHeight = 0.058;  // of the leg's length; by hand, 5 cm of an adult
   return residual == kRootHeight ? kHeight * leg_ : MotionModel::start_spread(config, residual);
@@ -129,7 +129,8 @@ void MarkovMotion::predict(const MotionContext& context, std::span<WalkerParticl
   for (WalkerParticle& p : particles) {
     const Eigen::Vector3d moved = p.pose.root - p.pose_before.root;
     p.ball = (p.pose.root + moved).head<2>();
-    // The foot stands that goes back under the root, as far as the last frame can tell.
+    // The stance foot is the one that moves backwards under the root, as far as the last frame
+    // shows.
     const Body& body = context.model.body;
     const bool left = foot_advance(body, p, Side::kLeft) < foot_advance(body, p, Side::kRight);
     const Side stance = left ? Side::kLeft : Side::kRight;

@@ -1,14 +1,14 @@
-// The motion model `markov`: no walker and no ground. Root, trunk and every joint angle follow
-// Markov processes of their own, which know how people's angles are spread and how fast they
-// change, but not that feet stand and that legs take turns.
+// The motion model `markov` has no walker and no ground. Root, trunk and every joint angle follow
+// Markov processes of their own, which model how people's angles are distributed and how fast they
+// change, but not that feet stand and that the legs alternate.
 //
 // Processes of the angles and of the root's height are the damped ones of
 // tracker/motion/propagate.h, fitted to motion capture: autoregression of second order by least
 // squares at 30 Hz, pooled over two trials each of Bandai-Namco Research Motiondataset 1 (walk
 // active, walk normal) and of OpenCap's validation (subject 4, walking1, walkingTS1; Uhlrich et al.
-// 2023). Stationary deviations of the fitted processes are those of the data within 2 %, so nothing
-// is lost by stating them. The root's place goes on at constant velocity but for noise, as large as
-// the same trials' accelerations.
+// 2023). The stationary deviations of the fitted processes are those of the data within 2 %, so
+// that they can be stated instead. The root moves at constant velocity with noise that is as large
+// as the accelerations in the same trials.
 #pragma once
 
 #include "tracker/motion/motion_model.h"
@@ -16,21 +16,21 @@
 namespace walktrack {
 inline namespace tracker {
 
-// Coordinates without a walker, in the places of the residual angles that belong to one. A pair's
-// right side follows the left.
+// Coordinates without a walker, which use the places of the residual angles. In a pair the right
+// side follows the left.
 inline constexpr ResidualAngle kRootHeight = kCrouch, kHipFlexion = kThigh, kKneeFlexion = kShank;
 
 // The processes of the trunk's tilt and the joint angles; those of the root's height in leg
 // lengths. kPace has none.
 MarkovConstants free_constants(ResidualAngle residual);
 
-// Angles of a particle, and a frame ago, become those of a person in the kneed walker's gait of the
-// particle's aim at a share of its step: it is how a search's hypothesis looks. Sets tilt, hip
-// flexions, knee flexions and the root's height.
+// Sets the angles of a particle, now and a frame ago, to those of a person in the gait of the kneed
+// walker at which the particle aims, at a share of its step: these are the angles of the search's
+// figures. Sets tilt, hip flexions, knee flexions and the root's height.
 void enter_figure(const MotionContext& context, double phase, WalkerParticle& particle);
 
-// A particle that is first seen is on its way: its residual angles go on from `before` to `now` as
-// fast from wherever noise has put them.
+// The first frame of a particle: its residual angles keep the velocity from `before` to `now`, from
+// the values that noise has given them.
 void keep_rates(const ResidualAngles& now, const ResidualAngles& before, WalkerParticle& particle);
 
 class MarkovMotion : public MotionModel {

@@ -1,11 +1,11 @@
-// What moves particles from frame to frame, chosen once by the configuration:
+// The dynamics that move particles from frame to frame, chosen by the configuration:
 //   kneed            the kneed walker, and Markov processes for what it does not drive
 //                    (tracker/motion/kneed_motion.h)
 //   anthropomorphic  two straight legs; knees and trunk are Markov processes as well
 //                    (tracker/motion/anthropomorphic_motion.h)
 //   markov           no walker: every coordinate is a Markov process
 //   (tracker/motion/markov_motion.h)
-// The other two are there to measure what physics is worth: reports/physics.md.
+// The other two are there to measure what physics contributes: reports/physics.md.
 #pragma once
 
 #include <memory>
@@ -23,8 +23,8 @@ struct MotionContext;
 
 enum class MotionKind { kKneed, kAnthropomorphic, kMarkov };
 
-// A walker that falls, or whose state grows beyond bounds, is caught (goes on as the prior's gait);
-// dead is only who has no state left to go on from.
+// A walker that falls, or whose state exceeds its bounds, is caught (it continues with the prior's
+// gait); only a walker without a state to continue from is dead.
 enum class Outcome { kAlive, kFallen, kDiverged, kDead };
 
 // Indices of WalkerParticle::noise that are changed together.
@@ -34,38 +34,38 @@ class MotionModel {
  public:
   virtual ~MotionModel() = default;
 
-  // Of a residual angle. One without spread stays at its rest.
+  // The process of a residual angle. An angle without spread stays at its rest.
   virtual MarkovConstants constants(const MotionConfig& config, ResidualAngle residual) const = 0;
 
   // How far a residual angle may be from the gait that a particle enters with: the standard
   // deviation with which the first frame draws it, in the coordinate's own unit.
   virtual double start_spread(const MotionConfig& config, ResidualAngle residual) const;
 
-  // Particles whose aim, standing foot, heading and rest angles are set go on from the moments
-  // `phases` of their steps, as shares of a step.
+  // Particles whose aim, stance foot, heading and rest angles are set start at `phases` of their
+  // steps, as shares of a step.
   virtual void initialise(const MotionContext& context, std::span<const double> phases,
                           std::span<WalkerParticle> particles) const = 0;
 
-  // Before a frame: a particle may take another view of how it came to its pose.
+  // Before a frame: a particle may jump to another phase that explains its pose.
   virtual void jump_phase(const MotionContext&, WalkerParticle&, Rng&) const {}
 
-  // A frame without its noise: the walkers go on, feet come down. outcomes[i] is never kDead. What
-  // becomes of one particle does not depend on the others. Spans of one size.
+  // Predicts a frame without its noise: the walkers move and feet come down. outcomes[i] is never
+  // kDead. The result for a particle does not depend on the others. All spans have the same size.
   virtual void predict(const MotionContext& context, std::span<WalkerParticle> particles,
                        std::span<Rng> rngs, std::span<Outcome> outcomes) const = 0;
 
-  // What the frame's noise will do to a particle: predicted, velocity_per_impulse, predicted_ball
-  // and ball_sigma. False when it has no state to go on from.
+  // Computes the effect of the frame's noise on a particle: predicted, velocity_per_impulse,
+  // predicted_ball and ball_sigma. Returns false if the particle has no state to continue from.
   virtual bool linearise_noise(const MotionContext& context, WalkerParticle& particle) const = 0;
 
   // Sets the realised part of a particle from the predicted part and the noise.
   virtual void apply_noise(const MotionContext& context, WalkerParticle& particle) const = 0;
 
-  // Noise that moves one part of the body; those of the arms, two, come last.
+  // Groups of noise that move one part of the body; the two groups of the arms come last.
   virtual std::span<const NoiseGroup> noise_groups(Path path) const = 0;
 };
 
-// Of that body, with the prior's gaits where the model walks like them.
+// The model of that body, with the prior's gaits if the model uses them.
 std::unique_ptr<const MotionModel> make_motion_model(MotionKind kind, const BodyModel& model,
                                                      const GaitPrior& prior);
 

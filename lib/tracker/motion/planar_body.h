@@ -1,4 +1,5 @@
-// The subject as a kneed walker of their own lengths; of average ones: gait/walker_units.h.
+// The subject as a kneed walker with the subject's own lengths (gait/walker_units.h has the walker
+// of average lengths).
 //
 // Masses, centres of mass and radii of gyration: core/anthropometry.h, as shares of
 // the subject's mass and of the segment's length; shank and foot are one part. The rolling foot has

@@ -41,7 +41,7 @@ void predict_residuals(const MotionContext& context, WalkerParticle& particle) {
 
 Vector2d turned(const Vector2d& v, double angle) { return Eigen::Rotation2Dd(angle) * v; }
 
-// The way of the last frame becomes part of that of the last step.
+// Adds the velocity of the last frame to the mean velocity over the last step.
 void update_travel_velocity(const MotionContext& context, WalkerParticle& particle) {
   const Pose &now = particle.pose, &before = particle.pose_before;
   const Vector2d velocity = (now.root - before.root).head<2>() / context.dt;
@@ -52,7 +52,7 @@ void update_travel_velocity(const MotionContext& context, WalkerParticle& partic
 
 // The predicted heading relaxes to the direction of travel; this adds nothing to its rate.
 void relax_heading_to_travel(const MotionContext& context, WalkerParticle& particle) {
-  // Of a subject who hardly moves the heading is free.
+  // The heading of a subject who hardly moves does not relax.
   const double ahead = std::max(particle.way.x(), 0.25 * particle.aim.speed);
   const double off = std::atan2(particle.way.y(), ahead);
   const double turn = off * (1 - std::exp(-context.dt / context.config.heading_time_constant));
@@ -67,7 +67,7 @@ void draw_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng
     particle.noise[size_t(noise_of(residual))] = rng.truncated_normal(4);
 }
 
-// The walker as it is becomes the frame's prediction, and its noise is drawn.
+// The present walker becomes the prediction for the frame, and its noise is drawn.
 bool predict(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   if (!context.moves.linearise_noise(context, particle)) return false;
   particle.predicted = particle.walker;

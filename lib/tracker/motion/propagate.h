@@ -1,5 +1,6 @@
-// How a particle gets from one frame to the next: a walker goes on (tracker/motion/motion_model.h),
-// and what it does not drive follows damped second-order Markov processes.
+// Propagates a particle from one frame to the next: its walker is simulated
+// (tracker/motion/motion_model.h), and the coordinates that the walker does not drive follow damped
+// second-order Markov processes.
 //
 //   k_t = k_(t-1) + a (k_(t-1) - k_(t-2)) + b (k0 - k_(t-1)) + noise,
 //   r = exp(-dt / time), w = 2 pi dt / period, a = r^2, b = 1 + r^2 - 2 r cos w,
@@ -7,8 +8,9 @@
 //   s is the process's own standard deviation
 // so that the process does not depend on the frame rate; truncated at anatomical limits. Without a
 // period w = 0: critically damped. The heading has no rest: b = 0, and its rate has the standard
-// deviation s; but people face the way that they go: it comes back to that of about the last step
-// within MotionConfig::heading_time_constant. On a sagittal path it stays what it is.
+// deviation s. Because people face the direction in which they walk, the heading relaxes to the
+// direction of travel of about the last step with the time constant
+// MotionConfig::heading_time_constant. On a sagittal path the heading is constant.
 #pragma once
 
 #include <array>
@@ -31,29 +33,32 @@ struct MotionConfig {
   double stance_knee_torque = 0.008;
   double swing_knee_torque = 0.004;
   double ankle_torque = 0.040;
-  double phase_noise = 0.05;  // s per sqrt(s): how far people's phase residuals from the walker's
-  double yaw_rate_sd = 0.08;  // rad/s: the usual rate of turning
-  double heading_time_constant = 0.3;  // s in which a heading comes back to the way by 1 - 1/e
-  double residual_scale = 0.7;         // multiplies how far people's angles stray from the walker's
-  double ball_drift = 0.03;      // m per sqrt(s): the drawn foot does not roll as the walker's does
-  double ball_slip = 0.012;      // m per sqrt(s): nor does a standing foot quite keep its line
-  double footfall_sd = 0.02;     // m, along and across: where a foot comes down
-  double footfall_decay = 0.05;  // s after the strike in which that uncertainty dies away
-  double start_position_sd = 0.15;  // m, the same when a walker is first found
-  double given_position_sd = 0.1;   // m, the same when the scene says where
+  double phase_noise = 0.05;  // s per sqrt(s): random drift of the phase of the stride
+  double yaw_rate_sd = 0.08;  // rad/s: standard deviation of the rate of turning
+  // s: time constant with which the heading relaxes to the direction of travel
+  double heading_time_constant = 0.3;
+  double residual_scale = 0.7;  // multiplies the spreads of the residual angles
+  // m per sqrt(s), along the walk: the drawn foot does not roll like the walker's
+  double ball_drift = 0.03;
+  double ball_slip = 0.012;   // m per sqrt(s), across the walk
+  double footfall_sd = 0.02;  // m, along and across: standard deviation of the place of a footfall
+  double footfall_decay = 0.05;     // s after the strike in which that uncertainty decays
+  double start_position_sd = 0.15;  // m, the same for a walker who has just been found
+  double given_position_sd = 0.1;   // m, the same if the scene states the place
   double control_noise = 0.05;      // relative, per step (gait/prior/gait_prior.h)
   double feedback = 1;              // strength of the correction of controls at a support transfer
   double aim_drift = 0.06;          // relative, per step, of the speed and the step length aimed at
-  double phase_jump_rate =
-      30;  // 1/s: how often a particle reads its pose anew (tracker/moves/phase_jump.h)
+  // 1/s: rate at which a particle proposes a phase jump (tracker/moves/phase_jump.h)
+  double phase_jump_rate = 30;
   double torque_noise_scale = 0.15;  // multiplies all five torques
-  bool standing = true;  // people may stand, set off and stop (tracker/motion/standing.h)
-  double markov_noise_scale =
-      1.5;  // multiplies the noise of model kMarkov; tuned on the demo, 1 = as fitted
+  // Whether the subject may stand, set off and stop (tracker/motion/standing.h)
+  bool standing = true;
+  // Multiplies the noise of model kMarkov; tuned on the demo, 1 = as fitted
+  double markov_noise_scale = 1.5;
 };
 
-// The same for somebody larger or smaller, who walks to scale: lengths grow in proportion to the
-// height, times with its square root, as gravity is what it is.
+// The same for a subject of another height: lengths grow in proportion to the height, and times
+// with its square root, because gravity is the same.
 inline constexpr double kAdultHeight = 1.75;  // m
 MotionConfig to_scale(const MotionConfig& config, double height);
 
@@ -83,21 +88,21 @@ struct MotionContext {
   NoiseScale scale;
   MarkovSteps markov;
   double dt;                                  // s
-  const StandingProcess* standing = nullptr;  // where people may stand
+  const StandingProcess* standing = nullptr;  // if the subject may stand
 };
 
-// The prior's gait that a particle aims at, on the slope that it meets.
+// The prior's gait at which a particle aims, on the slope of its heading.
 PriorGait aimed_gait(const MotionContext& context, const WalkerParticle& particle);
 
-// The first frame of a particle: nothing moves, but its noise is drawn.
+// The first frame of a particle: nothing moves, and only its noise is drawn.
 Outcome draw_first_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng);
-// One frame forward and its noise drawn, everybody's from their own stream (spans of one size). A
-// particle's result does not depend on those that go with it, the time that it takes does.
+// Propagates by one frame and draws its noise, for each particle from its own stream (all spans
+// have the same size). The result for a particle does not depend on the others in the spans.
 void propagate(const MotionContext& context, std::span<WalkerParticle> particles,
                std::span<Rng> rngs, std::span<Outcome> outcomes);
 Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& rng);
 
-// Changes some of the frame's noise, reversibly with respect to its prior, and realises it.
+// Changes some of the frame's noise, reversibly with respect to its prior, and applies it.
 void perturb(const MotionContext& context, double step_size, WalkerParticle& particle, Rng& rng);
 
 }  // namespace tracker

@@ -8,17 +8,16 @@ inline namespace tracker {
 
 namespace {
 
-// How often those who stand are tried as setting off and those who walk as stopping, 1/s. By hand:
-// they say how many particles look out for a change. Halved or doubled, the clips with people who
-// stand begin and end their walks at the same frames give or take two.
+// Rates at which standing particles propose to set off and walking ones to stop, 1/s. By hand. With
+// half or twice these rates, walks in the clips with people who stand begin and end at the same
+// frames, give or take two.
 constexpr double kSetsOff = 1, kStops = 0.5;
 
-// Those who set off aim at a usual walk, m/s for an adult, and are slower in the first half second.
-// By hand.
+// Particles that set off aim at a usual walk, m/s for an adult, and are slower in the first half
+// second. By hand.
 constexpr double kSlowestAim = 0.6, kFastestAim = 1.3;
 constexpr double kSlower = -0.25, kSlower_sd = 0.12;  // of kPace, a logarithm
-// Moments of a step at which they may be: before the legs have passed each other. By
-// hand.
+// Moments of the step at which they begin: before the legs have passed each other. By hand.
 constexpr double kLatest = 0.6;
 
 bool sets_off(const MotionContext& context, const StepLibrary& steps, WalkerParticle& particle,
@@ -52,7 +51,8 @@ bool sets_off(const MotionContext& context, const StepLibrary& steps, WalkerPart
 bool stops(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   WalkerParticle reading = particle;
   stand(reading);
-  return try_reading(context, reading, particle, rng);  // who shows a walk goes on walking
+  return try_reading(context, reading, particle,
+                     rng);  // a particle whose pose is that of a walk continues to walk
 }
 
 }  // namespace

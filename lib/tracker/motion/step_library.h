@@ -1,5 +1,5 @@
-// Moments of the prior's steps, simulated once: a walker that is wanted at some moment of some gait
-// is looked up, where a simulation would take as long as many frames.
+// Samples of the prior's steps, simulated once: the walker at a moment of a gait is looked up,
+// because a simulation would take as long as many frames.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ class StepLibrary {
  public:
   StepLibrary(const BodyModel& model, const GaitPrior& prior);
 
-  // A step of about the same speed and length on about the slope that `heading` meets, drawn as
-  // likely there and back; none beyond the table.
+  // A step of about the same speed and length on about the slope of `heading`, drawn with the same
+  // probability in both directions; none outside of the table.
   const LibraryStep* near(const StepAim& aim, double heading, Rng& rng) const;
 
  private:

@@ -10,7 +10,7 @@ inline namespace tracker {
 
 namespace {
 
-constexpr int kSamples = 20;
+constexpr int kSamples = 20;  // of a stride
 // Degrees, at phases k / kSamples.
 constexpr std::array<double, kSamples> kThigh_deg{0,   -4.8, -7.4, -7.3, -6.1, -4.3, -1.8,
                                                   0,   0,    0,    0,    0.9,  4.1,  4.7,

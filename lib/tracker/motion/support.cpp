@@ -20,7 +20,8 @@ Eigen::Vector2d foot_sigma(const MotionContext& context, const WalkerParticle& p
 
 void change_feet(const BodyModel& model, const KneedState& shown, WalkerParticle& particle) {
   const Side landed = other(particle.stance);
-  // Posed by the new roles on the old place, which is where the leg that now swings still stands.
+  // The pose with the new roles of the legs at the old place, at which the leg that now swings
+  // still stands.
   particle.stance = landed;
   Pose pose = particle.pose;
   pose.tilt = shown.q[kTorso];

@@ -1,5 +1,4 @@
-// The foot that a walker stands on: how surely it stands where it stands, and where the next one
-// comes down.
+// The stance foot: how uncertain its place is, and where the next foot comes down.
 #pragma once
 
 #include "tracker/motion/propagate.h"
@@ -7,14 +6,14 @@
 namespace walktrack {
 inline namespace tracker {
 
-// Standard deviations of the standing foot's place in a frame, along and across the heading, m.
+// Standard deviations of the stance foot's place in a frame, along and across the heading, m.
 Eigen::Vector2d foot_sigma(const MotionContext& context, const WalkerParticle& particle);
 
-// The swing foot has come down: the particle stands on it. The walker's legs have exchanged their
-// names already; `shown` is its state with the new names, as the person shows it.
+// The swing foot has come down, and the particle stands on it. The walker's legs have already
+// changed roles; `shown` is its state after that, with a person's leg angles.
 void change_feet(const BodyModel& model, const KneedState& shown, WalkerParticle& particle);
 
-// A new step aims a little differently from the last.
+// Changes the aim of a new step a little from that of the last one.
 void perturb_step_target(const MotionConfig& config, StepAim& aim, Rng& rng);
 
 }  // namespace tracker

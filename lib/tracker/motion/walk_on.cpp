@@ -14,8 +14,8 @@ inline namespace tracker {
 
 namespace {
 
-// The longest steps of the prior lower the hip by a sixth. A walker that goes down further has been
-// pushed to where its legs can hide from the images, and will not come up again.
+// The longest steps of the prior lower the hip by a sixth. A walker whose hip is lower has been
+// pushed to a pose in which its legs are hidden, and it will not recover.
 constexpr KneedLimits kWalks{.min_hip_height = 0.8};
 
 // The new step's controls start from the gait of its aim, corrected for the state that the strike
@@ -30,7 +30,7 @@ void choose_controls(const MotionContext& context, WalkerParticle& particle, Rng
       {.relative = config.control_noise, .rest = 0.5 * config.control_noise, .torque = 0});
 }
 
-// The swing foot has come down: it carries the body from here, and a new step begins.
+// The swing foot has come down: it becomes the stance foot, and a new step begins.
 void change_support(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   change_feet(context.model,
               shown_state(particle.walker, other(particle.stance), particle.aim, particle.residual),
@@ -47,12 +47,12 @@ void catch_step(const MotionContext& context, WalkerParticle& particle) {
   particle.walker = state_in_gait(context.model, gait, phase);
 }
 
-// What the batch kernel takes of a group of particles.
+// The inputs of the batch kernel for a group of particles.
 struct Group {
   std::pmr::vector<KneedState> states;
   std::pmr::vector<KneedControls> controls;
   std::pmr::vector<Vector5> noise;
-  std::pmr::vector<double> left;  // s of the frame; 0 = has arrived
+  std::pmr::vector<double> left;  // s of the frame that are left; 0 = at its end
   std::pmr::vector<KneedAdvance> done;
 
   Group(size_t count, std::pmr::memory_resource* memory)
@@ -88,8 +88,8 @@ void gather(const MotionContext& context, std::span<WalkerParticle> particles, s
   }
 }
 
-// To the end of everybody's time, or to the next event. On a slope gravity depends on the heading,
-// so that every particle has a model of its own there.
+// Simulates all walkers to the end of their time or to the next event. On a slope gravity depends
+// on the heading, so that every particle has a model of its own there.
 void advance(const MotionContext& context, std::span<const WalkerParticle> particles,
              Group& group) {
   if (context.model.downhill.isZero())
@@ -102,7 +102,7 @@ void advance(const MotionContext& context, std::span<const WalkerParticle> parti
                         group.noise[i], group.states[i], group.left[i], kWalks);
 }
 
-// What the event at which a walker stopped does to it; the time that it has left.
+// Applies the event at which a walker stopped; returns the time that it has left.
 double resolve(const MotionContext& context, const KneedAdvance& done, double left,
                WalkerParticle& particle, Rng& rng, Outcome& outcome) {
   switch (done.event) {

@@ -1,6 +1,6 @@
-// The physics of a frame: kneed walkers under their springs, with new controls and another standing
-// foot at every support transfer. Walkers share vectors (walker/kneed/kneed_batch.h); what happens
-// to one does not depend on the others.
+// The physics of a frame: kneed walkers move under their springs, with new controls and another
+// stance foot after every support transfer. Several walkers share a vector
+// (walker/kneed/kneed_batch.h); the result for a walker does not depend on the others.
 #pragma once
 
 #include <span>
@@ -10,8 +10,9 @@
 namespace walktrack {
 inline namespace tracker {
 
-// Moves particles[i].walker on by a frame, as long as its pace makes it, with numbers of rngs[i].
-// outcomes[i] becomes kAlive, or what befell the walker before it was caught. Spans of one size.
+// Simulates particles[i].walker for a frame, whose length depends on its pace, with random numbers
+// of rngs[i]. outcomes[i] becomes kAlive, or the reason for which the walker was caught. All spans
+// have the same size.
 void walk_on(const MotionContext& context, std::span<WalkerParticle> particles, std::span<Rng> rngs,
              std::span<Outcome> outcomes);
 

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using Matrix = Eigen::Matrix<double, 5, 5>;
 
-// The course's angles among the residual angles, in its order.
+// The angles of the global pose among the residual angles, in its order.
 constexpr std::array<ResidualAngle, 3> kAngles{kHeading, kCrouch, kTilt};
 
 GlobalPose global_pose_of(const WalkerParticle& particle) {
@@ -39,7 +39,7 @@ Matrix factor_of(const Matrix& covariance) {
   return factor;
 }
 
-// The pose a frame ago, changed by what its successor has changed from `was` to `is`.
+// The pose a frame ago, changed like its successor from `was` to `is`.
 void follow(const Pose& was, const Pose& is, Pose& before) {
   const double turn = is.heading - was.heading;
   const Vector2d arm = before.root.head<2>() - was.root.head<2>();

@@ -1,13 +1,14 @@
-// Where walkers are and which way they go: the slow coordinates of a particle.
+// The global pose of a walker, its place and direction: the slow coordinates of a particle.
 //
-// A frame hardly tells the distance from the camera or the heading; many frames together do. A
-// filter resamples in every frame, so that soon all particles descend from one and share its
-// course: the set forgets how uncertain the course was. Moves along the course keep it alive: the
-// prediction's course is taken as normal, N(mean, S), with the set's own mean and covariance, and
+// One frame hardly determines the distance from the camera or the heading; many frames together do.
+// Because the filter resamples in every frame, all particles soon descend from one and share its
+// global pose, so that the set no longer shows how uncertain that is. Moves of the global pose
+// restore the spread: the predicted global pose is taken as normal, N(mean, S), with the set's own
+// mean and covariance, and
 //   c' = mean + sqrt(1 - b^2) (c - mean) + b n,   n ~ N(0, S)
-// leaves that invariant (a regularised particle filter with a Metropolis-Hastings step, Musso,
-// Oudjane & Le Gland 2001, in these coordinates alone). The body moves rigidly, with its past
-// frame, so that its gait and its motion stay what they are.
+// leaves that distribution invariant (a regularised particle filter with a Metropolis-Hastings
+// step, Musso, Oudjane & Le Gland 2001, in these coordinates only). The body moves rigidly together
+// with its past frame, so that gait and motion stay the same.
 #pragma once
 
 #include <span>
@@ -27,11 +28,12 @@ struct CourseSpread {
   Eigen::Matrix<double, 5, 5> factor = Eigen::Matrix<double, 5, 5>::Zero();  // S = factor factor^T
 };
 
-// Of realised particles; log-weights of -infinity count for nothing.
+// Mean and covariance of particles to which noise has been applied; those with log-weights of
+// -infinity are left out.
 CourseSpread course_spread(std::span<const WalkerParticle> particles,
                            std::span<const double> log_weights);
 
-// Proposes another course; step_size in (0, 1].
+// Proposes another global pose; step_size in (0, 1].
 void move_global_pose(const MotionContext& context, const CourseSpread& spread, double step_size,
                       WalkerParticle& particle, Rng& rng);
 

@@ -1,8 +1,8 @@
 // The same walk with the legs swapped: the left leg does what the right one did, half a stride
 // away, and each foot stays where a foot was. Arms swing against the legs and are swapped with
-// them; the pelvis stays as it is, so each leg now starts from the other hip and reaches its place
+// them. The pelvis stays as it is, so that each leg starts from the other hip and reaches its foot
 // by another abduction. Seen from the side nothing changes: the two are modes of one posterior
-// (tracker/modes/stride_modes.h), and this is the involution that takes one to the other.
+// (tracker/modes/stride_modes.h), and this is the involution that maps one to the other.
 #pragma once
 
 #include "tracker/motion/propagate.h"
@@ -13,13 +13,14 @@ inline namespace tracker {
 
 Pose mirrored_legs(const Body& body, const Pose& pose);
 
-// Now and a frame ago, with the frame's noise; the particle is realised.
+// Swaps the particle's state now and a frame ago, and the frame's noise, which has to be applied
+// already.
 void mirror_legs(const MotionContext& context, WalkerParticle& particle);
 
 // All of them.
 void mirror_legs(const MotionContext& context, WalkerFilter& filter);
 
-// What was estimated of a frame, its samples, and its place in the stride.
+// Swaps the estimate of a frame, its samples, and its phase in the stride.
 void mirror_legs(const Body& body, FrameRecord& record);
 
 }  // namespace tracker

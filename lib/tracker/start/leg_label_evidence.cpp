@@ -7,11 +7,11 @@ inline namespace tracker {
 
 namespace {
 
-// Pixels of successive frames err together: so many nats of theirs count as one. Windows of made
-// walks whose legs bear the right names have -4 to +18 nats. By hand.
+// The errors of pixels in successive frames are correlated: this many nats count as one. Windows of
+// made walks with the right labels have -4 to +18 nats. By hand.
 constexpr double kPixelTemperature = 3;
 
-// Of the terms that tell a track's legs apart.
+// Of the terms that distinguish a track's legs.
 double frame_log_odds(const TrackerScene& scene, const CameraEvidence& before,
                       const CameraEvidence& now, const Pose& pose_before, const Pose& pose) {
   const Body& body = scene.model.body;

@@ -1,6 +1,6 @@
-// Whether the legs of a track bear the right names, asked of how the images move where the legs
-// pass each other (observation/flow/leg_order.h). For one camera: from two sides silhouettes tell
-// by themselves.
+// Whether the legs of a track have the right labels, from the motion of the images where the legs
+// pass each other (observation/flow/leg_order.h). It is used for one camera; from two sides
+// silhouettes suffice.
 #pragma once
 
 #include <deque>
@@ -12,14 +12,13 @@
 namespace walktrack {
 inline namespace tracker {
 
-// How much more the pictures of successive frames speak for a track's legs than for the same legs
-// swapped, nats; 0 where nothing is to be seen of it. One record for each of the first frames of
-// `window`.
+// Log-odds, nats, by the images of successive frames, that a track's legs have the right labels
+// instead of being swapped; 0 if the images do not show it. There is one record for each of the
+// first frames of `window`.
 double legs_log_odds(const TrackerScene& scene, const std::deque<SceneEvidence>& window,
                      std::span<const FrameRecord> records);
 
-// How much more a frame's keypoints speak for a pose's legs than for the same legs swapped, nats
-// of evidence that counts once; 0 without any.
+// The same by a frame's keypoints, for a pose's legs, nats that count once; 0 without keypoints.
 double names_in_frame(const TrackerScene& scene, const SceneEvidence& evidence, const Pose& pose);
 
 }  // namespace tracker

@@ -1,6 +1,6 @@
-// The first particles: a walker seen at a place, walking some way, may be in any phase of either
-// leg's step. They are drawn by hypotheses over phase and side, which then compete
-// (tracker/start/start_hypotheses.h).
+// The first particles. A walker that was detected at a place with a direction may be in any phase
+// of a step of either leg. Particles are drawn for hypotheses over phase and side, which then
+// compete (tracker/start/start_hypotheses.h).
 #pragma once
 
 #include <vector>
@@ -12,30 +12,32 @@ namespace walktrack {
 inline namespace tracker {
 
 struct StartConfig {
-  int phases = 6;        // hypotheses over the phase of a step, for each standing foot
-  int particles = 150;   // of each hypothesis
-  double seconds = 0.5;  // for which they compete
-  // Standard deviations. By hand, about as wide as detected walks are off; not tuned.
+  int phases = 6;        // hypotheses over the phase of a step, for each stance foot
+  int particles = 150;   // particles of each hypothesis
+  double seconds = 0.5;  // s for which they compete
+  // Standard deviations. By hand, about as large as the errors of detected walks; not tuned.
   double heading_deg = 6;
   double speed = 0.15;        // relative
   double step_length = 0.12;  // relative, about the human relation
 };
 
-// Which part of the stride a hypothesis covers: a standing foot and phases [from, to) of its step.
+// The part of the stride that a hypothesis covers: a stance foot and phases [from, to) of its step.
 struct PhaseRange {
   Side stance = Side::kLeft;
   double from = 0, to = 1;
 };
 std::vector<PhaseRange> phase_ranges(const StartConfig& config);
-// The ranges that hold a stated phase of the stride (0 = left foot strike), give or take a range.
+// The ranges that contain a stated phase of the stride (0 = left foot strike), and their
+// neighbours.
 std::vector<PhaseRange> phase_ranges(const StartConfig& config, double stride_phase);
 
-// Particles drawn around a detected walk; their noise is still to be drawn by a first frame.
+// Particles drawn around a detected walk; the first frame still has to draw their noise.
 std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfig& config,
                                   const DetectedWalk& detected, const PhaseRange& range,
                                   uint64_t seed);
 
-// The noise of a first frame: as wide as the detection is coarse. `motion`: to the body's scale.
+// The noise of a first frame, whose spread is the uncertainty of the detection. `motion`: at the
+// body's scale.
 NoiseScale start_scale(const StartConfig& config, const MotionModel& moves,
                        const MotionConfig& motion, const NoiseScale& frame);
 

@@ -14,9 +14,9 @@ namespace {
 // A hypothesis this many nats behind the best has lost (odds of 1 to 3 million).
 // By hand.
 constexpr double kHopeless = 15;
-// The evidence of a few particles is itself uncertain. Of 25 starts (side views from near and from
-// afar, two cameras; reports/left_and_right.md) the leading hypothesis was the wrong one as often
-// as if so many nats were worth one.
+// The evidence of a few particles is itself uncertain. In 25 starts (side views from near and from
+// afar, two cameras; reports/left_and_right.md) the best hypothesis was wrong as often as if this
+// many nats counted as one.
 constexpr double kEvidenceTemperature = 50;
 
 }  // namespace
@@ -68,8 +68,8 @@ bool StartHypotheses::step(const WalkerFilterContext& context, const SceneEviden
   return true;
 }
 
-// The seed of the best of those whose legs are swapped against the leader's: it stays, so that
-// the doubt can be told.
+// The best hypothesis whose legs are swapped relative to the leader: it is kept, so that the
+// probability of swapped legs is known.
 std::optional<uint64_t> StartHypotheses::mirror_hypothesis() const {
   const double phase = leader().records.back().modes.phase;
   const Hypothesis* best = nullptr;

@@ -13,8 +13,8 @@ inline namespace tracker {
 
 namespace {
 
-// Log-odds at which the pictures agree with the names of the legs, and at which they swap them:
-// set on 80 made walks, four of which were swapped rightly and one wrongly
+// Log-odds above which the images agree with the labels of the legs, and below whose negative the
+// legs are swapped: set on 80 made walks, four of which were swapped correctly and one wrongly
 // (reports/left_and_right.md).
 constexpr double kAgreed = 1.5, kSwapped = 0.75;
 
@@ -23,7 +23,7 @@ struct Attempt {
   std::vector<FrameRecord> records{};
   std::optional<Tracking> settled{};  // when the start was decided
   size_t settled_after = 0;           // frames
-  double legs = 0;                    // log-odds that the legs bear the right names
+  double legs = 0;                    // log-odds that the legs have the right labels
 };
 
 struct WindowFrames {
@@ -49,7 +49,7 @@ double explained(const Attempt& attempt) {
   return start ? finished + total_log_likelihood(start->hypotheses.records()) : finished;
 }
 
-// Goes on behind the attempt's records.
+// Continues after the attempt's records.
 void follow_rest(const WindowFrames& window, Attempt& attempt) {
   const TrackContext& context = window.context;
   for (size_t i = attempt.records.size(); i < window.frames.size() && !is_searching(attempt.mode);
@@ -65,7 +65,7 @@ void follow_rest(const WindowFrames& window, Attempt& attempt) {
     attempt.legs = legs_log_odds(context.scene, window.frames, attempt.records);
 }
 
-// The attempt again as far as its start was decided, and then with the legs swapped.
+// The attempt again, with the legs swapped from the frame on at which its start was decided.
 Attempt with_mirrored_legs(const WindowFrames& window, const Attempt& attempt) {
   const WalkerFilterContext filter = filter_context(window.context);
   const auto start = attempt.records.begin();
@@ -83,11 +83,11 @@ Attempt with_legs_named(const WindowFrames& window, Attempt first) {
   if (odds < kAgreed) {
     Attempt other = with_mirrored_legs(window, first);
     odds = 0.5 * (first.legs - other.legs);
-    // Whichever is kept, colours are learnt from the pose that was looked at last.
+    // In either case colours are learned from the pose that was computed last.
     std::get<Tracking>(first.mode).mean_pose = other.records.back().estimate.pose;
     if (is_tracking(other.mode) && odds < -kSwapped) {
       first = std::move(other);
-      doubt = 0.5;  // the outlines' word is not worth much here
+      doubt = 0.5;  // the outlines contain little evidence here
       odds = -odds;
     }
   }

@@ -21,7 +21,7 @@ struct NoiseIndices {
   constexpr operator NoiseGroup() const { return {at.data(), count}; }
 };
 
-// By what they move, of one side, on a path: the residual angles that have a process there.
+// The residual angles that move the same part on one side and have a process on this path.
 constexpr NoiseIndices noise_that(Moves moves, Side side, Path path) {
   NoiseIndices out;
   if (moves == Moves::kTrunk)
@@ -33,7 +33,7 @@ constexpr NoiseIndices noise_that(Moves moves, Side side, Path path) {
   return out;
 }
 
-// What a walker feels.
+// The noise that acts on the walker.
 inline constexpr NoiseIndices kWalkerNoise =
     noise_that(Moves::kWalker, Side::kLeft, Path::kSpatial);
 

@@ -29,7 +29,7 @@ void clamp_knees(KneedState& s) {
   keep(kSwingShank, kSwingThigh);
 }
 
-// A normal number made heavy-tailed: people mostly walk straight on, but when they turn, they turn.
+// A normal number with a heavier tail: people mostly walk straight ahead, but turns can be large.
 double heavy_tailed(double normal) { return std::sinh(normal); }
 
 void set_leg(const KneedState& s, bool stance, const ResidualAngles& residual, Side side,

@@ -1,5 +1,5 @@
-// How far people's angles stray from the walker's in its plane, trunk and legs: what makes a walker
-// at one moment of its step show the pose of another.
+// Residual angles: the differences between a person's angles and the walker's in its plane, of
+// trunk and legs. With them a walker at one moment of its step can show the pose of another moment.
 #pragma once
 
 #include "tracker/motion/propagate.h"
@@ -7,22 +7,24 @@
 namespace walktrack {
 inline namespace tracker {
 
-// -log of the residuals' own density (tracker/motion/propagate.h), but for a constant; infinite
+// -log of the density of the residuals (tracker/motion/propagate.h) without a constant; infinite
 // beyond their limits.
 double residual_energy(const MotionContext& context, const ResidualAngles& residual);
 
-// Gives `reading`, whose walker, stance and aim are set, the residuals with which it shows `pose`.
+// Sets the residuals of `reading`, whose walker, stance and aim are set, so that its pose is
+// `pose`.
 void fit_residuals_to(const Pose& pose, WalkerParticle& reading);
 
-// Residuals of a frame ago, drawn as those of now let expect.
+// Draws the residuals of a frame ago, given those of now.
 void draw_residuals_before(const MotionContext& context, WalkerParticle& reading, Rng& rng);
 
-// Puts the ball of the standing foot where `reading` has its root over that of `pose`.
+// Moves the ball of the stance foot so that the root of `reading` is over that of `pose`.
 void stand_under(const BodyModel& model, const Pose& pose, WalkerParticle& reading);
 
-// Metropolis-Hastings: `reading`, whose walker, stance and aim are set, takes the particle's place
-// where it explains the particle's pose with likelier residuals; whether it did. Without a number,
-// when both are beyond limits or nothing may stray, the particle stays.
+// A Metropolis-Hastings step: `reading`, whose walker, stance and aim are set, replaces the
+// particle if it explains the particle's pose with more probable residuals; returns whether it did.
+// If both are beyond their limits, or if no residual angle has a process, the particle stays and no
+// random number is drawn.
 bool try_reading(const MotionContext& context, WalkerParticle reading, WalkerParticle& particle,
                  Rng& rng);
 

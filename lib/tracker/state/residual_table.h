@@ -1,11 +1,11 @@
-// The coordinates of a particle beside its walker's state, which follow damped second-order Markov
-// processes (tracker/motion/propagate.h): those that the walker does not drive, and how far those
-// that it drives stray from it. The walker itself never feels them: its gait stays the stable one
-// that the prior knows.
+// The coordinates of a particle in addition to its walker's state. They follow damped second-order
+// Markov processes (tracker/motion/propagate.h): coordinates that the walker does not drive, and
+// deviations from those that it drives. They do not act on the walker, whose gait stays the stable
+// gait of the prior.
 //
-// One table says of each what it moves, in which plane, which is its mirror image, and its process.
-// What concerns several of them asks the table: no order of theirs means anything, but that random
-// numbers are drawn, and files hold them, by ascending ResidualAngle.
+// One table states for each coordinate what it moves, in which plane, its mirror image, and its
+// process. Code that concerns several of them uses the table. Their order has no meaning, except
+// that random numbers are drawn, and files hold them, in the order of ResidualAngle.
 #pragma once
 
 #include <algorithm>
@@ -23,14 +23,14 @@ inline namespace tracker {
 enum ResidualAngle {
   kHeading,
   kList,
-  kAbduction,  // of the left leg, and so for all that there are two of
+  kAbduction,  // of the left leg, and so for all coordinates that come in pairs
   kAbductionRight,
   kRotation,
   kRotationRight,
-  kAnkle,  // dorsiflexion; a standing foot's follows from its sole instead
+  kAnkle,  // dorsiflexion; that of a stance foot follows from its sole instead
   kAnkleRight,
-  kPace,    // logarithm of how much faster the person walks than the walker
-  kCrouch,  // how much further both knees are bent than the walker's
+  kPace,    // logarithm of the ratio of the person's pace to the walker's
+  kCrouch,  // additional flexion of both knees, compared with the walker's
   kTilt,
   kThigh,
   kThighRight,
@@ -53,16 +53,16 @@ struct MarkovConstants {
   double period = std::numeric_limits<double>::infinity();  // s, of its swinging; infinite: none
 };
 
-// What a coordinate moves, and what is therefore changed together.
+// What a coordinate moves; coordinates that move the same are changed together.
 enum class Moves { kTrunk, kLeg, kArm, kWalker };
 
 struct ResidualRow {
   ResidualAngle left, right;  // the same where there is one
   Moves moves;
-  bool sideways;            // out of the upright plane of the heading
-  bool strays;              // from an angle that the walker has
-  MarkovConstants process;  // of the kneed model, but for MotionConfig::residual_scale
-  double standing_time;     // s, the process's time of those who stand
+  bool sideways;            // whether it moves out of the upright plane of the heading
+  bool strays;              // whether it is a deviation from an angle that the walker has
+  MarkovConstants process;  // of the kneed model, before MotionConfig::residual_scale
+  double standing_time;     // s, the time of the process while the subject stands
 
   constexpr bool paired() const { return left != right; }
   constexpr ResidualAngle of(Side side) const { return side == Side::kLeft ? left : right; }
@@ -76,8 +76,8 @@ inline constexpr bool kSideways = true, kInPlane = false, kStrays = true, kOwn =
 }  // namespace residual_table
 
 // All by hand, none fitted. Rests are the mean offsets of walking people from the walker, spreads
-// the differences between people and along a stride that the walker has not got (walks of the
-// developing set, 2026-11-21), limits anatomical. Sensitivity: not measured one by one;
+// are the differences between people and those along a stride that the walker does not have (walks
+// of the developing set, 2026-11-21), limits anatomical. Sensitivity: not measured one by one;
 // `motion.residual_scale` multiplies the spreads of those that stray. A standing person sways and
 // shifts weight in seconds, where a walker's residuals change in a tenth.
 inline constexpr std::array kResidualTable = [] {
@@ -121,7 +121,7 @@ constexpr const ResidualRow& row_of(ResidualAngle angle) {
   return kResidualTable[residual_table::kRows[angle]];
 }
 
-// Of a pair that is named by its left one, or of what there is one of.
+// Of a pair, which is named by its left one, or of a single coordinate.
 constexpr size_t of_side(ResidualAngle left, Side side) { return row_of(left).of(side); }
 
 // Some of the residual angles, in ascending order.
@@ -146,7 +146,7 @@ constexpr ResidualList residuals_where(const Wanted& wanted) {
 
 inline constexpr ResidualList kAllResiduals =
     residuals_where([](const ResidualRow&) { return true; });
-// How far angles stray that the walker has: of trunk, thighs and shanks.
+// The deviations from angles that the walker has: of trunk, thighs and shanks.
 inline constexpr ResidualList kStraying =
     residuals_where([](const ResidualRow& row) { return row.strays; });
 

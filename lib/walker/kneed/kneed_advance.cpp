@@ -9,8 +9,8 @@ namespace walktrack {
 inline namespace walker {
 namespace {
 
-constexpr double kHastyTransfer = 0.02;  // s; a step takes ten times that
-constexpr int kMaxHastyTransfers = 8;    // in a row
+constexpr double kHastyTransfer = 0.02;  // s; by hand: a step takes more than ten times that
+constexpr int kMaxHastyTransfers = 8;    // in a row; by hand
 
 // A point of the trajectory with the acceleration and the swing foot there.
 struct Node {

@@ -9,10 +9,11 @@
 namespace walktrack {
 inline namespace walker {
 
-inline constexpr double kMinStep = 1e-7;   // s; a walker that needs less is reported as diverged
-inline constexpr double kMaxRate = 1e3;    // rad/s; ten times what a sprinter's shank reaches
-inline constexpr int kMaxStopEvents = 64;  // in one call; a step has about four
-inline constexpr double kTimeTolerance = 1e-13;   // s, of a located event
+// s, by hand; a walker that needs less is reported as diverged
+inline constexpr double kMinStep = 1e-7;
+inline constexpr double kMaxRate = 1e3;          // rad/s; ten times what a sprinter's shank reaches
+inline constexpr int kMaxStopEvents = 64;        // in one call, by hand; a step has about four
+inline constexpr double kTimeTolerance = 1e-13;  // s, of a located event
 inline constexpr double kGuardTolerance = 1e-13;  // rad, m or N m: rounding of a guard
 // Sub-steps of kneed_step_size(): RK4 is stable to 2.8 of its bound; 0.5 keeps its error per radian
 // of oscillation below 1e-3.

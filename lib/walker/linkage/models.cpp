@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 // A hip lower than this share of the standing height has fallen: people walk above .85 of it.
 constexpr double kFallenShare = 0.6;
 
-constexpr int kMostSpokes = 60;  // more cannot be told apart in a picture
+constexpr int kMostSpokes = 60;  // by hand: more cannot be told apart in a picture
 
 Vector2d gravity_vector(double gravity, double slope) {
   return gravity * Vector2d(std::sin(slope), -std::cos(slope));
@@ -28,7 +28,7 @@ VectorXd unit(Index n, Index i) { return VectorXd::Unit(n, i); }
 // The sole to draw: the arc that rolls while its part leans from -.4 to .7 rad.
 void add_sole(Linkage& linkage, const PlanarPoint& centre, Index angle, int group) {
   if (linkage.foot_radius == 0) return;
-  constexpr int kPieces = 6;  // of the drawn arc
+  constexpr int kPieces = 6;  // of the drawn arc, by hand
   const Index n = centre.along.size();
   const auto point = [&](int piece) {
     const double s = -.4 + 1.1 * piece / kPieces;

@@ -1,6 +1,6 @@
-// What a batch over a BIDS data set leaves beside its results: a derivative data set with the
-// tables of bids_tables.h, sub-<label>[/ses-<label>]/motion/..., made from the results as they
-// stand.
+// The files that a batch over a BIDS data set writes in addition to its results: a derivative data
+// set with the tables of bids_tables.h, sub-<label>[/ses-<label>]/motion/..., made from the results
+// as they are.
 #pragma once
 
 #include "io/archive/result_folder.h"

@@ -1,10 +1,11 @@
-// A result as Motion-BIDS has it (BEP029, since BIDS 1.9; Jeung et al., Scientific Data 11, 2024):
+// A result in the form of Motion-BIDS (BEP029, since BIDS 1.9; Jeung et al., Scientific Data 11,
+// 2024):
 //   motion.tsv     a row a frame without a header: joint positions in m, joint angles in degrees
 //   channels.tsv   what its columns are; channels.json says what they refer to
 //   motion.json    rate, counts, what it was made of
 //   events.tsv     foot strikes and toe-offs, s from the first frame; events.json says what they
 //   are
-// What is not known is "n/a".
+// Unknown values are "n/a".
 #pragma once
 
 #include <filesystem>

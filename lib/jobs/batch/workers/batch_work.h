@@ -1,4 +1,4 @@
-// One sequence of a batch being done by this worker: claimed, begun, ended.
+// A sequence of a batch that this worker tracks: claiming, beginning and ending it.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 // A claim on a folder, so that several workers, also of several machines that share it, never do
 // the same work twice. The claim is a file whose creation succeeds for one worker alone; while it
-// works it renews the file's time. A claim whose worker was a process of this machine that is no
-// more, or that nobody has renewed for kStaleSeconds, belongs to a dead worker and is taken over.
+// works it renews the file's time. A claim is taken over if its worker was a process of this
+// machine that no longer exists, or if it was not renewed for kStaleSeconds.
 #pragma once
 
 #include <filesystem>

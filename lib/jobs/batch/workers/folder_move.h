@@ -1,4 +1,5 @@
-// A whole folder that appears in its place by one rename, wherever it was made.
+// Moves a whole folder so that it appears in its place by one rename, also from another file
+// system.
 #pragma once
 
 #include <filesystem>

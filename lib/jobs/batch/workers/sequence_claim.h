@@ -1,6 +1,6 @@
-// A worker's claim on a sequence: a FolderLock in a hidden folder beside the result folder. What
-// has to be on the result's file system before it is shown is in there, too, so that the result
-// folder itself is nothing's but the result's.
+// A worker's claim on a sequence: a FolderLock in a hidden folder beside the result folder. Files
+// that have to be on the result's file system before the result appears are in that hidden folder,
+// too, so that the result folder holds only the result.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Which share of a batch a worker does.
+// The share of a batch that a worker tracks.
 #pragma once
 
 #include <functional>

@@ -1,10 +1,10 @@
-// `batch --work DIR`: sequences are tracked below a folder of this machine and shown when they are
-// whole, so that a network file system neither carries what passes nor shows what is not done.
+// `batch --work DIR`: sequences are tracked below a folder of this machine and moved to the output
+// when they are complete, so that a network file system neither transports temporary files nor
+// shows incomplete results.
 //
-// DIR/walktrack-<twelve digits that stand for OUT>/<sequence> is the result folder while it is
-// worked on; killed, it is gone on with by the next batch that has the same DIR. A result is
-// renamed into OUT (jobs/batch/workers/folder_move.h), a failure leaves failure.txt and log.txt
-// there.
+// DIR/walktrack-<twelve digits that stand for OUT>/<sequence> is the result folder during tracking;
+// after a kill the next batch with the same DIR continues with it. A result is renamed into OUT
+// (jobs/batch/workers/folder_move.h), a failure leaves failure.txt and log.txt there.
 #pragma once
 
 #include <filesystem>

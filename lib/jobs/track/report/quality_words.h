@@ -1,4 +1,4 @@
-// What each quality measure is called and means, in words for the people who read a report.
+// The name of each quality measure, its meaning, and advice, for the readers of a report.
 #pragma once
 
 #include <span>

@@ -1,8 +1,8 @@
-// report.html: one page to look at and send on, made of a motion that was tracked or analysed and
-// of the tables that are written of it.
+// report.html: one page that shows a motion that was tracked or analysed, made from the motion and
+// from its tables.
 //
 // It holds the overlay videos, an interactive view of the figure in space, curves over the gait
-// cycle beside a published normal range, events, what the filter says of itself, quality checks,
+// cycle beside a published normal range, events, diagnostics of the filter, quality checks,
 // settings and run.json itself. Positions in it are in the library's world axes.
 #pragma once
 

@@ -1,5 +1,5 @@
-// How good a track is, as far as it can tell itself: numbers that people ask for, each with the
-// limit of the configuration that it has to keep.
+// The quality of a track, as far as it shows without a truth: numbers, each with the limit of the
+// configuration that it must not exceed.
 #pragma once
 
 #include <optional>
@@ -33,7 +33,7 @@ Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
                    const QualityConfig& limits, double leg);
 
 // In how many of the frames with keypoints the figure is on one of the people detected; nullopt
-// with too few of them to say.
+// if there are too few of them.
 std::optional<QualityMeasure> quality_of_keypoints(const KeypointUse& use,
                                                    const QualityConfig& limits);
 

@@ -1,4 +1,4 @@
-// What run.json says of a run of `track`.
+// The contents of run.json for a run of `track`.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What a person wants to know when a track has ended, as lines for the terminal and as one line of
-// JSON for programs.
+// The most important results of a track, as lines for the terminal and as one line of JSON for
+// programs.
 #pragma once
 
 #include <string>

@@ -108,13 +108,14 @@ class Looker {
 
 std::string in_words(const Account& seen, const Looker& looker, const DetectorConfig& config) {
   if (seen.best.score < config.least_score && seen.best_small.score >= config.least_score) {
-    return fmt::format(": who is there is about {:.0f} px high, at least {:.0f} px are needed",
-                       looker.px(seen.best_small.place), std::ceil(looker.least_px()));
+    return fmt::format(
+        ": the person in the video is about {:.0f} px high, at least {:.0f} px are needed",
+        looker.px(seen.best_small.place), std::ceil(looker.least_px()));
   }
   if (seen.best.score < config.least_score) {
     const std::string size =
         seen.best.score > 0
-            ? fmt::format("; a person there is {:.0f} px high, and {:.0f} px are the least",
+            ? fmt::format("; a person there is {:.0f} px high, at least {:.0f} px are needed",
                           looker.px(seen.best.place), looker.least_px())
             : std::string();
     return fmt::format(

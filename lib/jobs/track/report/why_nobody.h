@@ -1,5 +1,5 @@
-// Why nobody was found in a video, in words: which of length, size in the picture, foreground or
-// motion was missing, with its number. Frames of the video are looked at again for it.
+// The reason for which nobody was found in a video, in words: whether length, size in the picture,
+// foreground or motion was missing, with the number. Frames of the video are read again for this.
 #pragma once
 
 #include <span>
