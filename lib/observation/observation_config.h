@@ -55,7 +55,10 @@ struct FlowConfig {
 struct KeypointConfig {
   TermSetting enabled = TermSetting::kAuto;  // decided before anything is tracked
   int every = 3;                             // frames, of which the network looks at one
-  std::string model = "movenet_lightning";   // the shipped network, or a file of the same family
+  // Whether it looks at a tracked subject only while left and right are in doubt
+  // (tracker/smooth/leg_labels.h).
+  bool in_doubt_only = false;
+  std::string model = "movenet_lightning";  // the shipped network, or a file of the same family
   // Of one point: a network's points err together from joint to joint and for several frames.
   double weight = .2;
   // Probability that the names of a frame's left and right are swapped. Of clear views it is below

@@ -30,6 +30,7 @@ struct Region {
   PixelRect area;
   double metres_per_px = .01;  // at the walker
   bool picture = false;        // whether the evidence is to hold the image itself
+  bool points = true;          // whether a pose network may be asked
 };
 
 // The whole image, the walker at the size given.

@@ -15,7 +15,9 @@ Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig
       seed_(seed),
       threads_(threads),
       subject_(scene_.model, prior, config.motion, scene_.dt),
-      mode_(Searching{WalkerFilter(config.filter, seed, threads), {}}) {}
+      mode_(Searching{WalkerFilter(config.filter, seed, threads), {}}) {
+  config_.detector = detector_for(scene_, config.detector);
+}
 
 std::vector<FrameRecord> Tracker::push(const SceneEvidence& evidence) {
   Records out;

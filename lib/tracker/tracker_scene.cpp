@@ -17,6 +17,11 @@ constexpr int kPages = 9;
 
 }  // namespace
 
+DetectorConfig detector_for(const TrackerScene& scene, DetectorConfig config) {
+  if (!scene.pictures) config.least_score = config.least_points_score;
+  return config;
+}
+
 int frames_in(double seconds, double dt) {
   return std::max(2, static_cast<int>(std::lround(seconds / dt)));
 }

@@ -15,17 +15,20 @@ namespace walktrack {
 inline namespace tracker {
 
 struct TrackerScene {
-  std::vector<Camera>
-      cameras;  // cameras of the images from which the evidence comes (Observer::camera)
+  std::vector<Camera> cameras;  // of the images from which the evidence comes (Observer::camera)
   BodyModel model;
   ObservationConfig observation;
+  bool pictures = true;  // of any camera; otherwise there are only keypoints
   double dt = 1.0 / 30;  // s between frames
-  std::optional<DetectedWalk>
-      initial;  // where the walk starts; if it is missing, the walk is searched
+  // Where the walk starts; if it is missing, the walk is searched.
+  std::optional<DetectedWalk> initial;
   int initial_frame = 0;
   std::optional<double> initial_phase;  // of the stride, 0 = left foot strike
   bool size_known = true;  // the height of the model is right; otherwise it is estimated
 };
+
+// The detector's limits for what a scene shows: keypoints alone say far less than pictures.
+DetectorConfig detector_for(const TrackerScene& scene, DetectorConfig config);
 
 // Number of frames, `dt` s apart, in a span of time, at least two.
 int frames_in(double seconds, double dt);

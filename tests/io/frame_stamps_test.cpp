@@ -36,6 +36,7 @@ TEST(FrameStamps, AreNoneWhereThereIsNoVideo) {
   const TemporaryFolder folder;
   write_sample_images(folder / "f", {0, 1, 2});
   EXPECT_TRUE(frame_stamps(folder / "f").empty());
+  EXPECT_TRUE(frame_stamps(folder / "f/frame%d.png").empty());
   EXPECT_TRUE(frame_stamps(folder / "nothing.mp4").empty());
   EXPECT_TRUE(frame_stamps(folder.write("text.mp4", "no video")).empty());
   EXPECT_EQ(steps_of({}).usual, 0);

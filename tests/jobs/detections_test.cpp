@@ -135,6 +135,9 @@ TEST_F(DetectionsTest, NetworkLooksAtEveryNthFrame) {
   EXPECT_EQ(detections.look(0, {picture_, 0, 0, around, true}).size(), 1u);
   EXPECT_TRUE(detections.look(0, {picture_, 1, 1, around, true}).empty());
   EXPECT_TRUE(detections.look(0, {picture_, 2, 2, {}, true}).empty());  // out of the picture
+  Region unasked = around;
+  unasked.points = false;
+  EXPECT_TRUE(detections.look(0, {picture_, 4, 4, unasked, true}).empty());
 }
 
 TEST_F(DetectionsTest, OfAnotherImageSizeAreRefused) {

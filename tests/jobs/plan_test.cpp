@@ -228,6 +228,18 @@ TEST(Plan, AdvisesWhatASceneDoesNotNeed) {
   EXPECT_THAT(advice(flow), Not(HasSubstr("Flow:")));
 }
 
+// Outlines of two sides tell left from right; the network costs what its looks take.
+TEST(Plan, SaysWhenTheNetworkIsNotNeededAndWhatItCosts) {
+  const std::string on = "observation.keypoints.enabled=on";
+  EXPECT_THAT(advice(plan_with({on})), HasSubstr("Keypoints: with 2 cameras silhouettes alone"));
+  EXPECT_THAT(advice(plan_with({})), Not(HasSubstr("Keypoints:")));
+  const double none = ms_with({}), third = ms_with({on}) - none,
+               each = ms_with({on, "observation.keypoints.every=1"}) - none;
+  EXPECT_GT(third, 0);
+  constexpr double kLook = 14;  // ms (data/pose_net/README.md)
+  EXPECT_NEAR(each - third, 2 * (1 - 1.0 / 3) * kLook, 5);
+}
+
 // With the way known, the camera beside it is the one to keep.
 TEST(Plan, KnowsTheCameraAtTheSide) {
   Scene scene = demo();

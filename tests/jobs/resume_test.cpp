@@ -13,6 +13,7 @@
 #include "io/archive/frame_file.h"
 #include "jobs/track/track.h"
 #include "jobs/track/track_origin.h"
+#include "observation/pose_net/pose_net.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 
@@ -131,6 +132,31 @@ TEST_F(Resume, WithoutABackground) {
 TEST_F(Resume, WithFlow) {
   change_ = [](Config& config) { config.observation.flow.enabled = TermSetting::kOn; };
   expect_same_after_kill(15);
+}
+
+// Whether left and right are in doubt is read off the frames so far.
+TEST_F(Resume, WithANetworkThatIsAskedInDoubtOnly) {
+  if (!has_pose_net()) GTEST_SKIP() << "built without OpenCV's dnn module";
+  const auto asked = [&](bool in_doubt_only) {
+    change_ = [in_doubt_only](Config& config) {
+      config.observation.keypoints.enabled = TermSetting::kOn;
+      config.observation.keypoints.every = 1;
+      config.observation.keypoints.in_doubt_only = in_doubt_only;
+    };
+  };
+  const auto frames = [&] {
+    const Json run = Json::parse(result("whole").at("run.json"));
+    return run.at("numbers").at("keypoint_frames").get<int>();
+  };
+  asked(true);
+  expect_same_after_kill(18);
+  const int in_doubt = frames();
+  asked(false);
+  TrackJob always = job("whole");
+  always.overwrite = true;
+  track_scene(always, {});
+  EXPECT_GT(in_doubt, 3);
+  EXPECT_LT(in_doubt, frames() - 3);
 }
 
 // The size that was found goes on with the walker.

@@ -58,6 +58,32 @@ TEST(LegLabels, AreTheChainsOwnMarginals) {
   for (size_t i = 0; i < 8; ++i) EXPECT_NEAR(found[i], swapped[i] / total[0], 1e-12);
 }
 
+// Clear frames settle the names within a second; after as long without any they are asked again.
+TEST(NamesSoFar, AreInDoubtUntilFramesHaveSaidEnough) {
+  NamesSoFar names;
+  EXPECT_TRUE(names.in_doubt());
+  names.add({true, 0.5, 0.1}, kDt);
+  EXPECT_TRUE(names.in_doubt());
+  for (int i = 0; i < 30; ++i) names.add({true, 0.5, 0.1}, kDt);
+  EXPECT_FALSE(names.in_doubt());
+  int unasked = 0;
+  for (; !names.in_doubt(); ++unasked) names.add({true, 0, 0.1}, kDt);
+  EXPECT_GT(unasked, 10);
+  EXPECT_LT(unasked, 60);
+  names.add({}, kDt);
+  EXPECT_TRUE(names.in_doubt()) << "after a loss";
+}
+
+// The last frame's view of the names is the same forward and backward.
+TEST(NamesSoFar, AgreeWithTheWholeTrackAtItsEnd) {
+  for (const double odds : {0.08, 0.25}) {
+    NamesSoFar names;
+    for (const NamedFrame& frame : track(20, odds)) names.add(frame, kDt);
+    const double swapped = swapped_probabilities(track(20, odds), kDt).back();
+    EXPECT_EQ(names.in_doubt(), swapped > 0.02) << odds;
+  }
+}
+
 TEST(LegLabels, TracksDoNotHearEachOther) {
   std::vector<NamedFrame> frames = track(21, 1);
   frames[10] = {};

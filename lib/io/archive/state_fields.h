@@ -144,8 +144,8 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<Region> T>
 void fields(Archive& archive, T& value) {
-  auto& [area, metres_per_px, picture] = value;
-  archive(area, metres_per_px, picture);
+  auto& [area, metres_per_px, picture, points] = value;
+  archive(area, metres_per_px, picture, points);
 }
 
 template <typename Archive, ArchivedAs<GreyImage> T>

@@ -133,6 +133,8 @@ void add_search(ParameterTable& table) {
            "lowest score of a frame, as a share of the median over the window");
   s.number("least_score", &S::least_score, 0, kAnyPositive,
            "lowest score of the figure in any frame, nats");
+  s.number("least_points_score", &S::least_points_score, 0, kAnyPositive,
+           "the same where keypoints are all there is, nats");
   s.integer("candidates", &S::candidates, 1, 1000,
             "places of a frame through which straight walks are proposed");
   s.integer("grid_px", &S::grid_px, 1, 1000,

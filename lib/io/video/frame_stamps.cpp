@@ -8,6 +8,8 @@ extern "C" {
 #include <cmath>
 #include <memory>
 
+#include "io/scene/scene.h"
+
 namespace walktrack {
 inline namespace io {
 
@@ -57,6 +59,7 @@ int64_t stamp_of(const AVPacket& packet) {
 }  // namespace
 
 std::vector<double> frame_stamps(const std::filesystem::path& video) {
+  if (is_frame_pattern(video)) return {};  // to which the library would give a rate of its own
   const Hushed hushed;
   std::vector<double> stamps;
   const File file = opened(video);

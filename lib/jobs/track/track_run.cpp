@@ -75,6 +75,8 @@ TrackRun::TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& f
   // OpenCV splits the network's layers by its threads, and other sums have other last bits.
   if (setup_.detections.uses_network()) set_image_threads(1);
   if (checkpoint) tracker_.resume(std::move(checkpoint->tracker));
+  if (in_doubt_only())
+    for (const FrameRecord& record : frames_.records) hear_names(record);
   if (!budget_.on()) return;
   particles_used_.assign(first_frame_, std::numeric_limits<double>::quiet_NaN());
   tracker_.use_particles(
@@ -136,8 +138,9 @@ std::vector<std::string> TrackRun::notes() const {
 
 std::string TrackRun::why_nobody(const JobControl& control) {
   return walktrack::why_nobody(
-      {job_.scene, job_.config.values.tracker.detector, prior_, everywhere_, threads_}, setup_,
-      static_cast<double>(frames_read_) / frames_.frame_rate, control);
+      {job_.scene, detector_for(setup_.scene, job_.config.values.tracker.detector), prior_,
+       everywhere_, threads_},
+      setup_, static_cast<double>(frames_read_) / frames_.frame_rate, control);
 }
 
 Region TrackRun::region(size_t camera) const {
@@ -149,9 +152,11 @@ Region TrackRun::region(size_t camera) const {
   constexpr double kReach = 0.5;  // m around the last pose, for the limbs
   constexpr double kHasty = 0.5;  // m/s by which the speed may be wrong
   const double speed = frames_.records.back().estimate.speed;
-  return person_region(setup_.scene.cameras[camera], tracker_.mean_place(),
-                       tracker_.body().subject.height,
-                       kReach + 2 * setup_.scene.dt * (speed + kHasty));
+  Region region = person_region(setup_.scene.cameras[camera], tracker_.mean_place(),
+                                tracker_.body().subject.height,
+                                kReach + 2 * setup_.scene.dt * (speed + kHasty));
+  region.points = !in_doubt_only() || names_.in_doubt();
+  return region;
 }
 
 std::vector<Region> TrackRun::regions() const {
@@ -193,8 +198,17 @@ void TrackRun::keep(std::vector<FrameRecord> records) {
   for (FrameRecord& record : records) {
     record.moving = moving_.front();
     moving_.pop_front();
+    hear_names(record);
     frames_.records.append(record);
   }
+}
+
+bool TrackRun::in_doubt_only() const {
+  return job_.config.values.observation.keypoints.in_doubt_only;
+}
+
+void TrackRun::hear_names(const FrameRecord& record) {
+  names_.add({record.tracked, record.names, record.modes.p_legs_swapped}, setup_.scene.dt);
 }
 
 // Works on this frame while the next one is fetched. The clock of decoding and evidence is what

@@ -20,6 +20,7 @@
 #include "jobs/track/stopwatch.h"
 #include "jobs/track/track.h"
 #include "jobs/track/track_setup.h"
+#include "tracker/smooth/leg_labels.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -91,6 +92,8 @@ class TrackRun {
   void complete();
   void push();
   void keep(std::vector<FrameRecord> records);
+  bool in_doubt_only() const;
+  void hear_names(const FrameRecord& record);
   void watch_movement();
   void follow();
   void learn();
@@ -106,6 +109,7 @@ class TrackRun {
   GaitPrior prior_;
   ParticleBudget budget_;
   Tracker tracker_;
+  NamesSoFar names_;  // only asked where the network looks in doubt alone
   std::vector<Region> everywhere_;
   std::optional<MovementWatch> movement_;
   std::deque<double> moving_;  // of the frames whose records have not come out

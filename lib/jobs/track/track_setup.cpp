@@ -106,6 +106,8 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
   out.model.path = config.tracker.motion.path;
   if (!out.model.downhill.isZero()) out.model.walker.gravity.y() = scene.gravity.z();
   out.observation = config.observation;
+  out.pictures = std::any_of(scene.cameras.begin(), scene.cameras.end(),
+                             [](const SceneCamera& camera) { return !camera.video.empty(); });
   out.dt = 1.0 / frame_rate;
   set_beginning(scene, frame_rate, out);
   for (const SceneCamera& camera : scene.cameras) {

@@ -128,6 +128,8 @@ void KeypointTerm::describe(Groups& groups) {
       "on: keypoints of the scene's files, and of the built-in network for cameras without a file; "
       "auto: the files if every camera has one, and the network if there is only one camera");
   k.integer("every", &K::every, 1, 1000, "the network is asked at every so many frames");
+  k.flag("in_doubt_only", &K::in_doubt_only,
+         "of a tracked subject the network is asked only while left and right are in doubt");
   k.text("model", &K::model, "the shipped network, or the ONNX file of one of the same family");
   k.number("weight", &K::weight, 0, 10,
            "weight of a point; below 1 because points err together and for several frames");

@@ -21,6 +21,8 @@ double log_odds_of(double probability) {
   return std::log(p) - std::log1p(-p);
 }
 
+double change_within(double dt) { return std::min(0.5, kSwapsPerSecond * dt); }
+
 // One track without a gap.
 void judge(std::span<const NamedFrame> frames, double change, std::span<double> out) {
   const size_t count = frames.size();
@@ -40,7 +42,7 @@ void judge(std::span<const NamedFrame> frames, double change, std::span<double> 
 }  // namespace
 
 std::vector<double> swapped_probabilities(std::span<const NamedFrame> frames, double dt) {
-  const double change = std::min(0.5, kSwapsPerSecond * dt);
+  const double change = change_within(dt);
   std::vector<double> out(frames.size());
   for (size_t begin = 0, end = 0; begin < frames.size(); begin = end + 1) {
     end = begin;
@@ -49,6 +51,21 @@ std::vector<double> swapped_probabilities(std::span<const NamedFrame> frames, do
       judge(frames.subspan(begin, end - begin), change, std::span(out).subspan(begin, end - begin));
   }
   return out;
+}
+
+void NamesSoFar::add(const NamedFrame& frame, double dt) {
+  if (frame.tracked) {
+    log_odds_ = tracked_ ? passed_on(log_odds_, change_within(dt)) : log_odds_of(frame.swapped);
+    log_odds_ -= frame.odds;
+  }
+  tracked_ = frame.tracked;
+}
+
+bool NamesSoFar::in_doubt() const {
+  // By hand; where nothing more is seen, the chance that a track swaps the legs brings it back in a
+  // second.
+  constexpr double kDoubt = 0.02;
+  return !tracked_ || std::abs(log_odds_) < -log_odds_of(kDoubt);
 }
 
 }  // namespace tracker

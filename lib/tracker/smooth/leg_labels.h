@@ -25,5 +25,17 @@ inline constexpr double kSwapsPerSecond = 0.02;
 // nothing is tracked. Tracks before and after a loss know nothing of each other.
 std::vector<double> swapped_probabilities(std::span<const NamedFrame> frames, double dt);
 
+// The same as far as a track has come: whether left and right are in doubt, so that more evidence
+// is worth its cost.
+class NamesSoFar {
+ public:
+  void add(const NamedFrame& frame, double dt);
+  bool in_doubt() const;
+
+ private:
+  bool tracked_ = false;
+  double log_odds_ = 0;  // of "swapped"
+};
+
 }  // namespace tracker
 }  // namespace walktrack

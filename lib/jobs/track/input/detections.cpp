@@ -132,7 +132,7 @@ DetectedPeople Detections::seen_by_network(Viewer& viewer, const FrameToLookAt& 
   if (frame.scene_frame % every_ != 0) return {};
   if (!frame.around)
     return viewer.finder->look(*viewer.net, frame.picture, frame.scene_frame / every_);
-  if (frame.region.area.empty()) return {};
+  if (frame.region.area.empty() || !frame.region.points) return {};
   return {viewer.net->detect(frame.picture, cut_out_around(frame.region, viewer.shrink, height_))};
 }
 

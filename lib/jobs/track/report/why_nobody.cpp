@@ -46,6 +46,7 @@ class Looker {
     }
   }
 
+  bool has_pictures() const { return setup_.scene.pictures; }
   double height() const { return setup_.scene.model.body.subject.height; }
   // In the first camera's video.
   double px(const Vector2d& place) const {
@@ -84,8 +85,15 @@ class Looker {
  private:
   SceneEvidence evidence_of(const SceneFrames& images) {
     SceneEvidence evidence(setup_.observers.size());
-    for (size_t c = 0; c < setup_.observers.size(); ++c)
-      setup_.observers[c].observe(images.images[c], searched_.everywhere[c], evidence[c]);
+    for (size_t c = 0; c < setup_.observers.size(); ++c) {
+      const Region& region = searched_.everywhere[c];
+      if (searched_.scene.cameras[c].video.empty()) {
+        const FrameToLookAt frame{images.images[c], images.source[c], images.number, region};
+        setup_.observers[c].observe({}, region, evidence[c], setup_.detections.look(c, frame));
+      } else {
+        setup_.observers[c].observe(images.images[c], region, evidence[c]);
+      }
+    }
     return evidence;
   }
 
@@ -118,10 +126,11 @@ std::string in_words(const Account& seen, const Looker& looker, const DetectorCo
             ? fmt::format("; a person there is {:.0f} px high, at least {:.0f} px are needed",
                           looker.px(seen.best.place), looker.least_px())
             : std::string();
-    return fmt::format(
-        ": no person stands out from the background; the best place has {:.1f} nats, {:g} are "
-        "needed{}",
-        seen.best.score, config.least_score, size);
+    return fmt::format(": {}; the best place has {:.1f} nats, {:g} are needed{}",
+                       looker.has_pictures()
+                           ? "no person stands out from the background"
+                           : "nobody's keypoints lie as somebody has them who walks on the ground",
+                       seen.best.score, config.least_score, size);
   }
   if (seen.speed < config.slowest) {
     return fmt::format(

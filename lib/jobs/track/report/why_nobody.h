@@ -16,7 +16,7 @@ inline namespace jobs {
 
 struct SearchedVideo {
   const Scene& scene;
-  const DetectorConfig& config;
+  DetectorConfig config;  // for what the scene shows
   const GaitPrior& prior;
   std::span<const Region> everywhere;  // by camera
   int threads;
