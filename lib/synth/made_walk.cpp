@@ -11,6 +11,8 @@
 #include "body/pose_from_joints.h"
 #include "core/conventions.h"
 #include "core/errors.h"
+#include "synth/foot_path.h"
+#include "synth/walk_style.h"
 
 namespace walktrack {
 inline namespace synth {
@@ -20,55 +22,13 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kStance = 0.62;       // share of the stride
-constexpr double kStrikeAhead = 0.52;  // of a step: ankle ahead of the pelvis when the heel strikes
-constexpr double kHeelBack = 0.23;     // of the foot's length behind the ankle (body/subject.cpp)
-constexpr double kClearance = 0.035;   // m, of the sole in mid-swing
-constexpr double kUsualStep = 0.7;     // m; movements of the pelvis scale with the step
-
-// The sole's pitch (degrees, heel up positive) over the stride from strike to strike.
-struct Key {
-  double at, pitch_deg;
-};
-constexpr std::array<Key, 9> kPitch{{{0, -18},
-                                     {.09, 0},
-                                     {.36, 0},
-                                     {.50, 18},
-                                     {.62, 56},
-                                     {.74, 28},
-                                     {.86, -6},
-                                     {.95, -19},
-                                     {1, -18}}};
-
-// Slope at a key that keeps the curve monotone between keys (Fritsch & Butland 1984).
-double key_slope(size_t i) {
-  const size_t last = kPitch.size() - 1;
-  const auto rise = [](size_t k) {
-    return (kPitch[k + 1].pitch_deg - kPitch[k].pitch_deg) / (kPitch[k + 1].at - kPitch[k].at);
-  };
-  const double before = i == 0 ? rise(last - 1) : rise(i - 1);
-  const double after = i == last ? rise(0) : rise(i);
-  return before * after <= 0 ? 0 : 2 * before * after / (before + after);
-}
-
-double sole_pitch_at(double stride, double step_length) {
-  size_t i = 0;
-  while (i + 2 < kPitch.size() && stride > kPitch[i + 1].at) ++i;
-  const double span = kPitch[i + 1].at - kPitch[i].at, s = (stride - kPitch[i].at) / span;
-  const double s2 = s * s, s3 = s2 * s;
-  const double pitch_deg =
-      (2 * s3 - 3 * s2 + 1) * kPitch[i].pitch_deg + (s3 - 2 * s2 + s) * span * key_slope(i) +
-      (3 * s2 - 2 * s3) * kPitch[i + 1].pitch_deg + (s3 - s2) * span * key_slope(i + 1);
-  return rad_from_deg(pitch_deg) * std::min(1.2, step_length / kUsualStep);
-}
-
-// The quintic from p0 to p1 with end velocities v0, v1 and no acceleration at the ends.
-Vector2d quintic(const Vector2d& p0, const Vector2d& v0, const Vector2d& p1, const Vector2d& v1,
-                 double s) {
-  const double s3 = s * s * s, s4 = s3 * s, s5 = s4 * s;
-  return p0 * (1 - 10 * s3 + 15 * s4 - 6 * s5) + v0 * (s - 6 * s3 + 8 * s4 - 3 * s5) +
-         p1 * (10 * s3 - 15 * s4 + 6 * s5) + v1 * (-4 * s3 + 7 * s4 - 3 * s5);
-}
+// Accelerations of the ankle at either end of its swing, in ways by the square of the swing's time:
+// pushed off and braked. Fitted with the angles of walk_style.cpp.
+constexpr double kPush = 4.5, kBrake = -5;
+constexpr double kSway = 0.018;  // m, of the pelvis to either side (Perry 1992: 4 cm in all)
+// Of a stride; more change nothing that is seen. By hand.
+constexpr int kHarmonics = 8;  // of the pelvis's height
+constexpr int kInstants = 96;  // at which legs are looked at
 
 struct Foot {
   Vector3d ankle;
@@ -77,17 +37,17 @@ struct Foot {
 
 class Walker {
  public:
-  Walker(const Body& body, const MadeWalk& walk) : body_(body), walk_(walk) {
-    const double preferred = 0.40 * body.subject.height * std::pow(walk.speed / 1.25, 0.42);
-    step_ = walk.step_length.value_or(preferred);
-    step_time_ = step_ / walk.speed;
-    heel_back_ = kHeelBack * body.lengths.foot;
-    find_height();
+  Walker(const Body& body, const MadeWalk& walk)
+      : body_(body), walk_(walk), style_(walk_style(body, walk)) {
+    step_time_ = style_.step_length / walk.speed;
+    find_strike();
+    find_heights();
+    find_drop();
   }
 
   JointPositions joints_at(double time) const {
     const double t = time + 2 * step_time_ * walk_.phase;
-    Pose pose = pelvis_at(t, height_);
+    Pose pose = pelvis_at(t, height_at(t));
     JointPositions joints = forward_kinematics(body_, pose).joints;
     for (const Side side : {Side::kLeft, Side::kRight}) bend_leg(foot_at(side, t), side, joints);
     const auto bent = pose_from_joints(joints, body_.lengths);
@@ -119,17 +79,14 @@ class Walker {
 
   // Foot of footprint `index` (even = left) on the ground, `stride` after its strike.
   Foot standing(int index, double stride) const {
-    const BodyLengths& l = body_.lengths;
-    const double distance = step_ * (index + (index % 2 == 0 ? 0 : walk_.limp) + kStrikeAhead);
-    const double pitch = sole_pitch_at(stride, step_), c = std::cos(pitch), s = std::sin(pitch);
-    // Turning about the heel's or the ball's place on the ground.
-    const double ahead = pitch < 0 ? heel_back_ * (c - 1) + l.ankle_height * s
-                                   : l.ball_forward * (1 - c) + l.ankle_height * s;
-    const double up = l.ankle_height * c + (pitch < 0 ? -heel_back_ : l.ball_forward) * s;
-    const double heading = heading_at(distance), side = index % 2 == 0 ? 0.5 : -0.5;
-    const Vector2d flat = path_point(distance, side * walk_.step_width);
-    const Vector2d ankle = flat + ahead * Vector2d(std::cos(heading), std::sin(heading));
-    return {{ankle.x(), ankle.y(), up}, heading, pitch};
+    const bool left = index % 2 == 0;
+    const double step = style_.step_length;
+    const double distance = step * (index + (left ? 0 : walk_.limp)) + strike_ahead_;
+    const double pitch = style_.sole_pitch(stride), heading = heading_at(distance);
+    const Vector2d flat = path_point(distance, (left ? 0.5 : -0.5) * style_.step_width);
+    const Vector2d rolled = rolled_ankle(body_.lengths, pitch);
+    const Vector2d ankle = flat + rolled.x() * Vector2d(std::cos(heading), std::sin(heading));
+    return {{ankle.x(), ankle.y(), rolled.y()}, heading, pitch};
   }
 
   Vector2d standing_rate(int index, double stride, double inwards) const {
@@ -137,46 +94,107 @@ class Walker {
     return (standing(index, stride + h).ankle - standing(index, stride).ankle).head<2>() / h;
   }
 
+  // Strides since the first strike of that foot.
+  double strides(Side side, double t) const {
+    return (t / step_time_ - (side == Side::kLeft ? 0 : 1 + walk_.limp)) / 2;
+  }
+
   Foot foot_at(Side side, double t) const {
-    const double lag = side == Side::kLeft ? 0 : 1 + walk_.limp;
-    const double cycle = (t / step_time_ - lag) / 2;
-    const double whole = std::floor(cycle), stride = cycle - whole;
+    const double cycle = strides(side, t), whole = std::floor(cycle), stride = cycle - whole;
     const int index = 2 * static_cast<int>(whole) + (side == Side::kLeft ? 0 : 1);
-    if (stride <= kStance) return standing(index, stride);
-    const double share = (stride - kStance) / (1 - kStance);
-    const Foot from = standing(index, kStance), to = standing(index + 2, 0);
+    if (stride <= style_.lift) return standing(index, stride);
+    const double swing = 1 - style_.lift, share = (stride - style_.lift) / swing;
+    const Foot from = standing(index, style_.lift), to = standing(index + 2, 0);
+    const Vector2d start = from.ankle.head<2>(), end = to.ankle.head<2>(), way = end - start;
     const Vector2d ankle =
-        quintic(from.ankle.head<2>(), (1 - kStance) * standing_rate(index, kStance, -1),
-                to.ankle.head<2>(), (1 - kStance) * standing_rate(index + 2, 0, 1), share);
-    // The sole's lowest point rises smoothly and comes down again.
-    const double lift = 16 * kClearance * share * share * (1 - share) * (1 - share);
-    const Foot rolled = standing(index, stride);
+        swing_path({start, swing * standing_rate(index, style_.lift, -1), kPush * way},
+                   {end, swing * standing_rate(index + 2, 0, 1), kBrake * way}, share);
+    const double pitch = style_.sole_pitch(stride);
     const double turn = to.heading - from.heading;
-    return {{ankle.x(), ankle.y(), rolled.ankle.z() + lift},
+    return {{ankle.x(), ankle.y(), swinging_ankle(body_.lengths, pitch, share, style_.clearance)},
             from.heading + turn * share * share * (3 - 2 * share),
-            rolled.pitch};
+            pitch};
   }
 
   // Root, heading, list and tilt; steps begin with strikes, of the left foot for even ones.
   Pose pelvis_at(double t, double height) const {
-    const double scale = step_ / kUsualStep, steps = t / step_time_;
+    const double steps = t / step_time_;
     const auto stride_wave = [&](double peak) { return std::cos(kPi * (steps - peak)); };
     const double distance = walk_.speed * t;
-    const Vector2d ground = path_point(distance, 0.018 * stride_wave(0.62));
+    const Vector2d ground = path_point(distance, kSway * stride_wave(0.62));
     Pose pose;
-    // Lowest in the middle of double support.
-    const double lowest = 0.5 * (2 * kStance - 1) * 2;
-    const double bob = -0.02 * scale * scale * std::cos(2 * kPi * (steps - 0.5 * lowest));
-    pose.root = {ground.x(), ground.y(), height + bob};
-    pose.heading = heading_at(distance) - rad_from_deg(5) * scale * stride_wave(0);
-    pose.list = rad_from_deg(3.5) * scale * stride_wave(0.35);
-    pose.tilt = walk_.lean;
+    pose.root = {ground.x(), ground.y(), height};
+    // Phases and the third harmonic are those of Conventional Gait Model norms: the pelvis turns
+    // furthest just after a strike, rises on the side that is loaded and stays up until the next.
+    pose.heading = heading_at(distance) - style_.rotation * stride_wave(0.09);
+    pose.list = style_.list * (stride_wave(0.45) + 0.4 * std::cos(3 * kPi * (steps - 0.29)));
+    pose.tilt = style_.lean;
     return pose;
+  }
+
+  // The pelvis's height at which that leg's knee is bent as the style says.
+  double wanted_height(Side side, double t) const {
+    const BodyLengths& l = body_.lengths;
+    const Vector3d hip_joint = forward_kinematics(body_, pelvis_at(t, 0)).joints[hip(side)];
+    const Vector3d ankle_joint = foot_at(side, t).ankle;
+    const double bend = style_.knee(strides(side, t));
+    const double leg2 =
+        l.thigh * l.thigh + l.shank * l.shank + 2 * l.thigh * l.shank * std::cos(bend);
+    const double away2 = (hip_joint - ankle_joint).head<2>().squaredNorm();
+    return ankle_joint.z() + std::sqrt(std::max(0.0, leg2 - away2)) - hip_joint.z();
+  }
+
+  // How much of the body that leg bears: taken over while both feet are on the ground.
+  double bearing(Side side, double t) const {
+    constexpr double kNearlyNothing = 1e-6;  // in a jump
+    const double cycle = strides(side, t), stride = cycle - std::floor(cycle);
+    const double over = style_.lift - 0.5;
+    return std::max(kNearlyNothing,
+                    smooth_step(stride / over) * smooth_step((style_.lift - stride) / over));
+  }
+
+  // How far ahead of the pelvis a foot's place is when it strikes: where both legs want the pelvis
+  // at the same height.
+  void find_strike() {
+    double low = 0.2 * style_.step_length, high = 0.8 * style_.step_length;
+    for (int i = 0; i < 40; ++i) {
+      strike_ahead_ = 0.5 * (low + high);
+      const double right = step_time_ * (1 + walk_.limp);
+      const double front = wanted_height(Side::kLeft, 0) + wanted_height(Side::kRight, right);
+      const double back = wanted_height(Side::kRight, 0) + wanted_height(Side::kLeft, right);
+      (front > back ? low : high) = strike_ahead_;
+    }
+  }
+
+  // Fourier series of the height that the bearing legs want.
+  void find_heights() {
+    for (int i = 0; i < kInstants; ++i) {
+      const double t = 2 * step_time_ * i / kInstants;
+      const double left = bearing(Side::kLeft, t), right = bearing(Side::kRight, t);
+      const double height =
+          (left * wanted_height(Side::kLeft, t) + right * wanted_height(Side::kRight, t)) /
+          (left + right);
+      height_[0] += height / kInstants;
+      for (int k = 1; k <= kHarmonics; ++k) {
+        const double angle = 2 * kPi * k * i / kInstants;
+        height_[2 * k - 1] += 2 * height * std::cos(angle) / kInstants;
+        height_[2 * k] += 2 * height * std::sin(angle) / kInstants;
+      }
+    }
+  }
+
+  double height_at(double t) const {
+    double height = height_[0] - drop_;
+    for (int k = 1; k <= kHarmonics; ++k) {
+      const double angle = kPi * k * t / step_time_;
+      height += height_[2 * k - 1] * std::cos(angle) + height_[2 * k] * std::sin(angle);
+    }
+    return height;
   }
 
   void swing_arms(double t, Pose& pose) const {
     const double wave = std::cos(kPi * t / step_time_);  // 1 at the left foot's strike
-    const double swing = rad_from_deg(20) * walk_.arm_swing * std::min(1.5, walk_.speed / 1.25);
+    const double swing = style_.arm_swing;
     for (const Side side : {Side::kLeft, Side::kRight}) {
       const double forward = side == Side::kLeft ? -wave : wave;
       ArmPose& arm = pose.arms[static_cast<size_t>(side)];
@@ -208,35 +226,38 @@ class Walker {
         foot.ankle + (l.ball_forward * c + rise * s) * ahead + (rise * c - l.ball_forward * s) * up;
   }
 
-  double longest_leg(double height) const {
-    constexpr int kInstants = 80;
+  double longest_leg() const {
     double longest = 0;
     for (int i = 0; i < kInstants; ++i) {
       const double t = 2 * step_time_ * i / kInstants;
-      const JointPositions joints = forward_kinematics(body_, pelvis_at(t, height)).joints;
+      const JointPositions joints = forward_kinematics(body_, pelvis_at(t, height_at(t))).joints;
       for (const Side side : {Side::kLeft, Side::kRight})
         longest = std::max(longest, (joints[hip(side)] - foot_at(side, t).ankle).norm());
     }
     return longest;
   }
 
-  // The highest pelvis at which no leg is straighter than it may be, by bisection.
-  void find_height() {
+  // How much lower the pelvis is, for no leg to be straighter than it may be; by bisection.
+  void find_drop() {
     const double leg = body_.lengths.thigh + body_.lengths.shank;
-    double low = 0.6 * leg, high = 1.1 * leg;
-    if (longest_leg(low) > walk_.straightest * leg)
-      throw InputError(
-          fmt::format("steps of {:.2f} m are too long for legs of {:.2f} m", step_, leg));
+    if (longest_leg() <= walk_.straightest * leg) return;
+    double low = 0, high = 0.4 * leg;
+    drop_ = high;
+    if (longest_leg() > walk_.straightest * leg)
+      throw InputError(fmt::format("steps of {:.2f} m are too long for legs of {:.2f} m",
+                                   style_.step_length, leg));
     for (int i = 0; i < 40; ++i) {
-      const double middle = 0.5 * (low + high);
-      (longest_leg(middle) <= walk_.straightest * leg ? low : high) = middle;
+      drop_ = 0.5 * (low + high);
+      (longest_leg() <= walk_.straightest * leg ? high : low) = drop_;
     }
-    height_ = low;
+    drop_ = high;
   }
 
   const Body& body_;
   const MadeWalk& walk_;
-  double step_, step_time_, heel_back_, height_ = 0;
+  WalkStyle style_;
+  double step_time_ = 0, strike_ahead_ = 0, drop_ = 0;
+  std::array<double, 2 * kHarmonics + 1> height_{};  // mean, then cosine and sine of each harmonic
 };
 
 }  // namespace

@@ -1,20 +1,19 @@
 // A walk without a recording: footprints at regular steps along a straight or circular path, feet
-// that roll over heel and ball without sliding, a pelvis that bobs, sways and turns as people's do,
-// legs by inverse kinematics, arms that swing. For demonstrations and tests; it obeys geometry, not
-// mechanics. Metres, seconds, radians.
+// that roll over heel and ball without sliding, a pelvis that turns, lists and sways as people's do
+// and is as high as the leg that bears it makes it, legs by inverse kinematics, arms that swing.
+// For demonstrations and tests; it obeys geometry, not mechanics. Metres, seconds, radians.
 //
-// Magnitudes after Perry, "Gait Analysis", 1992 (stance 62 % of the stride, sole pitch, pelvic list
-// 4 deg and rotation 5 deg, 4 cm of rise and of sway) and Grieve & Gear 1966 (step length grows
-// with speed to the power 0.42).
+// How people walk, at which speed and how they differ is in walk_style.cpp, with its sources; step
+// length grows with speed to the power 0.42 (Grieve & Gear 1966).
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include <Eigen/Core>
 
 #include "body/body.h"
 #include "body/motion.h"
-#include "core/conventions.h"
 
 namespace walktrack {
 inline namespace synth {
@@ -29,11 +28,13 @@ struct MadeWalk {
   double turn_rate = 0;               // of the path, rad/s, > 0 to the left
   double phase = 0;                   // share of the stride since a left foot strike, at time 0
   double arm_swing = 1;               // relative to the usual
+  // Who walks: people differ in all that is not stated here. 0 is the average person.
+  uint64_t person = 0;
+  std::optional<double> step_width;  // m between the tracks of the ankles; the average is 0.09
+  std::optional<double> lean;        // of trunk and pelvis, > 0 forwards; the average is 4 degrees
   // Of patients:
-  double limp = 0;           // a right foot lands that share of a step too far ahead and too late
-  double step_width = 0.09;  // m between the tracks of the ankles
-  double lean = rad_from_deg(4);  // of trunk and pelvis, > 0 forwards
-  double straightest = 0.985;     // of the leg, share of its length: knees never lock
+  double limp = 0;             // a right foot lands that share of a step too far ahead and too late
+  double straightest = .9985;  // of the leg, share of its length: knees never lock; less: a crouch
 };
 
 // The joints of `body` (with arms if it has them). InputError if its legs cannot take such steps.

@@ -19,11 +19,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kFar = 1000;           // m
-constexpr double kLongest = 24 * 3600;  // s
-constexpr int kSmallestPicture = 8;     // px
-constexpr double kWalkMargin = 0.25;    // s
-constexpr double kLargestFocal = 1e6;   // px
+constexpr double kFar = 1000;                            // m
+constexpr double kLongest = 24 * 3600;                   // s
+constexpr int kSmallestPicture = 8;                      // px
+constexpr double kWalkMargin = 0.25;                     // s
+constexpr double kLargestKey = 9'007'199'254'740'991.0;  // of seeds and persons; exact as a double
+constexpr double kLargestFocal = 1e6;                    // px
 
 // Reads `key` into `target` if it is there.
 void take(const YamlValue& map, const std::string& key, double low, double high, double& target) {
@@ -184,10 +185,14 @@ Subject who_walks(const YamlValue& looks, const FilmedWalker& walker) {
 }
 
 // A walk over the scene's duration and a little more, for shutters that open before a frame's time.
-Motion read_walk(const YamlValue& value, const Subject& subject, double duration) {
+// `person` walks, unless the walk names another one.
+Motion read_walk(const YamlValue& value, const Subject& subject, double duration, uint64_t person) {
   value.only_keys({"speed", "step_length", "start", "heading_deg", "turn_deg_s", "phase",
-                   "arm_swing", "limp", "step_width", "lean_deg", "straightest"});
+                   "arm_swing", "limp", "step_width", "lean_deg", "straightest", "person"});
   MadeWalk walk;
+  walk.person = person;
+  if (value.has("person"))
+    walk.person = static_cast<uint64_t>(value.at("person").number(0, kLargestKey));
   take(value, "speed", 0.2, 3, walk.speed);
   take(value, "step_length", 0.1, 2, walk.step_length);
   if (value.has("start")) walk.start = Eigen::Vector2d(value.at("start").numbers(2).data());
@@ -197,7 +202,7 @@ Motion read_walk(const YamlValue& value, const Subject& subject, double duration
   take(value, "arm_swing", 0, 3, walk.arm_swing);
   take(value, "limp", -0.5, 0.5, walk.limp);
   take(value, "step_width", -0.1, 0.5, walk.step_width);
-  take_degrees(value, "lean_deg", 45, walk.lean);
+  if (value.has("lean_deg")) walk.lean = rad_from_deg(value.at("lean_deg").number(-45, 45));
   take(value, "straightest", 0.8, 0.999, walk.straightest);
   walk.from = -kWalkMargin;
   walk.to = duration + kWalkMargin;
@@ -223,14 +228,14 @@ GaitWalk read_gait(const YamlValue& value) {
 }
 
 FilmedWalker read_other(const YamlValue& value, const fs::path& folder, double duration,
-                        std::vector<fs::path>& motions) {
+                        uint64_t person, std::vector<fs::path>& motions) {
   value.only_keys({"motion", "walk", "height", "mass", "clothes", "arms", "turn_deg", "delay",
                    "shift", "shape", "lengths"});
   FilmedWalker walker;
   walker.clothes = 1;
   read_looks(value, walker);
   if (value.has("walk")) {
-    walker.motion = read_walk(value.at("walk"), who_walks(value, walker), duration);
+    walker.motion = read_walk(value.at("walk"), who_walks(value, walker), duration, person);
   } else {
     motions.push_back(resolved(folder, value.at("motion").text()));
     walker.motion = read_motion(motions.back());
@@ -251,7 +256,7 @@ RenderFile read_render_file(const fs::path& path) {
   RenderFile out;
   RenderOptions& options = out.options;
   if (file.has("seed"))
-    options.seed = static_cast<uint64_t>(file.at("seed").number(0, 9'007'199'254'740'991.0));
+    options.seed = static_cast<uint64_t>(file.at("seed").number(0, kLargestKey));
   take(file, "frame_rate", kSlowestRate, kFastestRate, options.frame_rate);
   take(file, "start", -kLongest, kLongest, options.start);
   take(file, "duration", 0, kLongest, options.duration);
@@ -272,7 +277,7 @@ RenderFile read_render_file(const fs::path& path) {
   }
   const double duration = options.duration.value_or(kDefaultWalkDuration);
   if (file.has("walk")) {
-    out.subject.motion = read_walk(file.at("walk"), who, duration);
+    out.subject.motion = read_walk(file.at("walk"), who, duration, options.seed);
     options.duration = duration;
   }
   if (file.has("gait")) {
@@ -289,8 +294,9 @@ RenderFile read_render_file(const fs::path& path) {
       options.occluders.push_back(read_thing(item));
   }
   if (file.has("others")) {
+    uint64_t person = options.seed;
     for (const YamlValue& item : file.at("others").items())
-      options.others.push_back(read_other(item, folder, duration, out.motions));
+      options.others.push_back(read_other(item, folder, duration, ++person, out.motions));
   }
   if (file.has("keypoints")) options.keypoints = read_keypoint_faults(file.at("keypoints"));
   if (file.has("truth")) {

@@ -8,8 +8,10 @@
 //   gloss: 0                     # of the floor, 0 matt to 1 polished
 //   sensor: {exposure: 1, noise: 0.01, flicker: 0, blur_samples: 1, shutter: 0.5, jpeg_quality: 0}
 //   walk: {speed: 1.25, step_length: 0.7, start: [0, 0], heading_deg: 0, turn_deg_s: 0, phase: 0,
-//          arm_swing: 1, limp: 0, step_width: 0.09, lean_deg: 4, straightest: 0.985}
-//                                # where there is no MOTION.csv (synth/made_walk.h)
+//          arm_swing: 1, limp: 0, step_width: 0.09, lean_deg: 4, straightest: 0.999, person: 7}
+//                                # where there is no MOTION.csv (synth/made_walk.h); steps, knees,
+//                                # trunk, ... are those of a person, by default of the seed's
+//                                # number; 0 is the average one
 //   gait: {speed: 1.3, step_length: 0.7, start: [0, 0], heading_deg: 0, speed_at: [[2, 1.6]]}
 //                                # or this: the kneed walker by the table of gaits, truth with
 //                                forces
