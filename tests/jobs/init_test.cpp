@@ -59,7 +59,7 @@ TEST_F(Init, MakesASceneThatPassesItsChecks) {
               0.03);
   // The camera looks down by 3 degrees, which a walk straight across does not tell.
   EXPECT_NEAR(found.view.height.value, camera_centre(truth).z(), 2 * found.view.height.sd);
-  EXPECT_THAT(init_text(found), HasSubstr("Not for: distance from the camera"));
+  EXPECT_THAT(init_text(found), HasSubstr("Do not use it for the distance from the camera"));
 }
 
 // With the lens and the tilt stated, the camera stands where it stands.

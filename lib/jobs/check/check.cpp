@@ -101,7 +101,7 @@ std::string check_text(const CheckReport& report) {
   std::string text;
   for (const CheckedCamera& camera : report.cameras) text += camera_text(camera);
   for (const Finding& finding : report.findings) text += finding_text(finding);
-  if (report.findings.empty()) text += "nothing to complain about\n";
+  if (report.findings.empty()) text += "no mistakes were found\n";
   return text;
 }
 

@@ -91,11 +91,11 @@ double percent(const Measured& of) { return 200 * of.sd / of.value; }
 
 std::string scene_yaml(const InitJob& job, const InitOutcome& out) {
   std::string text = fmt::format(
-      "# Made by walktrack init of a video and a height, without a calibration: init.json has the "
+      "# Made by walktrack init from a video and a height, without a calibration: init.json has "
+      "the "
       "bands.\n"
-      "# Speeds and steps across the picture are good to {:.0f} %; distance from the camera, step "
-      "width and\n"
-      "# what turns out of the picture are not to be used.\n"
+      "# Speeds and steps across the picture are exact to {:.0f} %. Do not use the distance from\n"
+      "# the camera, the step width, and everything that turns out of the picture.\n"
       "cameras:\n  - {{name: camera, video: {}, calibration: {}",
       percent(out.view.metres_per_px), path_beside(job.video, job.output), kCalibrationFile);
   if (!job.background.empty())
@@ -212,12 +212,13 @@ std::string init_text(const InitOutcome& out) {
       "  camera         {} m above the floor, looking down {}°, turned {}°\n"
       "  distance       {:.1f} to {:.1f} m, ± {:.0f} %\n"
       "  field of view  {:.0f} (± {:.0f})° along the longer side, {}\n"
-      "  seen at        {} of the walk; rows missed by {:.1f} % of the height{}\n"
-      "Good for: speed, cadence, step length and time, angles in the plane of the picture; lengths "
-      "± {:.0f} %.\n"
-      "Not for: distance from the camera, step width, anything across the walk; heights above the "
-      "floor only roughly.\n"
-      "Bands are two standard deviations. Better: --fov-deg of your lens, --tilt-deg by a level, "
+      "  seen at        {} of the walk; the rows have errors of {:.1f} % of the height{}\n"
+      "Use it for speed, cadence, step length and time, and angles in the plane of the picture; "
+      "lengths are exact to ± {:.0f} %.\n"
+      "Do not use it for the distance from the camera, step width, and anything else across the "
+      "walk; heights above the floor are rough.\n"
+      "Bands are two standard deviations. The result is better with --fov-deg of your lens, "
+      "--tilt-deg measured with a spirit level,\n"
       "--floor of a tile, a second camera, or 'walktrack calibrate'.\n"
       "Look at {}: do the lines end at feet and head, and does the grid lie on the floor?\n",
       1000 * view.metres_per_px.value, percent(view.metres_per_px), band(view.height, 1, 2),
@@ -225,7 +226,8 @@ std::string init_text(const InitOutcome& out) {
       out.farthest, percent(view.distance), out.fov_deg, 2 * out.fov_sd_deg, out.fov_from,
       out.positions == 1 ? "one place" : fmt::format("{} places", out.positions),
       100 * view.residual,
-      view.floor_rms > 0 ? fmt::format(", floor's lengths by {:.3f} m", view.floor_rms) : "",
+      view.floor_rms > 0 ? fmt::format(", the lengths on the floor of {:.3f} m", view.floor_rms)
+                         : "",
       percent(view.metres_per_px), out.picture.string());
   return text + check_text(out.check);
 }

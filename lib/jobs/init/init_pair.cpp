@@ -52,7 +52,7 @@ void check_way(const InitPairJob& job, const std::vector<Eigen::Vector3d>& place
   for (const Eigen::Vector3d& place : places) way = std::max(way, (place - places.front()).norm());
   if (way < kLeastPairWay * job.height)
     throw InputError(describe({job.videos[0].string(), 0, ""}, "a person who stays in one place",
-                              "somebody who walks through both videos at the same time"));
+                              "a person who walks through both videos at the same time"));
 }
 
 // Where one began at least a frame, and two deviations, before the other.
@@ -66,9 +66,7 @@ void take_out_lag(InitPairOutcome& out, double frame_rate) {
 std::string scene_yaml(const InitPairJob& job, const InitPairOutcome& out) {
   std::string text = fmt::format(
       "# Made by walktrack init of two videos and a height, without a calibration: init.json has "
-      "the bands.\n"
-      "# Lengths are good to {:.0f} %.\n"
-      "cameras:\n",
+      "the bands.\n# Lengths are exact to {:.0f} %.\ncameras:\n",
       200 * out.views.apart.sd / out.views.apart.value);
   for (size_t c = 0; c < 2; ++c) {
     text += fmt::format("  - {{name: {}, video: {}, calibration: {}", kNames[c],
@@ -139,7 +137,7 @@ Outputs outputs_of(const InitPairJob& job) {
 }
 
 std::string lag_text(const InitPairOutcome& out) {
-  if (out.start_frame == 0) return "none that shows";
+  if (out.start_frame == 0) return "none that can be seen";
   return fmt::format("{} began {:.2f} s (± {:.2f}) before {}, which the scene corrects",
                      kNames[out.early], std::abs(out.views.lag.value), 2 * out.views.lag.sd,
                      kNames[1 - out.early]);
@@ -151,12 +149,12 @@ std::string use_text(const TwoViews& views) {
   const double percent = 200 * views.apart.sd / views.apart.value;
   if (percent > kUseful_percent)
     return fmt::format(
-        "Good for: cadence, which side does what, angles roughly. Not for: lengths, ± {:.0f} %: "
-        "state the lenses.\n",
+        "Use it for cadence, for comparing left and right, and roughly for angles. Do not use it "
+        "for lengths (± {:.0f} %) unless you state the lenses.\n",
         percent);
   return fmt::format(
-      "Good for: steps, speeds, angles and step width; lengths ± {:.0f} %. A wrong height makes "
-      "all of them wrong by as much.\n",
+      "Use it for steps, speeds, angles and step width; lengths are exact to ± {:.0f} %. A wrong "
+      "height makes all lengths wrong in the same proportion.\n",
       percent);
 }
 
@@ -201,22 +199,22 @@ InitPairOutcome init_pair(const InitPairJob& job, const JobControl& control) {
 
 std::string init_pair_text(const InitPairOutcome& out) {
   const TwoViews& views = out.views;
-  std::string text = fmt::format("  cameras        {} m apart, looking {}° to each other\n",
+  std::string text = fmt::format("  cameras        {} m apart, turned by {}° to each other\n",
                                  band(views.apart, 1, 2), band(views.angle, deg_from_rad(1), 1));
   for (size_t c = 0; c < 2; ++c)
     text += fmt::format(
         "  {:<13}  {} m above the floor, looking down {}°, {} m from the middle of the walk;\n"
-        "                 field of view {}° along the longer side, begun with what is {}\n",
+        "                 field of view {}° along the longer side (first guess: {})\n",
         kNames[c], band(views.height[c], 1, 2), band(views.tilt[c], deg_from_rad(1), 1),
         band(views.distance[c], 1, 1), band(out.fov_deg[c], 1, 0), out.fov_from[c]);
   text += fmt::format(
       "  lag            {}\n"
-      "  seen at        {} moments by both; points missed by {:.1f} % of the height\n"
+      "  seen at        {} moments by both; the points have errors of {:.1f} % of the height\n"
       "{}"
-      "Bands are two standard deviations. Better: --fov-deg of your lenses, or 'walktrack "
-      "calibrate'.\n"
+      "Bands are two standard deviations. The result is better with --fov-deg of your lenses, or "
+      "with 'walktrack calibrate'.\n"
       "Look at {}: does the grid lie on the floor, and do the lines stand where the subject "
-      "walked, as high as they?\n",
+      "walked, as high as the subject?\n",
       lag_text(out), out.moments, 100 * views.residual, use_text(views), out.picture.string());
   return text + check_text(out.check);
 }

@@ -55,7 +55,7 @@ LensGuess lens_guess(const std::filesystem::path& video, double side_px,
         side_px, *film_mm, kNamedSd,
         fmt::format("of the main camera of {}, {:g} mm (35 mm film)", model, *film_mm));
   return guess_of(side_px, kUsualFov_deg, kUsualFovSd_deg,
-                  "a usual telephone's; state yours with --fov-deg");
+                  "that of a usual telephone; state yours with --fov-deg");
 }
 
 }  // namespace jobs

@@ -125,8 +125,8 @@ void KeypointTerm::describe(Groups& groups) {
        {"off", TermSetting::kOff},
        {"true", TermSetting::kOn},
        {"false", TermSetting::kOff}},
-      "on: keypoints of the scene's files, and of the built-in network for cameras without a file; "
-      "auto: the files if every camera has one, and the network if there is only one camera");
+      "on: from the scene's files, from the built-in network where a camera has none; auto: where "
+      "every camera has a file, and the network for one camera alone");
   k.integer("every", &K::every, 1, 1000, "the network is asked at every so many frames");
   k.flag("in_doubt_only", &K::in_doubt_only,
          "of a tracked subject the network is asked only while left and right are in doubt");
