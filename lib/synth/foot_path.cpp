@@ -12,7 +12,8 @@ namespace {
 constexpr double kHeelBack = .23, kTipAhead = .28;
 constexpr double kStretched = .26;  // of the swing, when toes are straight; by hand
 constexpr double kLifting = .40;    // of the swing, up and down; by hand
-constexpr double kRounding = .04;   // m, where the lowest point changes from tip to heel; by hand
+// Of the foot, where the lowest point changes from tip to heel: 4 cm of a usual one; by hand.
+constexpr double kRounding = .04 / .266;
 
 }  // namespace
 
@@ -33,7 +34,8 @@ double swinging_ankle(const BodyLengths& lengths, double pitch, double swing, do
   const double heel = -kHeelBack * lengths.foot * std::sin(pitch);
   const double lifted = smooth_step(swing / kLifting) * smooth_step((1 - swing) / kLifting);
   // The greater one of both, rounded off.
-  const double below = 0.5 * (tip + heel + std::hypot(tip - heel, kRounding * lifted));
+  const double below =
+      0.5 * (tip + heel + std::hypot(tip - heel, kRounding * lengths.foot * lifted));
   return lengths.ankle_height * std::cos(pitch) + below + clearance * lifted;
 }
 

@@ -14,7 +14,10 @@ inline namespace synth {
 namespace {
 
 constexpr double kUsualSpeed = 1.3;  // m/s, that of the keys below
-constexpr double kUsualStep = 0.7;   // m; movements of pelvis and feet scale with the step
+// Of the stature, at 1.25 m/s (Grieve & Gear 1966); movements of pelvis and feet scale with the
+// step.
+constexpr double kUsualStep = 0.40;
+constexpr double kClearance = 0.012 / 1.75;  // of the stature; Winter 1992: 1.3 cm
 
 // Share of the stride at which the ball leaves the ground. The tip of the toes follows 3 % later in
 // people (62 %, Perry & Burnfield, "Gait Analysis", 2nd ed. 2010). Slow walkers stand for longer,
@@ -68,17 +71,19 @@ class Differences {
 // clearance less than Winter's (Physical Therapy 72, 1992: 1.3 cm, 0.6 between people).
 WalkStyle walk_style(const Body& body, const MadeWalk& walk) {
   Differences person(walk.person);
-  const double usual = 0.40 * body.subject.height * std::pow(walk.speed / 1.25, 0.42);
+  const double height = body.subject.height;
+  const double usual = kUsualStep * height * std::pow(walk.speed / 1.25, 0.42);
   // In a fixed order: draws do not depend on what is stated.
   const double step = usual * (1 + person.next(.05));
   const double width = .09 + person.next(.02), lean = rad_from_deg(4 + person.next(3));
   const double lift = kLift + kLiftBySpeed * (walk.speed - kUsualSpeed) + person.next(.01);
   const double wave = kWave + kWaveBySpeed * (walk.speed - kUsualSpeed) + person.next(3);
   const double least = kLeast + person.next(2.5), roll = 1 + person.next(.06);
-  const double clearance = .012 + person.next(.003);
+  const double clearance = kClearance * height * (1 + person.next(.25));
   const double rotation = 6 * (1 + person.next(.3)), list = 5 * (1 + person.next(.25));
   const double arms = 20 * (1 + person.next(.25)) * walk.arm_swing;
-  const double step_length = walk.step_length.value_or(step), scale = step_length / kUsualStep;
+  const double step_length = walk.step_length.value_or(step),
+               scale = step_length / (kUsualStep * height);
   const double lifted = std::clamp(lift, .52, .66);
   return {.step_length = step_length,
           .step_width = walk.step_width.value_or(width),

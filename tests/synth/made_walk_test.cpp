@@ -140,6 +140,18 @@ TEST(MadeWalk, SwingingToesPassOneOrTwoCentimetresAboveTheGround) {
   }
 }
 
+// Movements go with the step for the body's size: a child's step is short for an adult.
+TEST(MadeWalk, AChildBendsKneesAsAnAdultDoes) {
+  Subject child;
+  child.height = 1.1;
+  MadeWalk walk;
+  walk.speed = 1;
+  const WalkedCurves curves = walked_curves(make_body(child, {}), walk);
+  EXPECT_NEAR(most(curves.knee, 5, 30).value, 17, 3);
+  EXPECT_NEAR(most(curves.knee, 50, 95).value, 63, 5);
+  EXPECT_NEAR(least(curves.ankle, 50, 80).value, -14, 5);
+}
+
 TEST(MadeWalk, PeopleDifferALittle) {
   const Body body = test_body();
   std::vector<double> loaded, swung;
