@@ -65,6 +65,9 @@ struct KeypointConfig {
   // one in a hundred, but those that there are come in runs of several frames, each of which would
   // be counted.
   double flip = .1;
+  // Whether they count for more than outlines (tracker/start/keypoint_lead.h); auto: where outlines
+  // do not fit. Off: never.
+  TermSetting lead = TermSetting::kAuto;
   double dof = 3;        // of the Student-t: the smaller, the more outliers are expected
   double outlier = .25;  // radius in which stray points lie, share of the person's height
 };
@@ -81,6 +84,8 @@ struct ObservationConfig {
   // patch of this side counts as one independent pixel. On the body, hence in metres: a figure
   // twice as large in the image has not four times the evidence.
   double independent_m = .1;
+  // Of the outlines' evidence that counts: less where keypoints lead (KeypointConfig::lead).
+  double outline_share = 1;
 };
 
 }  // namespace observation

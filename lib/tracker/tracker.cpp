@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "tracker/start/keypoint_lead.h"
 #include "tracker/start/trial.h"
 
 namespace walktrack {
@@ -17,6 +18,8 @@ Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig
       subject_(scene_.model, prior, config.motion, scene_.dt),
       mode_(Searching{WalkerFilter(config.filter, seed, threads), {}}) {
   config_.detector = detector_for(scene_, config.detector);
+  const KeypointConfig& keypoints = scene_.observation.keypoints;
+  if (is_on(keypoints) && keypoints.lead == TermSetting::kOn) lead_by_keypoints();
 }
 
 std::vector<FrameRecord> Tracker::push(const SceneEvidence& evidence) {
@@ -69,10 +72,23 @@ void Tracker::search(const SceneEvidence& evidence, Records& out) {
 }
 
 void Tracker::look_for_walk(Records& out) {
-  const std::optional<DetectedWalk> walk = search_.find(context(), moment());
-  if (walk && (wants_size() ? start_unsized(*walk, out) : start_sized(*walk, out))) return;
+  if (start_from_window(out)) return;
+  if (std::exchange(outlines_misled_, false)) {
+    lead_by_keypoints();
+    if (start_from_window(out)) return;
+  }
   ++frame_;
   if (search_.slide(context())) out.emplace_back();
+}
+
+bool Tracker::start_from_window(Records& out) {
+  const std::optional<DetectedWalk> walk = search_.find(context(), moment());
+  return walk && (wants_size() ? start_unsized(*walk, out) : start_sized(*walk, out));
+}
+
+void Tracker::lead_by_keypoints() {
+  let_keypoints_lead(scene_.observation);
+  search_.forget_scores();
 }
 
 Starting Tracker::started(const DetectedWalk& walk, std::optional<double> stride_phase) {
@@ -82,11 +98,14 @@ Starting Tracker::started(const DetectedWalk& walk, std::optional<double> stride
 // Tracks the window's frames from a walk on, and `lead` frames before them; if that fails it
 // returns false, and nothing has changed.
 bool Tracker::start_at(const DetectedWalk& walk, size_t lead, Records& out) {
+  if (outlines_misled_) return false;
   search_.reach_back(lead);
   const size_t frames = search_.window().size();
   Trial trial = try_start(context(), search_.window(), frame_ - static_cast<uint32_t>(lead),
                           started(walk, std::nullopt), walk.score * static_cast<double>(frames));
-  mode_ = std::move(trial.mode);
+  if (!is_searching(trial.mode) && !keypoints_lead() && may_lead(scene_, walk))
+    outlines_misled_ = outlines_fit_badly(scene_, search_.window(), trial.records);
+  if (!outlines_misled_) mode_ = std::move(trial.mode);
   if (is_searching(mode_)) {
     search_.let_go(lead);
     return false;
@@ -133,7 +152,8 @@ void Tracker::set_height(double height, const std::optional<Stature>& estimate) 
 
 TrackerState Tracker::state() const {
   const Tracking& now = tracked();
-  return {frame_, starts_, now.filter.state(), now.monitor, losses_, now.p_legs_swapped, stature_};
+  return {frame_,   starts_,         now.filter.state(), now.monitor, losses_, now.p_legs_swapped,
+          stature_, keypoints_lead()};
 }
 
 void Tracker::resume(TrackerState state) {
@@ -145,6 +165,7 @@ void Tracker::resume(TrackerState state) {
   starts_ = state.starts;
   losses_ = state.losses;
   if (state.stature) set_height(state.stature->height, state.stature);
+  if (state.keypoints_lead) lead_by_keypoints();
 }
 
 }  // namespace tracker

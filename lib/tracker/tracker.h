@@ -33,6 +33,7 @@ struct TrackerState {
   int losses = 0;
   double p_legs_swapped = 0;
   std::optional<Stature> stature;
+  bool keypoints_lead = false;
 };
 
 class Tracker {
@@ -72,6 +73,8 @@ class Tracker {
   // does not state it.
   const Body& body() const { return scene_.model.body; }
   const BodyModel& model() const { return scene_.model; }
+  // Whether keypoints count for more than outlines (tracker/start/keypoint_lead.h).
+  bool keypoints_lead() const { return scene_.observation.outline_share < 1; }
   // The estimated height; nullopt if there is none.
   std::optional<Stature> stature() const { return stature_; }
 
@@ -86,6 +89,8 @@ class Tracker {
   void consume(const SceneEvidence& evidence, Records& out);
   void search(const SceneEvidence& evidence, Records& out);
   void look_for_walk(Records& out);
+  bool start_from_window(Records& out);
+  void lead_by_keypoints();
   bool start_at(const DetectedWalk& walk, size_t lead, Records& out);
   bool start_sized(const DetectedWalk& walk, Records& out);
   bool start_unsized(const DetectedWalk& walk, Records& out);
@@ -113,6 +118,7 @@ class Tracker {
   uint32_t starts_ = 0;                 // tried
   int losses_ = 0;
   std::optional<Stature> stature_;
+  bool outlines_misled_ = false;  // the start that was tried; keypoints are to lead the next one
 };
 
 }  // namespace tracker

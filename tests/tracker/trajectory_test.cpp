@@ -96,7 +96,7 @@ double header_sum(const BodyModel& model, double dt, std::span<const FrameRecord
     }
     const JointPositions joints = forward_kinematics(model.body, poses[t]).joints;
     for (const Side side : {Side::kLeft, Side::kRight})
-      sum += 0.5 * std::pow(std::min(0.0, joints[toe(side)].z()) / 0.004, 2);
+      sum += 0.5 * std::pow(std::min(0.0, joints[toe(side)].z()) / 0.001, 2);
   }
   for (const FlatFoot& each : flat) {
     Vector2d place = Vector2d::Zero();
@@ -107,7 +107,7 @@ double header_sum(const BodyModel& model, double dt, std::span<const FrameRecord
       const JointPositions joints = forward_kinematics(model.body, poses[t]).joints;
       const double heel = joints[ankle(each.side)].z() - model.body.lengths.ankle_height;
       const double ball = joints[toe(each.side)].z() - model.body.lengths.ball_height;
-      sum += 0.5 * (foot(model, poses[t], each.side) - place).squaredNorm() / (0.004 * 0.004);
+      sum += 0.5 * (foot(model, poses[t], each.side) - place).squaredNorm() / (0.001 * 0.001);
       sum += 0.5 * dt / 0.1 * (heel * heel + ball * ball) / (0.03 * 0.03);
     }
   }

@@ -66,6 +66,7 @@ class TrackRun {
   int losses() const { return tracker_.losses(); }
   std::optional<Stature> stature() const { return tracker_.stature(); }
   const BodyModel& model() const { return tracker_.model(); }
+  bool keypoints_lead() const { return tracker_.keypoints_lead(); }
   int threads() const { return threads_; }
   // Looks again at a video in which nobody was found, and says what was missing (why_nobody.h).
   std::string why_nobody(const JobControl& control);

@@ -133,6 +133,10 @@ void KeypointTerm::describe(Groups& groups) {
   k.text("model", &K::model, "the shipped network, or the ONNX file of one of the same family");
   k.number("weight", &K::weight, 0, 10,
            "weight of a point; below 1 because points err together and for several frames");
+  k.choice("lead", &K::lead,
+           {{"auto", TermSetting::kAuto}, {"on", TermSetting::kOn}, {"off", TermSetting::kOff}},
+           "whether keypoints count for more than outlines; auto: with one camera, if the figure "
+           "does not cover a subject well who walks along the viewing ray");
   k.number("flip", &K::flip, 1e-6, 0.5, "probability that a frame's left and right are swapped");
   k.number("dof", &K::dof, 0.5, 1000,
            "degrees of freedom of the Student-t; fewer expect more outliers");

@@ -207,10 +207,10 @@ void SilhouetteTerm::Memory::resume(const ObserverSetting&, State state) {
 
 bool SilhouetteTerm::says(const CameraEvidence& evidence) { return evidence.planes.count > 0; }
 
-double SilhouetteTerm::log_likelihood(const ObservationConfig&, const CameraEvidence& evidence,
-                                      const Camera& camera, const PosedBody& now,
-                                      const PosedBody*) {
-  return evidence.pixel_weight *
+double SilhouetteTerm::log_likelihood(const ObservationConfig& config,
+                                      const CameraEvidence& evidence, const Camera& camera,
+                                      const PosedBody& now, const PosedBody*) {
+  return config.outline_share * evidence.pixel_weight *
          silhouette_log_ratio(evidence.planes, project_parts(camera, now.parts));
 }
 

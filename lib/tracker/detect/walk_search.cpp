@@ -22,6 +22,10 @@ bool WalkSearch::lasts(double seconds, double dt) const {
   return static_cast<int>(window_.size()) >= frames_in(seconds, dt);
 }
 
+void WalkSearch::forget_scores() {
+  for (std::optional<std::vector<Place>>& found : candidates_) found.reset();
+}
+
 SearchWindow WalkSearch::view(const TrackContext& context, const SearchMoment& moment) const {
   return {context, window_, moment.first_frame, moment.last_seen, places_};
 }

@@ -43,6 +43,8 @@ class WalkSearch {
                             const DetectedWalk& walk) const;
   // To be called when the size of the subject has changed.
   void forget_places() { places_.clear(); }
+  // To be called when the evidence counts otherwise.
+  void forget_scores();
 
   // Standing before the walk, if there is any; the score is that of standing and walking together.
   std::optional<StandingStart> standing_lead(const TrackContext& context,

@@ -19,7 +19,7 @@ struct ImageInformation {
   Pose pose;
   // Minus the second derivatives of that log-likelihood, without its convex part, over all of
   // kPoseNumbers, zero for those that are not free: the lower triangle, row by row. Empty: the
-  // frame's images were not asked.
+  // frame's images were not asked, or say nothing.
   std::vector<double> information;
 };
 

@@ -52,7 +52,9 @@ void refine(const TrackerScene& scene, const SceneEvidence& evidence, int thread
                        to = forward_kinematics(model.body, pose).joints;
   const FrameEstimate before = record.estimate;
   record.estimate.pose = pose;
-  record.images = {mean, pose, packed(free, found.information)};
+  record.images = {
+      mean, pose,
+      found.information.isZero() ? std::vector<double>{} : packed(free, found.information)};
   move(from, to, before.joint_count, record.estimate.joints);
   shift_bands(before, record.estimate);
   for (JointPositions& sample : record.samples) move(from, to, before.joint_count, sample);

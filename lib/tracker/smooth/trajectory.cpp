@@ -26,7 +26,7 @@ using Eigen::VectorXd;
 constexpr double kWalkerRate = 1.5;          // w / dt, 1/s
 constexpr double kImageTime = 1.0 / 30;      // s, for which images err alike
 constexpr double kAccelerationTime = 0.025;  // tau, s
-constexpr double kSlide = 0.004;             // c, m
+constexpr double kSlide = 0.001;             // c, m
 constexpr double kSole = 0.03;               // b, m, once every
 constexpr double kSoleTime = 0.1;            // s
 constexpr int kNewtonSteps = 3;
@@ -141,7 +141,7 @@ class Trajectory {
     for (Index k = 0; k < numbers(); ++k) sum.add(at(t) + k, at(t) + k, kFixed);
   }
 
-  // A frame whose images were not asked counts as known to what people stray from walkers by.
+  // A frame whose images say nothing counts as known to what people stray from walkers by.
   void add_images(size_t t, NormalEquations& sum) const {
     const ImageInformation& images = records_[t].images;
     const bool asked = !images.information.empty();

@@ -133,6 +133,7 @@ RunNumbers numbers_of(const TrackJob& job, const TrackRun& run, const TrackedFra
   for (size_t c = 0; c < overlaps.size(); ++c)
     out.emplace_back(overlap_key(job.scene.cameras[c]), 100 * overlaps[c]);
   for (const auto& number : keypoint_numbers(run.keypoints())) out.push_back(number);
+  if (run.keypoints_lead()) out.emplace_back("keypoints_lead", 1);
   return out;
 }
 

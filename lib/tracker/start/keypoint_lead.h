@@ -1,0 +1,44 @@
+// Whether one camera's outlines or its keypoints are to be believed more.
+//
+// Outlines tell distance and size only as well as the figure has the subject's shape. Arms, girth
+// and clothes that the figure has not make an outline that no pose of it covers, and poses are then
+// found that cover more of it: nearer, crouching, turned. The detector's points are some
+// centimetres off whatever somebody wears. So where a start's figure covers the subject badly,
+// points were seen, and the walk goes along the viewing ray, where place and steps hang on size, a
+// patch of the outline counts for less and a point for more. Across the ray outlines tell places.
+// tracker/reports/one_camera.md says what it is worth. Only with one camera: several cameras see
+// where an outline is wrong.
+#pragma once
+
+#include <deque>
+#include <span>
+
+#include "tracker/tracker_scene.h"
+#include "tracker/walker_filter.h"
+
+namespace walktrack {
+inline namespace tracker {
+
+// Of the outlines' log-likelihood, and of a point's, while keypoints lead: a patch of three times
+// the side counts once, and a point for what it says. By hand, chosen on the two telephones, each
+// alone; a patch of five times the side, or three times the points' weight, does as well.
+inline constexpr double kLedOutlines = 1.0 / 9, kLeadingWeight = 1;
+// A mean overlap (observation/silhouette/overlap.h) below this is bad: the two telephones and the
+// real side view have .67 to .69, walks of two renderers .75 to .84.
+inline constexpr double kBadOverlap = 0.72;
+
+// More along the ray than across it.
+inline constexpr double kAlongRay = 0.7;  // cosine
+
+// Whether there is anything to decide: one camera, keypoints that are used, nobody who has decided,
+// and a walk towards the camera or away from it.
+bool may_lead(const TrackerScene& scene, const DetectedWalk& walk);
+
+// `records` of the first frames of `window`.
+bool outlines_fit_badly(const TrackerScene& scene, const std::deque<SceneEvidence>& window,
+                        std::span<const FrameRecord> records);
+
+void let_keypoints_lead(ObservationConfig& observation);
+
+}  // namespace tracker
+}  // namespace walktrack

@@ -1,0 +1,98 @@
+#include "tracker/start/keypoint_lead.h"
+
+#include <gtest/gtest.h>
+
+#include "fixture.h"
+#include "made_evidence.h"
+#include "tests/observation/scenes.h"
+
+namespace walktrack {
+namespace {
+
+Pose striding() {
+  Pose pose;
+  pose.root = {0, 0, 0.9};
+  pose.legs[0] = {0.45, 0.03, 0, 0.2, 0.05};
+  pose.legs[1] = {-0.25, 0.03, 0, 0.5, -0.1};
+  return pose;
+}
+
+// Somebody so much wider than the figure, in front of one camera, with a detector's point.
+class Lead : public testing::Test {
+ protected:
+  Lead() {
+    scene.cameras = {camera_at({0, -4, 1}, {0, 0, 0.9}, 300, kEvidenceWidth, kEvidenceHeight)};
+    scene.observation.keypoints.enabled = TermSetting::kOn;
+  }
+  void show(double wider) {
+    Body person = scene.model.body;
+    for (Part& part : person.parts)
+      for (CrossSection* section : {&part.at_lower, &part.at_upper})
+        *section = {wider * section->lateral, wider * section->forward};
+    window.assign(2, {evidence_of(scene.cameras[0], person, striding())});
+    window[1][0].keypoints.people.emplace_back();
+    records.assign(2, {});
+    for (FrameRecord& record : records) {
+      record.tracked = true;
+      record.estimate.pose = striding();
+    }
+  }
+  TrackerScene scene = unseen(test_model(), 1.0 / 30);
+  std::deque<SceneEvidence> window;
+  std::vector<FrameRecord> records;
+};
+
+TEST_F(Lead, OutlinesFitBadlyWhereTheSubjectIsMuchWider) {
+  show(1);
+  EXPECT_FALSE(outlines_fit_badly(scene, window, records));
+  show(1.1);
+  EXPECT_FALSE(outlines_fit_badly(scene, window, records));
+  show(2);
+  EXPECT_TRUE(outlines_fit_badly(scene, window, records));
+}
+
+TEST_F(Lead, NobodyLeadsWithoutKeypointsOrATrack) {
+  show(2);
+  for (FrameRecord& record : records) record.tracked = false;
+  EXPECT_FALSE(outlines_fit_badly(scene, window, records));
+  show(2);
+  window[1][0].keypoints.people.clear();
+  EXPECT_FALSE(outlines_fit_badly(scene, window, records));
+  EXPECT_FALSE(outlines_fit_badly(scene, {}, {}));
+}
+
+TEST_F(Lead, OnlyOneCameraThatUsesKeypointsAndWhomNobodyHasToldOtherwise) {
+  const DetectedWalk walk{.position = {0.2, 1}, .velocity = {0.1, -1}};  // towards the camera
+  EXPECT_TRUE(may_lead(scene, walk));
+  EXPECT_TRUE(may_lead(scene, {.position = {0, 0}, .velocity = {0.2, 1.2}})) << "away from it";
+  EXPECT_FALSE(may_lead(scene, {.position = {0, 0}, .velocity = {1, 0.2}})) << "past it";
+  TrackerScene other = scene;
+  other.observation.keypoints.lead = TermSetting::kOff;
+  EXPECT_FALSE(may_lead(other, walk));
+  other = scene;
+  other.observation.keypoints.enabled = TermSetting::kOff;
+  EXPECT_FALSE(may_lead(other, walk));
+  other = scene;
+  other.cameras.push_back(other.cameras[0]);
+  EXPECT_FALSE(may_lead(other, walk));
+}
+
+TEST_F(Lead, OutlinesThenCountForANinth) {
+  show(1);
+  const PosedBody body(scene.model.body, striding());
+  const auto outlines = [&] {
+    return SilhouetteTerm::log_likelihood(scene.observation, window[0][0], scene.cameras[0], body,
+                                          nullptr);
+  };
+  const double before = outlines();
+  EXPECT_GT(before, 0);
+  let_keypoints_lead(scene.observation);
+  EXPECT_NEAR(outlines(), before / 9, 1e-9 * before);
+  EXPECT_EQ(scene.observation.keypoints.weight, 1);
+  scene.observation.keypoints.weight = 3;
+  let_keypoints_lead(scene.observation);
+  EXPECT_EQ(scene.observation.keypoints.weight, 3) << "more than that stays";
+}
+
+}  // namespace
+}  // namespace walktrack
