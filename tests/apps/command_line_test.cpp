@@ -93,12 +93,12 @@ TEST(CommandLine, InstalledItsExamplesNameTheInstalledDemo) {
   const std::string demo = prefix / "share/walktrack/demo";
   for (const std::string& name : commands()) {
     const std::string help = run_program(prefix / "bin/walktrack", {name, "--help"}).out;
-    for (const char* source : {" data", "lib/", "build/"})
+    for (const char* source : {" data/", "lib/", "build/"})
       EXPECT_THAT(help, Not(HasSubstr(source))) << name;
   }
   EXPECT_THAT(run_program(prefix / "bin/walktrack", {"track", "--help"}).out,
               HasSubstr("walktrack track " + demo + "/scene.yaml -o out/demo"));
-  EXPECT_THAT(run_walktrack({"--help-man"}).out, Not(HasSubstr(" data")));
+  EXPECT_THAT(run_walktrack({"--help-man"}).out, Not(HasSubstr(" data/")));
 }
 
 struct Mistake {
@@ -177,7 +177,7 @@ TEST(CommandLine, NamesMistakes) {
       {{"track", "x", "-o", "/tmp/x", "--fps", "9", "--budget-ms", "9"}, 2, "exclude each other"},
       {{"init", "a.mp4", "--floor", "1,2,3"}, 2, "--floor: found '1,2,3', allowed: U1,V1,U2,V2,M"},
       {{"init", "a.mp4", "b.mp4", "--tilt-deg", "3"}, 2, "--tilt-deg"},
-      {{"init", "a.mp4", "b.mp4", "--background", "c.mp4"}, 2, "found 1 of them, allowed: none or"},
+      {{"init", "a.mp4", "b.mp4", "--background", "c.mp4"}, 2, "found 1 values, allowed: none or"},
       {{"sweep", "/nowhere.yaml"}, 2, "--output is missing"},
       {{"sweep", "/nowhere.yaml", "-o", "/tmp/x"}, 3, "/nowhere.yaml: no such file"},
       {{"sweep", "x", "-o", "/tmp/x", "--seeds", "0"}, 2, "--seeds: found 0, allowed: a number"},

@@ -109,7 +109,7 @@ TEST_F(ShortVideo, OfAnEmptyRoomSaysThatNobodyStandsOut) {
 TEST_F(ShortVideo, OfSomebodyFarAwaySaysHowSmall) {
   const ProgramResult result = track(filmed(kDemo / "truth.csv", 22));
   EXPECT_EQ(result.exit_code, 4) << result.err;
-  EXPECT_THAT(result.err, testing::ContainsRegex("2[4-9] px high, and 24 px are the least"));
+  EXPECT_THAT(result.err, testing::ContainsRegex("2[4-9] px high, at least 24 px are needed"));
 }
 
 // Somebody who stands still in the middle of a step.

@@ -87,7 +87,8 @@ TEST_F(QualityOf, FeetBelowTheGroundFailTheirCheck) {
   limits.penetration = 0.015;
   const Quality quality = quality_of(frames, limits);
   EXPECT_DOUBLE_EQ(named(quality, "penetration_mm").value, 20);
-  EXPECT_THAT(first_failure(quality), testing::HasSubstr("planted: 20 mm (allowed: at most 15)"));
+  EXPECT_THAT(first_failure(quality),
+              testing::HasSubstr("held in place: 20 mm (allowed: at most 15)"));
   limits.penetration = 0.025;
   EXPECT_EQ(first_failure(quality_of(frames, limits)), "");
 }

@@ -204,7 +204,7 @@ class Report(unittest.TestCase):
           for (const [name, text] of Object.entries({json.dumps(files)})) chosen.items.add(new File([text], name));
           byId('norm-files').files = chosen.files; await byId('norm-files').onchange(); }})()""")
         self.assertEqual(self.texts("#norm-message"), [
-            "broken.csv: row 2 below the header is no row of numbers with a percent that grows from 0 to 100"])
+            "broken.csv: row 2 below the header is not a row of numbers with a percent that grows from 0 to 100"])
         self.assertEqual(self.texts("#norm-choice option:checked"), ["adults of our laboratory"])
         captions = self.texts("#cycle-charts figcaption small")
         self.assertIn("adults of our laboratory", captions[1])
