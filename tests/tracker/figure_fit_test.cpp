@@ -11,14 +11,6 @@
 namespace walktrack {
 namespace {
 
-Pose striding() {
-  Pose pose;
-  pose.root = {0, 0, 0.9};
-  pose.legs[0] = {0.45, 0.03, 0, 0.2, 0.05};
-  pose.legs[1] = {-0.25, 0.03, 0, 0.5, -0.1};
-  return pose;
-}
-
 class Fit : public testing::Test {
  protected:
   // Somebody strides where the pose says, in front of two cameras.

@@ -53,4 +53,13 @@ inline CameraEvidence evidence_of(const Camera& camera, const Body& body, const 
   return seen;
 }
 
+// Somebody in mid-stride over the origin.
+inline Pose striding() {
+  Pose pose;
+  pose.root = {0, 0, 0.9};
+  pose.legs[0] = {0.45, 0.03, 0, 0.2, 0.05};
+  pose.legs[1] = {-0.25, 0.03, 0, 0.5, -0.1};
+  return pose;
+}
+
 }  // namespace walktrack
