@@ -113,7 +113,7 @@ function drawCycles() {
   for (const [name, what] of Object.entries(angles)) cycleChart(byId('cycle-charts'), data.angles, name, what);
   byId('cycle-caution').replaceChildren(...analysed ? [] : [element('p', {className: 'caution'}, roughAngles)]);
   byId('motion-range').replaceChildren(table(['mean curve, °', 'least', 'greatest', 'range', 'greatest at %', 'at strike', `mean of ${norms.who}`], rangeRows(), 'angle ranges'));
-  byId('normal-note').textContent = `Bold lines: mean of the strides; thin lines: each stride; ${analysed ? '' : 'coloured bands: 5–95 % of the filter’s particles; '}dashed lines: toe-off. ` +
+  byId('normal-note').textContent = `Bold lines: mean of the strides; thin lines: each stride; ${analysed ? '' : 'coloured bands: 5–95 %, of each stride; '}dashed lines: toe-off. ` +
     `${norms.source} ${norms === shippedNorms ? 'Its angles are defined differently (see the limits below): compare shape and range before the level.' : ''}`;
 }
 

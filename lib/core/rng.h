@@ -21,7 +21,9 @@ enum class Purpose : uint32_t {
   kControls,
   kTorque,
   kMoves = 6,
+  kTrajectory,
   kRendering = 8,
+  kModelError,
   kTest = 10,
 };
 

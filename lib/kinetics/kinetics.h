@@ -29,14 +29,14 @@ inline namespace kinetics {
 struct KineticsConfig {
   // Of the smoothing; walking has 99 % of its power below 6 Hz (Winter 2009, section 3.4.3).
   double cutoff_hz = 6;  // 0: none
-  // The same for tracked motions: joints that are tracked and differentiated twice are mostly noise
-  // beyond the step frequency (people: 1.4 to 2.2 Hz). reports/force_plates.md has the measurement.
-  double tracked_cutoff_hz = 2;
+  // The same for tracked motions, whose accelerations have an error at all frequencies.
+  // reports/force_plates.md has the measurement.
+  double tracked_cutoff_hz = 3;
 };
 
 // Standard deviation of a loaded foot's vertical load from a tracked motion, in body weights, at
-// tracked_cutoff_hz. reports/force_plates.md says how it was measured.
-inline constexpr double kTrackedLoadError = 0.18;
+// tracked_cutoff_hz: of two trials on force plates (reports/force_plates.md).
+inline constexpr double kTrackedLoadError = 0.13;
 
 struct LegLoads {
   double hip_flexion = 0, hip_abduction = 0, knee_flexion = 0, ankle_dorsiflexion = 0;  // N m

@@ -1,17 +1,15 @@
-// Errors of gait parameters that the spread of the particles does not contain: the person is not a
-// kneed walker, and the whole figure may be a little off in the cameras.
+// Errors of gait parameters that sample motions do not contain.
 //
-// The members of an ensemble agree on the gait of the body that explains the images best. Because a
-// person's feet land in another way than the body's, events and steps have the same errors in all
-// members. These errors are added here, as independent normal errors of every number of a table;
-// the values do not change.
+// The samples of a track (tracker/smooth/posterior.h) contain what images and ground leave open,
+// and how far the tracker's body is from the subject's. They all have the tracker's feet, which
+// leave the ground in another way than people's: all samples have the same error of heel strike and
+// toe-off. Errors of two strikes are alike, and so are those of two toe-offs: a step time has none
+// of it, a stance has that of one strike and one toe-off, double support that of two each. Step
+// widths have a share of the figure's error across the walk, since one camera places each foot by
+// itself. From step to step, what differs from one error to the next looks like the walker's.
 //
-// The uncertainty of the whole figure follows from the places of the cameras
-// (tracker/smooth/model_error.h): lengths and speeds have the relative error of its distance,
-// widths a part of its error across the walk. The other sizes were fitted on walks with truth;
-// lib/tracker/reports/bands.md says on which walks and how, and how often the bands contain the
-// truth. Means over steps have sizes of their own, because the errors of steps do not average out;
-// for the means of one side they are sqrt(2) times as large.
+// These errors are added here, as independent normal errors of every number of a table; the values
+// do not change. The sizes were fitted on walks with truth (lib/tracker/reports/bands.md).
 #pragma once
 
 #include "metrics/gait_table.h"

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 ErrorSeries series(const std::string& name, std::vector<double> errors) {
-  ErrorSeries out{name, {}, std::move(errors), {}};
+  ErrorSeries out{name, {}, std::move(errors), {}, {}};
   for (size_t i = 0; i < out.error_mm.size(); ++i) out.time.push_back(0.5 * static_cast<double>(i));
   out.joint_mm.fill(std::nan(""));
   out.joint_mm[static_cast<size_t>(Joint::kLeftKnee)] = 25;
@@ -49,6 +49,33 @@ TEST(ErrorPlot, BreaksTheCurveWhereNobodyWasFound) {
   const size_t path = svg.find("<path");
   EXPECT_EQ(count(svg.substr(path, svg.find("/>", path) - path), "M"), 2u);
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
+}
+
+// The reliability diagram is a square of 220 px from 60 px on: intervals that hold what they should
+// lie on its diagonal, those that hold half of it below it.
+TEST(ErrorPlot, ShowsHowOftenIntervalsHoldTheTruth) {
+  ErrorSeries calibrated = series("calibrated", {10, 20}), narrow = series("narrow", {10, 20});
+  const ErrorSeries without = series("no intervals", {10, 20});
+  calibrated.coverage.emplace();
+  calibrated.coverage->share_of_level = kIntervalLevels;
+  narrow.coverage.emplace();
+  for (size_t k = 0; k < kIntervalLevels.size(); ++k)
+    narrow.coverage->share_of_level[k] = 0.5 * kIntervalLevels[k];
+  EXPECT_THAT(error_plot_svg("truth", {without}), Not(HasSubstr("truth inside the interval")));
+  const std::string svg = error_plot_svg("truth", {without, calibrated, narrow});
+  EXPECT_THAT(svg, HasSubstr("truth inside the interval, %"));
+  const auto height_at = [&](const std::string& x) {  // of each line that has a point there
+    std::vector<double> out;
+    for (size_t at = svg.find("L" + x + " "); at != std::string::npos;
+         at = svg.find("L" + x + " ", at + 1))
+      out.push_back(std::stod(svg.substr(at + x.size() + 2)));
+    return out;
+  };
+  const std::vector<double> corner = height_at("280.0"), half = height_at("170.0");
+  ASSERT_EQ(corner.size(), 3u);  // the diagonal and two estimates
+  ASSERT_EQ(half.size(), 2u);
+  EXPECT_NEAR(half[0], corner[0] + 110, 0.11);
+  EXPECT_NEAR(half[1], corner[0] + 165, 0.11);
 }
 
 TEST(ErrorPlot, NothingKnownIsAnEmptyPicture) {

@@ -68,10 +68,12 @@ TEST(ReportedTrack, FeetStandStillAndNothingIsLeftBehind) {
   const TemporaryFolder folder;
   const March walk = march();
   const TrackedFrames frames = frames_of(walk, 120, folder / "frames.bin");
-  const TrackedFrames moving = seen_together(frames, walk.model, {}, folder / "moving.bin");
+  const TrackedFrames moving =
+      seen_together(frames, walk.model, {}, nullptr, folder / "moving.bin");
   const std::vector<FlatFoot> flat = standing_feet(moving);
   EXPECT_GE(flat.size(), 5u);
-  const TrackedFrames still = seen_together(frames, walk.model, flat, folder / "still.bin");
+  const TrackedFrames still =
+      seen_together(frames, walk.model, flat, nullptr, folder / "still.bin");
   EXPECT_FALSE(std::filesystem::exists(folder / "moving.bin"));
   EXPECT_FALSE(std::filesystem::exists(folder / "still.bin"));
   ASSERT_EQ(still.records.size(), frames.records.size());
@@ -87,15 +89,47 @@ TEST(ReportedTrack, PiecesOfALongTrackAreThoseOfTheWhole) {
   const March walk = march();
   constexpr size_t kFrames = 1300;
   const TrackedFrames frames = frames_of(walk, kFrames, folder / "frames.bin");
-  const TrackedFrames pieces = seen_together(frames, walk.model, {}, folder / "pieces.bin");
+  const TrackedFrames pieces =
+      seen_together(frames, walk.model, {}, nullptr, folder / "pieces.bin");
   std::vector<FrameRecord> records;
   for (const FrameRecord& record : frames.records)
     if (record.tracked) records.push_back(record);
-  const std::vector<Pose> whole = most_probable_poses(walk.model, 1 / walk.rate, records, {});
+  const Poses whole = most_probable_trajectory(walk.model, {1 / walk.rate, records}).poses;
   ASSERT_EQ(pieces.records.size(), kFrames);
   const FreeNumbers free = free_numbers(walk.model);
   for (size_t i = 1; i < kFrames; i += 7)
     EXPECT_LT(difference(free, whole[i - 1], pieces.records[i].estimate.pose).norm(), 1e-4) << i;
+}
+
+// The same for its samples: they go on where the piece before has left them, and bands are as wide
+// after the seam as before it.
+TEST(ReportedTrack, SamplesAndBandsRunThroughThePieces) {
+  const TemporaryFolder folder;
+  const March walk = march();
+  TrackedFrames frames{walk.rate, FrameFile(folder / "frames.bin")};
+  constexpr size_t kFrames = 700, kSeam = 512;
+  for (size_t i = 0; i < kFrames; ++i) {
+    FrameRecord record = walk.record(i);
+    record.samples.resize(4);
+    frames.records.append(record);
+  }
+  const BandScene bands{{}, 0, 1};
+  const TrackedFrames out = seen_together(frames, walk.model, {}, &bands, folder / "out.bin");
+  const auto step = [&](size_t frame, size_t sample) {
+    const FrameRecord before = out.records[frame - 1], now = out.records[frame];
+    const auto off = [&](const FrameRecord& record) -> Eigen::Vector3d {
+      return record.samples[sample][Joint::kPelvis] - record.estimate.joints[Joint::kPelvis];
+    };
+    return (off(now) - off(before)).norm();
+  };
+  for (size_t sample = 0; sample < 4; ++sample) {
+    double usual = 0;
+    for (size_t frame = 400; frame < 500; ++frame) usual = std::max(usual, step(frame, sample));
+    EXPECT_GT(usual, 0);
+    EXPECT_LT(step(kSeam, sample), 2 * usual);
+  }
+  const auto sd = [&](size_t frame) { return out.records[frame].estimate.spread[0][0].sd; };
+  EXPECT_NEAR(sd(kSeam) / sd(kSeam - 60), 1, 0.2);
 }
 
 TEST(ReportedTrack, WhoStandsHasBothFeetOnTheGround) {

@@ -1,8 +1,8 @@
 #include "tracker/smooth/model_error.h"
 
 #include <gtest/gtest.h>
-#include <Eigen/Eigenvalues>
 
+#include "core/conventions.h"
 #include "tests/camera/made_camera.h"
 
 namespace walktrack {
@@ -44,17 +44,15 @@ TEST(FigureCovariance, TurnsWithTheWorld) {
   EXPECT_TRUE(figure_covariance(turned, turn * kHead, turn * kFeet).isApprox(expected, 1e-9));
 }
 
-TEST(FigureCovariance, ACameraMoreNeverWidens) {
+TEST(FigureCovariance, ACameraMoreTellsMore) {
   std::vector<Camera> cameras;
-  Matrix3d before = figure_covariance(cameras, kHead, kFeet);
-  EXPECT_TRUE(before.isApprox(Matrix3d::Identity(), 1e-9)) << "unseen: known to a metre";
+  double before = figure_covariance(cameras, kHead, kFeet).trace();
+  EXPECT_NEAR(before, 3, 1e-9) << "unseen: known to a metre";
   for (const Vector3d& camera_position :
-       {Vector3d(0, -7, 1), Vector3d(6, -2, 2), Vector3d(-4, 5, 1.5),
-        Vector3d(0, 0, -40)}) {  // the last one looks from below the ground
+       {Vector3d(0, -7, 1), Vector3d(6, -2, 2), Vector3d(-4, 5, 1.5)}) {
     cameras.push_back(camera_from(camera_position));
-    const Matrix3d now = figure_covariance(cameras, kHead, kFeet);
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> gain(before - now);
-    EXPECT_GT(gain.eigenvalues().minCoeff(), -1e-12);
+    const double now = figure_covariance(cameras, kHead, kFeet).trace();
+    EXPECT_LT(now, before);
     before = now;
   }
 }
@@ -111,6 +109,65 @@ TEST(AddModelError, BandsHoldNineTenthsOfANormalError) {
     ASSERT_GT(each.sd, 0);
     EXPECT_NEAR((each.p95 - each.mean) / each.sd, kNormal95, 1e-3);
     EXPECT_NEAR((each.mean - each.p05) / each.sd, kNormal95, 1e-3);
+  }
+}
+
+// Two views of the same body err alike: what one camera sees across its view is as certain as with
+// many.
+TEST(FigureCovariance, CamerasErrAlike) {
+  const std::vector<Camera> one{camera_from({0, -30, 0.85})};
+  std::vector<Camera> many;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = i * kPi / 4;
+    many.push_back(camera_from({30 * std::sin(angle), 30 * std::cos(angle), 0.85}));
+  }
+  const double across = sd_along(figure_covariance(one, kHead, kFeet), Vector3d::UnitZ());
+  EXPECT_NEAR(sd_along(figure_covariance(many, kHead, kFeet), Vector3d::UnitZ()), across,
+              0.01 * across);
+}
+
+TEST(FigureRoot, IsTheRootOfTheCovariance) {
+  JointPositions joints;
+  joints[Joint::kHead] = kHead;
+  for (const Joint ankle : {Joint::kLeftAnkle, Joint::kRightAnkle}) joints[ankle] = kFeet;
+  const std::vector<Camera> cameras{camera_from({2, -6, 1.5})};
+  const Matrix3d root = figure_root(cameras, joints);
+  EXPECT_TRUE(root.isApprox(root.transpose(), 1e-9));
+  EXPECT_TRUE((root * root).isApprox(figure_covariance(cameras, kHead, kFeet), 1e-9));
+}
+
+// Law: the process keeps its variance, and forgets as the header says.
+TEST(ModelErrorDraw, KeepsItsVarianceAndForgetsAsStated) {
+  constexpr int kDraws = 4000;
+  constexpr double kPassingTime = 0.12, kLasting = 0.6;
+  const Matrix3d figure = Vector3d(0.03, 0.02, 0.01).asDiagonal();
+  const auto pelvis = [](const JointPositions& joints) { return joints[Joint::kPelvis].x(); };
+  double first = 0, last = 0, soon = 0;
+  for (uint32_t draw = 0; draw < kDraws; ++draw) {
+    ModelErrorDraw error(3, draw);
+    const double a = pelvis(error.next(kPassingTime / 4, figure));
+    double b = 0;
+    for (int i = 0; i < 4; ++i) b = pelvis(error.next(kPassingTime / 4, figure));
+    for (int i = 0; i < 100; ++i) error.next(kPassingTime / 4, figure);
+    const double c = pelvis(error.next(kPassingTime / 4, figure));
+    first += a * a / kDraws;
+    last += c * c / kDraws;
+    soon += a * b / kDraws;
+  }
+  const double variance = 0.03 * 0.03, error = 5 * variance * std::sqrt(2. / kDraws);
+  EXPECT_NEAR(first, variance, error);
+  EXPECT_NEAR(last, variance, error);
+  EXPECT_NEAR(soon, variance * (kLasting + (1 - kLasting) * 2 * std::exp(-1)), error);
+}
+
+TEST(ModelErrorDraw, IsAFunctionOfSeedAndDraw) {
+  const Matrix3d figure = 0.02 * Matrix3d::Identity();
+  ModelErrorDraw one(3, 5), same(3, 5), other(3, 6);
+  const auto head = [&](ModelErrorDraw& draw) { return draw.next(0.03, figure)[Joint::kHead]; };
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d a = head(one);
+    EXPECT_EQ(a, head(same));
+    EXPECT_NE(a, head(other));
   }
 }
 

@@ -55,8 +55,13 @@ double travel(const BodyModel& model, std::span<const Pose> poses, const FlatFoo
   return box.diagonal().norm();
 }
 
+Poses most_probable(const BodyModel& model, std::span<const FrameRecord> records,
+                    std::span<const FlatFoot> flat = {}, size_t settled = 0) {
+  return most_probable_trajectory(model, {kDt, records, flat, settled}).poses;
+}
+
 // Law: what goes on evenly, and is seen where it is, stays where it is.
-TEST(MostProbablePoses, WhatGoesOnEvenlyStays) {
+TEST(MostProbableTrajectory, WhatGoesOnEvenlyStays) {
   const BodyModel model = test_model();
   std::vector<FrameRecord> records;
   Pose pose = upright(model);
@@ -66,7 +71,7 @@ TEST(MostProbablePoses, WhatGoesOnEvenlyStays) {
     pose.heading += 0.3;  // more than once around
     pose.legs[0].hip_flexion += 0.01;
   }
-  const std::vector<Pose> poses = most_probable_poses(model, kDt, records, {});
+  const std::vector<Pose> poses = most_probable(model, records);
   const FreeNumbers free = free_numbers(model);
   ASSERT_EQ(poses.size(), records.size());
   for (size_t t = 0; t < poses.size(); ++t)
@@ -116,7 +121,7 @@ double header_sum(const BodyModel& model, double dt, std::span<const FrameRecord
 
 // By an independent route: nowhere near it is the header's sum less, whichever number of whichever
 // frame changes.
-TEST(MostProbablePoses, AreTheLeastOfTheHeadersSum) {
+TEST(MostProbableTrajectory, AreTheLeastOfTheHeadersSum) {
   const BodyModel model = test_model();
   Rng rng(3, Purpose::kTest);
   std::vector<FrameRecord> records;
@@ -128,7 +133,7 @@ TEST(MostProbablePoses, AreTheLeastOfTheHeadersSum) {
     records.back().images.walker = walker;
   }
   const std::array flat{FlatFoot{Side::kLeft, 2, 6}};
-  std::vector<Pose> poses = most_probable_poses(model, kDt, records, flat);
+  std::vector<Pose> poses = most_probable(model, records, flat);
   const double least = header_sum(model, kDt, records, flat, poses);
   const FreeNumbers free = free_numbers(model);
   const VectorXd spreads = spreads_of(free);
@@ -147,7 +152,7 @@ TEST(MostProbablePoses, AreTheLeastOfTheHeadersSum) {
   }
 }
 
-TEST(MostProbablePoses, AFlatSoleStaysAndNoToeIsInTheGround) {
+TEST(MostProbableTrajectory, AFlatSoleStaysAndNoToeIsInTheGround) {
   const BodyModel model = test_model();
   Rng rng(4, Purpose::kTest);
   std::vector<FrameRecord> records;
@@ -158,7 +163,7 @@ TEST(MostProbablePoses, AFlatSoleStaysAndNoToeIsInTheGround) {
     records.push_back(seen(model, before.back(), 1));
   }
   const FlatFoot flat{Side::kRight, 5, 25};
-  const std::vector<Pose> poses = most_probable_poses(model, kDt, records, {&flat, 1});
+  const std::vector<Pose> poses = most_probable(model, records, {&flat, 1});
   EXPECT_GT(travel(model, before, flat), 0.05);
   EXPECT_LT(travel(model, poses, flat), 0.08 * travel(model, before, flat));
   const auto deepest = [&](std::span<const Pose> of) {
@@ -174,7 +179,7 @@ TEST(MostProbablePoses, AFlatSoleStaysAndNoToeIsInTheGround) {
 }
 
 // Frames that show nothing follow the walker and those around them; what is seen pulls.
-TEST(MostProbablePoses, WhoIsHiddenFollowsWalkerAndNeighbours) {
+TEST(MostProbableTrajectory, WhoIsHiddenFollowsWalkerAndNeighbours) {
   const BodyModel model = test_model();
   std::vector<FrameRecord> records;
   Pose pose = upright(model);
@@ -186,21 +191,21 @@ TEST(MostProbablePoses, WhoIsHiddenFollowsWalkerAndNeighbours) {
   std::fill(hidden.information.begin(), hidden.information.end(), 0.0);
   hidden.pose.root.y() += 0.02;  // where particles without images have gone
   hidden.walker = hidden.pose;
-  const std::vector<Pose> poses = most_probable_poses(model, kDt, records, {});
+  const std::vector<Pose> poses = most_probable(model, records);
   EXPECT_NEAR(poses[10].root.x(), 0.4, 1e-3);
   EXPECT_LT(std::abs(poses[10].root.y()), 0.005);
 }
 
-TEST(MostProbablePoses, FixedOnesStayAndTheRestGoesOnFromThem) {
+TEST(MostProbableTrajectory, FixedOnesStayAndTheRestGoesOnFromThem) {
   const BodyModel model = test_model();
   Rng rng(5, Purpose::kTest);
   std::vector<FrameRecord> records;
   for (int t = 0; t < 40; ++t)
     records.push_back(seen(model, trembling(model, upright(model), 1, rng), 1));
   const FlatFoot flat{Side::kLeft, 8, 35};
-  const std::vector<Pose> whole = most_probable_poses(model, kDt, records, {&flat, 1});
+  const std::vector<Pose> whole = most_probable(model, records, {&flat, 1});
   for (size_t t = 0; t < 20; ++t) records[t].estimate.pose = whole[t];
-  const std::vector<Pose> rest = most_probable_poses(model, kDt, records, {&flat, 1}, 20);
+  const std::vector<Pose> rest = most_probable(model, records, {&flat, 1}, 20);
   const FreeNumbers free = free_numbers(model);
   for (size_t t = 0; t < 40; ++t) {
     const double off = difference(free, whole[t], rest[t]).norm();
@@ -208,36 +213,94 @@ TEST(MostProbablePoses, FixedOnesStayAndTheRestGoesOnFromThem) {
   }
 }
 
-TEST(MostProbablePoses, OneFrameOrTwoAreTheirOwn) {
+TEST(MostProbableTrajectory, OneFrameOrTwoAreTheirOwn) {
   const BodyModel model = test_model();
   const std::vector<FrameRecord> records(2, seen(model, upright(model)));
-  EXPECT_TRUE(most_probable_poses(model, kDt, {}, {}).empty());
+  EXPECT_TRUE(most_probable(model, {}).empty());
   for (const size_t count : {size_t{1}, size_t{2}}) {
-    const auto poses = most_probable_poses(model, kDt, std::span(records).first(count), {});
+    const auto poses = most_probable(model, std::span(records).first(count));
     ASSERT_EQ(poses.size(), count);
     EXPECT_LT(difference(free_numbers(model), upright(model), poses[0]).norm(), 1e-6);
   }
 }
 
-TEST(ReportPose, TakesJointsSamplesAndBandsAlong) {
-  const BodyModel model = test_model();
-  FrameRecord record = seen(model, upright(model));
-  record.samples.assign(2, record.estimate.joints);
-  for (size_t j = 0; j < kJointCountWithoutArms; ++j)
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double x = record.estimate.joints.at[j][static_cast<Eigen::Index>(axis)];
-      record.estimate.spread[j][axis] = {x, 0.01, x - 0.02, x + 0.01};
-    }
-  Pose pose = upright(model);
-  pose.root.x() += 0.1;
-  report_pose(model, pose, 1.5, record);
-  const JointPositions joints = forward_kinematics(model.body, pose).joints;
-  EXPECT_EQ(record.estimate.speed, 1.5);
-  for (size_t j = 0; j < kJointCountWithoutArms; ++j) {
-    EXPECT_LT((record.estimate.joints.at[j] - joints.at[j]).norm(), 1e-12);
-    EXPECT_LT((record.samples[1].at[j] - joints.at[j]).norm(), 1e-12);
-    EXPECT_NEAR(record.estimate.spread[j][0].p05, joints.at[j].x() - 0.02, 1e-12);
+// The sum's second derivatives over the frames of one number, whose images know it to `sd`: by
+// hand, from the header.
+Eigen::MatrixXd precision_of(const PoseNumber& number, double sd, Eigen::Index frames) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(frames, frames);
+  const double images = std::min(1.0, 30 * kDt) / (sd * sd);
+  out.diagonal().array() += images + 1.5 * kDt / (number.spread * number.spread);
+  const double acceleration = number.acceleration;
+  const double variance = 4. / 3 * acceleration * acceleration * 0.025 * std::pow(kDt, 3);
+  for (Eigen::Index t = 1; t + 1 < frames; ++t) {
+    const Eigen::Vector3d second(1, -2, 1);
+    out.block<3, 3>(t - 1, t - 1) += second * second.transpose() / variance;
   }
+  return out;
+}
+
+double drawn_value(const Poses& draw, size_t frame, size_t number) {
+  return kPoseNumbers[number].in(draw[frame]);
+}
+
+// Law: draws vary as the inverse of the sum's second derivatives says, within a frame and between
+// frames, and about the most probable poses.
+TEST(MostProbableTrajectory, DrawsHaveTheCovarianceOfTheSum) {
+  const BodyModel model = test_model();
+  constexpr Eigen::Index kFrames = 5;
+  constexpr double kDraws = 4000;
+  Pose pose = upright(model);
+  pose.root.z() += 0.1;  // no toe near the ground
+  const std::vector<FrameRecord> records(kFrames, seen(model, pose));
+  const std::vector<Poses> none(static_cast<size_t>(kDraws));
+  const auto found = most_probable_trajectory(model, {kDt, records}, {none, 7, 0});
+  for (const size_t number : {size_t{0}, size_t{5}, size_t{9}}) {
+    const double middle = kPoseNumbers[number].in(pose);
+    const Eigen::MatrixXd expected =
+        precision_of(kPoseNumbers[number], 0.2 * kPoseNumbers[number].spread, kFrames).inverse();
+    for (const auto& [a, b] : {std::pair{0, 0}, {2, 2}, {1, 2}, {0, 4}}) {
+      double sum = 0;
+      for (const Poses& draw : found.draws)
+        sum += (drawn_value(draw, size_t(a), number) - middle) *
+               (drawn_value(draw, size_t(b), number) - middle);
+      // Five standard errors of a sample covariance.
+      const double error =
+          std::sqrt((expected(a, a) * expected(b, b) + std::pow(expected(a, b), 2)) / kDraws);
+      EXPECT_NEAR(sum / kDraws, expected(a, b), 5 * error)
+          << kPoseNumbers[number].name << ' ' << a << ' ' << b;
+    }
+  }
+}
+
+// A piece goes on from where each draw of the piece before has ended, not from the most probable
+// poses: the mean of what follows is the conditional one of a normal distribution.
+TEST(MostProbableTrajectory, DrawsGoOnFromThoseThatAreSettled) {
+  const BodyModel model = test_model();
+  constexpr Eigen::Index kFrames = 6, kSettled = 3;
+  constexpr size_t kNumber = 9;  // a knee
+  Pose pose = upright(model);
+  pose.root.z() += 0.1;
+  const std::vector<FrameRecord> records(kFrames, seen(model, pose));
+  Pose aside = pose;
+  const double sd = 0.2 * kPoseNumbers[kNumber].spread, off = 2 * sd;
+  kPoseNumbers[kNumber].in(aside) += off;
+  const std::vector<Poses> settled(1000, Poses(kSettled, aside));
+  const auto found = most_probable_trajectory(model, {kDt, records, {}, kSettled}, {settled, 7, 0});
+  const Eigen::MatrixXd precision = precision_of(kPoseNumbers[kNumber], sd, kFrames);
+  const Eigen::VectorXd expected = -precision.bottomRightCorner(3, 3).inverse() *
+                                   precision.bottomLeftCorner(3, 3) *
+                                   Eigen::Vector3d::Constant(off);
+  const Eigen::MatrixXd left = precision.bottomRightCorner(3, 3).inverse();
+  for (Eigen::Index t = 0; t < 3; ++t) {
+    double mean = 0;
+    for (const Poses& draw : found.draws) {
+      EXPECT_EQ(drawn_value(draw, size_t(t), kNumber), kPoseNumbers[kNumber].in(aside));
+      mean += (drawn_value(draw, size_t(t + kSettled), kNumber) - kPoseNumbers[kNumber].in(pose)) /
+              1000;
+    }
+    EXPECT_NEAR(mean, expected[t], 5 * std::sqrt(left(t, t) / 1000)) << t;
+  }
+  EXPECT_GT(expected[0], 0.2 * off) << "what is settled pulls, or this test would not see it";
 }
 
 }  // namespace

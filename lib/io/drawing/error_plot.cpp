@@ -117,6 +117,33 @@ std::string bars(const std::vector<ErrorSeries>& all, double top) {
   return out;
 }
 
+// A square: the share of the truth that an interval holds against the share that it should hold.
+// Below the diagonal intervals are too narrow.
+std::string reliability(const std::vector<ErrorSeries>& all, double top) {
+  const SvgAxis stated{0, 100, kLeft, kLeft + kPanel}, held{0, 100, top + kPanel, top};
+  std::string out = error_grid(held, "truth inside the interval, %");
+  for (int percent = 0; percent <= 100; percent += 20)
+    out += svg_text(stated(percent), top + kPanel + 16, "middle", fmt::format("{}", percent));
+  out += svg_text(stated(100) + 16, top + kPanel + 16, "start", "% that the interval should hold");
+  const auto line = [&](double to, double height, const std::string& path,
+                        std::string_view stroke) {
+    return fmt::format(
+        "<path d=\"M{:.1f} {:.1f}{}L{:.1f} {:.1f}\" fill=\"none\" stroke=\"{}\" "
+        "stroke-width=\"1.8\"/>\n",
+        stated(0), held(0), path, stated(to), held(height), stroke);
+  };
+  out += line(100, 100, "", "#999");
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (!all[i].coverage) continue;
+    std::string path;
+    for (size_t k = 0; k < kIntervalLevels.size(); ++k)
+      path += fmt::format("L{:.1f} {:.1f}", stated(100 * kIntervalLevels[k]),
+                          held(100 * all[i].coverage->share_of_level[k]));
+    out += line(100, 100, path, svg_colour(i));
+  }
+  return out;
+}
+
 std::string legend(const std::vector<ErrorSeries>& all) {
   std::string out;
   for (size_t i = 0; i < all.size(); ++i) {
@@ -132,9 +159,14 @@ std::string legend(const std::vector<ErrorSeries>& all) {
 
 std::string error_plot_svg(const std::string& title, const std::vector<ErrorSeries>& all) {
   const double first = kTop + static_cast<double>(all.size()) * kLegendLine + 20;
-  const double second = first + kPanel + kBetween, height = second + kPanel + kBottom;
+  const double second = first + kPanel + kBetween, third = second + kPanel + kBottom;
+  const bool intervals = std::any_of(all.begin(), all.end(), [](const ErrorSeries& series) {
+    return series.coverage.has_value();
+  });
+  const double height = intervals ? third + kPanel + kBetween : third;
   return svg_picture(kWidth, height, kLeft, title,
-                     legend(all) + curves(all, first) + bars(all, second));
+                     legend(all) + curves(all, first) + bars(all, second) +
+                         (intervals ? reliability(all, third) : ""));
 }
 
 }  // namespace io

@@ -1,11 +1,14 @@
-// The errors of estimates against one truth as a picture: over time, and of each joint.
+// The errors of estimates against one truth as a picture: over time, of each joint, and how often
+// stated intervals hold the truth.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "body/pose.h"
+#include "metrics/statistics/coverage.h"
 
 namespace walktrack {
 inline namespace io {
@@ -15,9 +18,11 @@ struct ErrorSeries {
   std::vector<double> time;                  // s
   std::vector<double> error_mm;              // at these times; NaN = the walker was not there
   std::array<double, kJointCount> joint_mm;  // mean; NaN = never known
+  std::optional<Coverage> coverage;          // of its intervals, if it has some
 };
 
-// A self-contained SVG: curves above, bars below, a colour for each estimate.
+// A self-contained SVG: curves above, bars below, then the reliability diagram of the estimates
+// that have intervals, a colour for each estimate.
 std::string error_plot_svg(const std::string& title, const std::vector<ErrorSeries>& all);
 
 }  // namespace io

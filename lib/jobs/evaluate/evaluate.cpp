@@ -64,10 +64,12 @@ std::optional<GroundForces> forces_beside(const fs::path& joints) {
   return read_ground_forces(file);
 }
 
-ErrorSeries series_of(const std::string& name, const Motion& truth, const Motion& estimate) {
+ErrorSeries series_of(const std::string& name, const Motion& truth, const Motion& estimate,
+                      const std::optional<JointUncertainty>& uncertainty) {
   constexpr double kMm = 1000;
   JointErrors errors = joint_errors(truth, estimate);
-  ErrorSeries out{name, std::move(errors.time), std::move(errors.by_frame), {}};
+  ErrorSeries out{name, std::move(errors.time), std::move(errors.by_frame), {}, {}};
+  if (uncertainty) out.coverage = coverage(truth, *uncertainty).scored;
   for (double& error : out.error_mm) error *= kMm;
   for (size_t j = 0; j < kJointCount; ++j) {
     const ErrorStatistics& joint = errors.by_joint[j].absolute;
@@ -143,14 +145,15 @@ std::vector<EvaluatedEstimate> evaluate(const EvaluateJob& job) {
       throw InputError(describe({file.string(), 0, ""}, "fewer than two rows", "a motion"));
     const double rate = job.frame_rate.value_or(1 / sample_period(estimate));
     const Truth truth = read_truth(job.truth, rate);
-    out.push_back({given.string(), figures(truth, estimate, uncertainty_of(job, file)), {}});
+    const std::optional<JointUncertainty> uncertainty = uncertainty_of(job, file);
+    out.push_back({given.string(), figures(truth, estimate, uncertainty), {}});
     const std::optional<GroundForces> forces = forces_beside(file);
     if (true_forces && forces) {
       for (Figure& figure : force_figures(*true_forces, *forces))
         out.back().figures.push_back(std::move(figure));
     }
     if (const Motion* joints = std::get_if<Motion>(&truth))
-      out.back().series = series_of(given.string(), *joints, estimate);
+      out.back().series = series_of(given.string(), *joints, estimate, uncertainty);
   }
   return out;
 }

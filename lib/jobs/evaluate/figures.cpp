@@ -1,5 +1,7 @@
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -123,13 +125,42 @@ void add_plausibility(const Motion& estimate, const Gait& gait, Figures& out) {
   out.add("jitter_m_s3", "jitter (mean jerk), m/s^3", p.jitter, 0);
 }
 
-void add_coverage(const Motion& truth, const JointUncertainty& uncertainty, Figures& out) {
-  const CoverageReport report = coverage(truth, uncertainty);
+// Coverage of the 5-95 % intervals by group of joints and direction.
+void add_coverage_by_group(const CoverageReport& report, Figures& out) {
+  struct Group {
+    std::string_view key, label;
+    std::vector<Joint> joints;
+  };
+  const Group groups[] = {{"pelvis", "pelvis", {Joint::kPelvis}},
+                          {"neck", "neck", {Joint::kNeck}},
+                          {"head", "head", {Joint::kHead}},
+                          {"hips", "hips", {Joint::kLeftHip, Joint::kRightHip}},
+                          {"knees", "knees", {Joint::kLeftKnee, Joint::kRightKnee}},
+                          {"ankles", "ankles", {Joint::kLeftAnkle, Joint::kRightAnkle}},
+                          {"toes", "toes", {Joint::kLeftToe, Joint::kRightToe}}};
+  for (const Group& group : groups) {
+    for (const auto& [direction, key, label] :
+         {std::tuple{Direction::kLevel, "level", "over the ground"},
+          {Direction::kUp, "up", "upwards"}}) {
+      std::vector<Coverage> parts;
+      for (const Joint joint : group.joints) parts.push_back(report.of(joint, direction));
+      const Coverage both = joined(parts);
+      out.add_share(fmt::format("coverage90_{}_{}", group.key, key),
+                    fmt::format("  {}, {}", group.label, label),
+                    both.count > 0 ? both.share : kNone);
+    }
+  }
+}
+
+void add_coverage(const CoverageReport& report, Figures& out) {
   const bool any = report.scored.count > 0;
   out.add_share("coverage90", "truth inside the 5-95 % interval",
                 any ? report.scored.share : kNone);
+  add_coverage_by_group(report, out);
   out.add_mm("interval_width", "mean width of that interval",
              any ? report.scored.mean_width : kNone);
+  out.add("calibration_error", "calibration error of all intervals (ECE)",
+          any ? calibration_error(report.scored) : kNone, 3);
 }
 
 void add_truth(const Motion& truth, const Motion& estimate, const Gait& gait, Figures& out) {
@@ -178,7 +209,7 @@ std::vector<Figure> figures(const Truth& truth, const Motion& estimate,
   add_gait("", "", gait, out);
   add_plausibility(estimate, gait, out);
   if (const Motion* joints = std::get_if<Motion>(&truth); joints && uncertainty)
-    add_coverage(*joints, *uncertainty, out);
+    add_coverage(coverage(*joints, *uncertainty), out);
   return out.take();
 }
 

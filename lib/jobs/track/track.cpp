@@ -175,6 +175,12 @@ Quality measured_quality(const TrackJob& job, const Scene& scene, const TrackRun
   return quality;
 }
 
+BandScene band_scene(const TrackJob& job) {
+  BandScene out{{}, job.config.values.tracker.model_error, job.config.values.seed};
+  for (const SceneCamera& each : job.scene.cameras) out.cameras.push_back(each.camera);
+  return out;
+}
+
 KineticsConfig forces_of_track(const TrackJob& job) {
   KineticsConfig forces = job.config.values.kinetics;
   forces.cutoff_hz = forces.tracked_cutoff_hz;
@@ -224,7 +230,8 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   run.watch().add("checks", checking);
   const bool interrupted = follow_video(run, video, control, outcome);
   const TimePoint writing;
-  const ReportedTrack track(run.frames(), run.model(), job.config.values.smoothing, folder);
+  const ReportedTrack track(run.frames(), run.model(), job.config.values.smoothing, band_scene(job),
+                            folder);
   const Scene scene = with_stature(job.scene, run.stature());
   const AnalysedMotion analysed =
       analysed_motion(track.frames(), scene, job.config.values.tracker.model_error);

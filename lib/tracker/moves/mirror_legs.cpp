@@ -29,10 +29,6 @@ constexpr std::pair<Joint, Joint> kPairs[] = {{Joint::kLeftKnee, Joint::kRightKn
                                               {Joint::kLeftElbow, Joint::kRightElbow},
                                               {Joint::kLeftWrist, Joint::kRightWrist}};
 
-void swap_joints(JointPositions& joints) {
-  for (const auto& [left, right] : kPairs) std::swap(joints[left], joints[right]);
-}
-
 // `middle`: of the mirrored pose. About them the angles spread as the other leg's did.
 void swap_angles(const JointAngles& middle, std::array<Spread, kJointAngleCount>& angles) {
   constexpr int kOther = kHipFlexionL - kHipFlexionR;
@@ -66,6 +62,10 @@ void swap_feet(const MotionContext& context, WalkerParticle& particle) {
 }
 
 }  // namespace
+
+void swap_legs(JointPositions& joints) {
+  for (const auto& [left, right] : kPairs) std::swap(joints[left], joints[right]);
+}
 
 Pose mirrored_legs(const Body& body, const Pose& pose) {
   Pose out = swapped_limbs(pose);
@@ -104,12 +104,12 @@ void mirror_legs(const Body& body, FrameRecord& record) {
   for (Pose* pose : {&record.images.walker, &record.images.pose})
     *pose = mirrored_legs(body, *pose);
   mirror_information(record.images);
-  swap_joints(estimate.joints);
+  swap_legs(estimate.joints);
   for (const auto& [left, right] : kPairs)
     std::swap(estimate.spread[size_t(left)], estimate.spread[size_t(right)]);
   swap_angles(joint_angles(estimate.pose), estimate.angles);
   estimate.left_stance = 1 - estimate.left_stance;
-  for (JointPositions& sample : record.samples) swap_joints(sample);
+  for (JointPositions& sample : record.samples) swap_legs(sample);
   record.modes.phase = std::fmod(record.modes.phase + 0.5, 1.0);
 }
 

@@ -13,6 +13,9 @@ inline namespace tracker {
 
 Pose mirrored_legs(const Body& body, const Pose& pose);
 
+// Names every joint below hips and shoulders for the other side.
+void swap_legs(JointPositions& joints);
+
 // Swaps the particle's state now and a frame ago, and the frame's noise, which has to be applied
 // already.
 void mirror_legs(const MotionContext& context, WalkerParticle& particle);

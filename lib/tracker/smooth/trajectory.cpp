@@ -8,6 +8,7 @@
 
 #include "body/kinematics.h"
 #include "core/conventions.h"
+#include "core/rng.h"
 #include "tracker/state/free_numbers.h"
 
 namespace walktrack {
@@ -75,52 +76,79 @@ class NormalEquations {
     }
   }
 
-  VectorXd step() const {
-    Eigen::SparseMatrix<double> matrix(right_.size(), right_.size());
-    matrix.setFromTriplets(terms_.begin(), terms_.end());
-    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>(matrix).solve(right_);
+  Eigen::SparseMatrix<double> matrix() const {
+    Eigen::SparseMatrix<double> out(right_.size(), right_.size());
+    out.setFromTriplets(terms_.begin(), terms_.end());
+    return out;
   }
+  const VectorXd& right() const { return right_; }
 
  private:
   std::vector<Eigen::Triplet<double>> terms_;
   VectorXd right_;
 };
 
+using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
+
+// A draw of the normal distribution about zero whose inverse covariance has been factored: with
+// P A P' = L D L', x = P' L'^-1 D^-1/2 z (Rue & Held, Gaussian Markov Random Fields, 2005,
+// algorithm 2.4).
+VectorXd drawn(const Factor& factor, Rng& rng) {
+  VectorXd z(factor.vectorD().size());
+  for (double& each : z) each = rng.normal();
+  const VectorXd scaled = z.cwiseQuotient(factor.vectorD().cwiseSqrt());
+  return factor.permutationPinv() * factor.matrixU().solve(scaled);
+}
+
 class Trajectory {
  public:
-  Trajectory(const BodyModel& model, double dt, std::span<const FrameRecord> records,
-             std::span<const FlatFoot> flat, size_t fixed)
+  Trajectory(const BodyModel& model, const TrajectoryFrames& frames)
       : body_(model.body),
         free_(free_numbers(model)),
-        dt_(dt),
-        records_(records),
-        flat_(flat),
-        fixed_(fixed),
+        dt_(frames.dt),
+        records_(frames.records),
+        flat_(frames.flat),
+        settled_(frames.settled),
         spreads_(spreads_of(free_)) {
-    for (const FrameRecord& record : records) poses_.push_back(record.estimate.pose);
-    for (const FlatFoot& each : flat) places_.push_back(mean_place(each));
+    for (const FrameRecord& record : records_) poses_.push_back(record.estimate.pose);
+    for (const FlatFoot& each : flat_) places_.push_back(mean_place(each));
   }
 
   void improve() {
+    const NormalEquations sum = this->sum();
+    const VectorXd step = Factor(sum.matrix()).solve(sum.right());
+    for (size_t t = 0; t < poses_.size(); ++t) poses_[t] = moved(t, step);
+    for (size_t k = 0; k < places_.size(); ++k) places_[k] += step.segment<2>(place_of(k));
+  }
+
+  std::vector<Poses> draws(const WantedDraws& wanted) const {
+    const Factor factor(sum().matrix());
+    std::vector<Poses> out;
+    for (const Poses& settled : wanted.settled) {
+      Rng rng(wanted.seed, Purpose::kTrajectory, wanted.part, static_cast<uint32_t>(out.size()));
+      const VectorXd aside = drawn(factor, rng) + factor.solve(pull_to(settled));
+      Poses& draw = out.emplace_back(settled);
+      for (size_t t = settled_; t < poses_.size(); ++t) draw.push_back(moved(t, aside));
+    }
+    return out;
+  }
+
+  const Poses& poses() const { return poses_; }
+
+ private:
+  NormalEquations sum() const {
     NormalEquations sum(place_of(flat_.size()));
     for (size_t t = 0; t < poses_.size(); ++t) {
-      if (t < fixed_) fix(t, sum);
+      if (t < settled_) fix(t, sum);
       add_images(t, sum);
       add_walker(t, sum);
       if (t > 0 && t + 1 < poses_.size()) add_acceleration(t, sum);
       add_sunken_toes(t, sum);
     }
     for (size_t k = 0; k < flat_.size(); ++k) add_flat(k, sum);
-    const VectorXd step = sum.step();
-    for (size_t t = 0; t < poses_.size(); ++t)
-      poses_[t] = with_values(free_, poses_[t],
-                              values_of(free_, poses_[t]) + step.segment(at(t), numbers()));
-    for (size_t k = 0; k < places_.size(); ++k) places_[k] += step.segment<2>(place_of(k));
+    return sum;
   }
 
-  std::vector<Pose> poses() && { return std::move(poses_); }
-
- private:
   Index numbers() const { return static_cast<Index>(free_.size()); }
   Index at(size_t frame) const { return static_cast<Index>(frame) * numbers(); }
   Index place_of(size_t stretch) const {
@@ -135,6 +163,19 @@ class Trajectory {
       sum += 0.5 * (points.segment<2>(row) + points.segment<2>(row + kPointSize));
     }
     return sum / static_cast<double>(flat.last - flat.first + 1);
+  }
+
+  Pose moved(size_t t, const VectorXd& by) const {
+    return with_values(free_, poses_[t],
+                       values_of(free_, poses_[t]) + by.segment(at(t), numbers()));
+  }
+
+  // What draws the settled frames, which are fixed, to other poses.
+  VectorXd pull_to(const Poses& settled) const {
+    VectorXd out = VectorXd::Zero(place_of(flat_.size()));
+    for (size_t t = 0; t < settled_; ++t)
+      out.segment(at(t), numbers()) = kFixed * difference(free_, poses_[t], settled[t]);
+    return out;
   }
 
   void fix(size_t t, NormalEquations& sum) const {
@@ -235,9 +276,9 @@ class Trajectory {
   double dt_;
   std::span<const FrameRecord> records_;
   std::span<const FlatFoot> flat_;
-  size_t fixed_;
+  size_t settled_;
   VectorXd spreads_;
-  std::vector<Pose> poses_;
+  Poses poses_;
   std::vector<Vector2d> places_;
 };
 
@@ -262,28 +303,14 @@ Pose with_lifted_toes(const Body& body, Pose pose) {
 
 }  // namespace
 
-std::vector<Pose> most_probable_poses(const BodyModel& model, double dt,
-                                      std::span<const FrameRecord> records,
-                                      std::span<const FlatFoot> flat, size_t fixed) {
-  Trajectory trajectory(model, dt, records, flat, fixed);
+TrajectoryEstimate most_probable_trajectory(const BodyModel& model, const TrajectoryFrames& frames,
+                                            const WantedDraws& wanted) {
+  Trajectory trajectory(model, frames);
   for (int round = 0; round < kNewtonSteps; ++round) trajectory.improve();
-  std::vector<Pose> poses = std::move(trajectory).poses();
-  for (Pose& pose : poses) pose = with_lifted_toes(model.body, pose);
-  return poses;
-}
-
-void report_pose(const BodyModel& model, const Pose& pose, double velocity, FrameRecord& record) {
-  FrameEstimate& estimate = record.estimate;
-  const FrameEstimate before = estimate;
-  const JointPositions from = forward_kinematics(model.body, before.pose).joints;
-  const JointPositions to = forward_kinematics(model.body, pose).joints;
-  estimate.pose = pose;
-  estimate.speed = velocity;
-  for (size_t j = 0; j < estimate.joint_count; ++j) {
-    estimate.joints.at[j] = to.at[j];
-    for (JointPositions& sample : record.samples) sample.at[j] += to.at[j] - from.at[j];
-  }
-  shift_bands(before, estimate);
+  TrajectoryEstimate out{trajectory.poses(), {}};
+  if (!wanted.settled.empty()) out.draws = trajectory.draws(wanted);
+  for (Pose& pose : out.poses) pose = with_lifted_toes(model.body, pose);
+  return out;
 }
 
 }  // namespace tracker

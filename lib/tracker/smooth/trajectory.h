@@ -15,11 +15,13 @@
 // 1988), with images in place of an objective, and as a Kalman smoother the linear part of it
 // (Rauch, Tung & Striebel 1965).
 //
-// Bands move along with what they are about; which foot carries the body is left alone.
-// tracker/reports/reported_pose.md says what it gains, and what else was tried. Metres, radians,
-// world axes.
+// With the sum's curvature there, the poses are the mean of a normal distribution (Laplace's
+// approximation). Its draws are whole trajectories: bands of joints, angles, gait and forces
+// come from them (tracker/smooth/posterior.h). tracker/reports/reported_pose.md says what the
+// trajectory gains, and what else was tried. Metres, radians, world axes.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -38,15 +40,32 @@ struct SmoothingConfig {
 // one, or follows nothing. Such stretches are to be left out. By hand.
 inline constexpr double kTooFarToStand = 0.4;  // m
 
-// The poses of frames that are all tracked, `dt` s apart. Those of the first `fixed` are taken as
-// they are reported; stretches of flat soles are rows of `records`.
-std::vector<Pose> most_probable_poses(const BodyModel& model, double dt,
-                                      std::span<const FrameRecord> records,
-                                      std::span<const FlatFoot> flat, size_t fixed = 0);
+using Poses = std::vector<Pose>;
 
-// Makes `pose` what is reported of a frame: joints, angles, samples and bands go along. `velocity`:
-// of the root, m/s.
-void report_pose(const BodyModel& model, const Pose& pose, double velocity, FrameRecord& record);
+// Frames that are all tracked, `dt` s apart, and the stretches of flat soles among them. The poses
+// of the first `settled` frames are taken as they are reported, as are those of their draws.
+struct TrajectoryFrames {
+  double dt;
+  std::span<const FrameRecord> records;
+  std::span<const FlatFoot> flat = {};
+  size_t settled = 0;
+};
+
+// Which draws are wanted: one for each element of `settled`, which has its poses of the settled
+// frames. `seed` and `part` name the random numbers.
+struct WantedDraws {
+  std::span<const Poses> settled;
+  uint64_t seed = 0;
+  uint32_t part = 0;
+};
+
+struct TrajectoryEstimate {
+  Poses poses;
+  std::vector<Poses> draws;
+};
+
+TrajectoryEstimate most_probable_trajectory(const BodyModel& model, const TrajectoryFrames& frames,
+                                            const WantedDraws& wanted = {});
 
 }  // namespace tracker
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "body/kinematics.h"
 #include "jobs/track/results/named_track.h"
 #include "jobs/track/track_run.h"
 #include "metrics/flat_feet.h"
@@ -39,10 +40,38 @@ double speed_at(std::span<const Pose> poses, size_t i, double rate) {
          static_cast<double>(after - before);
 }
 
+// Draws of the frames that a piece begins with: by draw, its last poses.
+std::vector<Poses> last_poses(const std::vector<Poses>& draws, size_t from, size_t to) {
+  std::vector<Poses> out;
+  for (const Poses& draw : draws)
+    out.emplace_back(draw.begin() + static_cast<std::ptrdiff_t>(from),
+                     draw.begin() + static_cast<std::ptrdiff_t>(to));
+  return out;
+}
+
+std::vector<Pose> of_frame(const std::vector<Poses>& draws, size_t t) {
+  std::vector<Pose> out;
+  for (const Poses& draw : draws) out.push_back(draw[t]);
+  return out;
+}
+
+void report_pose(const BodyModel& model, const Pose& pose, double velocity, FrameRecord& record) {
+  const JointPositions joints = forward_kinematics(model.body, pose).joints;
+  for (size_t j = 0; j < record.estimate.joint_count; ++j)
+    record.estimate.joints.at[j] = joints.at[j];
+  record.estimate.pose = pose;
+  record.estimate.speed = velocity;
+}
+
 // The frames [begin, end) of one unbroken track; those before `begin` are settled already.
 void settle_track(const TrackedFrames& frames, const BodyModel& model,
-                  std::span<const FlatFoot> flat, size_t begin, size_t end, TrackedFrames& out) {
+                  std::span<const FlatFoot> flat, const BandScene* bands, size_t begin, size_t end,
+                  TrackedFrames& out) {
   const size_t track = begin;
+  const double dt = 1 / frames.frame_rate;
+  std::optional<Posterior> posterior;
+  if (bands) posterior.emplace(model, *bands, frames.records[begin].samples.size());
+  std::vector<Poses> draws(posterior ? posterior->draws() : 0);  // of the settled frames
   while (begin < end) {
     const bool rest = end - begin <= kSettled + kAhead;
     const size_t settled = rest ? end : begin + kSettled;
@@ -51,12 +80,20 @@ void settle_track(const TrackedFrames& frames, const BodyModel& model,
     std::vector<FrameRecord> records;
     for (size_t i = first; i < piece.end; ++i)
       records.push_back(i < begin ? out.records[i] : frames.records[i]);
-    const std::vector<Pose> poses = most_probable_poses(model, 1 / frames.frame_rate, records,
-                                                        within(flat, piece), begin - first);
+    const std::vector<FlatFoot> soles = within(flat, piece);
+    const TrajectoryEstimate found =
+        most_probable_trajectory(model, {dt, records, soles, begin - first},
+                                 {draws, bands ? bands->seed : 0, static_cast<uint32_t>(begin)});
     for (size_t i = begin - first; i < settled - first; ++i) {
-      report_pose(model, poses[i], speed_at(poses, i, frames.frame_rate), records[i]);
+      const double speed = speed_at(found.poses, i, frames.frame_rate);
+      if (posterior)
+        posterior->report(found.poses[i], of_frame(found.draws, i), speed, dt, records[i]);
+      else
+        report_pose(model, found.poses[i], speed, records[i]);
       out.records.append(records[i]);
     }
+    const size_t next = settled - track > kBefore ? settled - kBefore : track;
+    draws = last_poses(found.draws, next - first, settled - first);
     begin = settled;
   }
 }
@@ -100,7 +137,8 @@ void join(FlatFoot added, std::vector<FlatFoot>& flat) {
 }  // namespace
 
 TrackedFrames seen_together(const TrackedFrames& frames, const BodyModel& model,
-                            std::span<const FlatFoot> flat, const std::filesystem::path& file) {
+                            std::span<const FlatFoot> flat, const BandScene* bands,
+                            const std::filesystem::path& file) {
   TrackedFrames out{frames.frame_rate, FrameFile(file)};
   std::filesystem::remove(file);  // what is open can still be read, and leaves nothing behind
   const size_t count = frames.records.size();
@@ -110,7 +148,7 @@ TrackedFrames seen_together(const TrackedFrames& frames, const BodyModel& model,
     size_t end = i;
     while (end < count && tracked[end]) ++end;
     if (end > i) {
-      settle_track(frames, model, flat, i, end, out);
+      settle_track(frames, model, flat, bands, i, end, out);
     } else {
       out.records.append(frames.records[end++]);
     }
@@ -129,16 +167,18 @@ std::vector<FlatFoot> standing_feet(const TrackedFrames& frames) {
 }
 
 ReportedTrack::ReportedTrack(const TrackedFrames& tracked, const BodyModel& model,
-                             const SmoothingConfig& smoothing, const ResultFolder& folder)
+                             const SmoothingConfig& smoothing, const BandScene& bands,
+                             const ResultFolder& folder)
     : tracked_(tracked) {
   const auto file = [&](std::string_view name) { return folder.file(std::string(name)); };
   if (says_names(tracked)) named_.emplace(named(tracked, model.body, file(kNamedFile)));
   const TrackedFrames& sided = moving();
   if (!smoothing.enabled) return;
-  smoothed_.emplace(seen_together(sided, model, {}, file(kSmoothedFile)));
+  smoothed_.emplace(
+      seen_together(sided, model, {}, smoothing.plant ? nullptr : &bands, file(kSmoothedFile)));
   if (!smoothing.plant) return;
   const std::vector<FlatFoot> flat = standing_feet(*smoothed_);
-  planted_.emplace(seen_together(sided, model, flat, file(kPlantedFile)));
+  planted_.emplace(seen_together(sided, model, flat, &bands, file(kPlantedFile)));
 }
 
 }  // namespace jobs

@@ -7,16 +7,19 @@
 
 #include "io/archive/result_folder.h"
 #include "jobs/track/results/track_results.h"
+#include "tracker/smooth/posterior.h"
 
 namespace walktrack {
 inline namespace jobs {
 
 // The frames with their most probable poses together (tracker/smooth/trajectory.h), `flat` soles
-// in place. Long tracks are taken in pieces that begin with what has been settled, so that memory
-// does not grow with the video. The records lie in a file of that name, which the folder does not
-// show any more.
+// in place, and with bands and samples of a scene, if one is given (tracker/smooth/posterior.h).
+// Long tracks are taken in pieces that begin with what has been settled, so that memory does not
+// grow with the video. The records lie in a file of that name, which the folder does not show any
+// more.
 TrackedFrames seen_together(const TrackedFrames& frames, const BodyModel& model,
-                            std::span<const FlatFoot> flat, const std::filesystem::path& file);
+                            std::span<const FlatFoot> flat, const BandScene* bands,
+                            const std::filesystem::path& file);
 
 // Where soles lie flat: by the track's own gait, if the feet do not travel, and both of somebody
 // who stands.
@@ -25,7 +28,8 @@ std::vector<FlatFoot> standing_feet(const TrackedFrames& frames);
 class ReportedTrack {
  public:
   ReportedTrack(const TrackedFrames& tracked, const BodyModel& model,
-                const SmoothingConfig& smoothing, const ResultFolder& folder);
+                const SmoothingConfig& smoothing, const BandScene& bands,
+                const ResultFolder& folder);
   ReportedTrack(const ReportedTrack&) = delete;
   ReportedTrack& operator=(const ReportedTrack&) = delete;
 

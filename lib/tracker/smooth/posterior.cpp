@@ -1,0 +1,125 @@
+#include "tracker/smooth/posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "body/kinematics.h"
+#include "core/conventions.h"
+#include "tracker/moves/mirror_legs.h"
+
+namespace walktrack {
+inline namespace tracker {
+
+namespace {
+
+// Bands are from 5 to 95 %.
+constexpr double kTail = 0.05;
+// Below this probability swapped legs do not change a band.
+constexpr double kNeverSwapped = 1e-3;
+
+Spread normal_spread(double mean, double sd) {
+  return {mean, sd, mean - kBandQuantile * sd, mean + kBandQuantile * sd};
+}
+
+double cumulative(const Normal& normal, double x) {
+  if (normal.sd == 0) return x < normal.mean ? 0 : 1;
+  return 0.5 * std::erfc((normal.mean - x) / (normal.sd * std::numbers::sqrt2));
+}
+
+// The mean stays that of this leg: it is what is reported.
+Spread mixed(const Spread& own, const Spread& other, double share) {
+  const Normal one{own.mean, own.sd}, two{other.mean, other.sd};
+  const double apart = other.mean - own.mean;
+  return {own.mean,
+          std::sqrt((1 - share) * own.sd * own.sd +
+                    share * (other.sd * other.sd + (1 - share) * apart * apart)),
+          mixture_quantile(one, two, share, kTail), mixture_quantile(one, two, share, 1 - kTail)};
+}
+
+// Every number with that of the same figure whose legs are swapped.
+void mix_legs(const Body& body, FrameRecord& record) {
+  FrameRecord swapped = record;
+  mirror_legs(body, swapped);
+  const double share = record.modes.p_legs_swapped;
+  FrameEstimate& estimate = record.estimate;
+  for (size_t j = 0; j < estimate.joint_count; ++j)
+    for (size_t axis = 0; axis < 3; ++axis)
+      estimate.spread[j][axis] =
+          mixed(estimate.spread[j][axis], swapped.estimate.spread[j][axis], share);
+  for (size_t k = 0; k < kJointAngleCount; ++k)
+    estimate.angles[k] = mixed(estimate.angles[k], swapped.estimate.angles[k], share);
+}
+
+}  // namespace
+
+double mixture_quantile(const Normal& one, const Normal& other, double share, double quantile) {
+  constexpr double kFar = 10;  // standard deviations
+  constexpr int kHalvings = 60;
+  double low = std::min(one.mean - kFar * one.sd, other.mean - kFar * other.sd);
+  double high = std::max(one.mean + kFar * one.sd, other.mean + kFar * other.sd);
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    const double below = (1 - share) * cumulative(one, middle) + share * cumulative(other, middle);
+    (below < quantile ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+Posterior::Posterior(const BodyModel& model, BandScene scene, size_t samples)
+    : model_(model), scene_(std::move(scene)) {
+  for (size_t i = 0; i < samples; ++i) errors_.emplace_back(scene_.seed, static_cast<uint32_t>(i));
+}
+
+void Posterior::report(const Pose& pose, std::span<const Pose> draws, double velocity, double dt,
+                       FrameRecord& record) {
+  FrameEstimate& estimate = record.estimate;
+  estimate.pose = pose;
+  estimate.speed = velocity;
+  const JointPositions joints = forward_kinematics(model_.body, pose).joints;
+  const JointAngles angles = joint_angles(pose);
+  std::array<Eigen::Vector3d, kJointCount> joint_squares;
+  joint_squares.fill(Eigen::Vector3d::Zero());
+  JointAngles angle_squares{};
+  std::vector<JointPositions> drawn;
+  for (const Pose& draw : draws) {
+    drawn.push_back(forward_kinematics(model_.body, draw).joints);
+    for (size_t j = 0; j < estimate.joint_count; ++j)
+      joint_squares[j] += (drawn.back().at[j] - joints.at[j]).cwiseAbs2();
+    const JointAngles now = joint_angles(draw);
+    for (size_t k = 0; k < kJointAngleCount; ++k)
+      angle_squares[k] += std::pow(std::remainder(now[k] - angles[k], 2 * kPi), 2);
+  }
+  const auto deviation = [&](double squares) {
+    return std::sqrt(squares / static_cast<double>(draws.size()));
+  };
+  for (size_t j = 0; j < estimate.joint_count; ++j) {
+    estimate.joints.at[j] = joints.at[j];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<Eigen::Index>(axis);
+      estimate.spread[j][axis] = normal_spread(joints.at[j][a], deviation(joint_squares[j][a]));
+    }
+  }
+  for (size_t k = 0; k < kJointAngleCount; ++k)
+    estimate.angles[k] = normal_spread(angles[k], deviation(angle_squares[k]));
+  add_model_error(scene_.cameras, scene_.model_error, estimate);
+  report_samples(drawn, dt, record);
+  if (record.modes.p_legs_swapped > kNeverSwapped) mix_legs(model_.body, record);
+}
+
+void Posterior::report_samples(std::span<const JointPositions> draws, double dt,
+                               FrameRecord& record) {
+  const Eigen::Matrix3d figure = figure_root(scene_.cameras, record.estimate.joints);
+  for (size_t i = 0; i < record.samples.size(); ++i) {
+    JointPositions& sample = record.samples[i];
+    sample = draws[i];
+    const JointPositions error = errors_[i].next(dt, figure);
+    for (size_t j = 0; j < record.estimate.joint_count; ++j)
+      sample.at[j] += scene_.model_error * error.at[j];
+    if (errors_[i].share() < record.modes.p_legs_swapped) swap_legs(sample);
+  }
+}
+
+}  // namespace tracker
+}  // namespace walktrack
