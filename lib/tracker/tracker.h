@@ -1,8 +1,8 @@
 // The tracker turns the evidence of frames into poses with their uncertainty. Its modes:
 //
 //   searching  for a walk in a sliding window of frames (tracker/detect/walk_search.h)
-//              which is tried out on the window (tracker/start/trial.h). The height of a subject,
-//              if it is unknown, is estimated from the same window, once
+//              which is tried out on the window (tracker/start/window_start.h). The height of a
+//              subject, if it is unknown, is estimated from the same window, once
 //              (tracker/detect/stature.h).
 //   starting   hypotheses over phase and side compete for a while
 //              (tracker/start/start_hypotheses.h)
@@ -21,6 +21,7 @@
 
 #include "tracker/detect/walk_search.h"
 #include "tracker/modes/track_mode.h"
+#include "tracker/tracked_subject.h"
 
 namespace walktrack {
 inline namespace tracker {
@@ -49,14 +50,14 @@ class Tracker {
   // Sets the number of particles from the next frame on: the present particles become more or fewer
   // in proportion to their weights.
   void use_particles(int count) {
-    config_.filter.particles = count;
+    subject_.config.filter.particles = count;
     if (tracking()) walktrack::use_particles(count, std::get<Tracking>(mode_));
   }
 
   // Whether the next frame's evidence has to hold its image: for one camera, the labels of the legs
   // of a walk that is searched come from the images.
   bool wants_picture() const {
-    return is_searching(mode_) && !scene_.initial && scene_.cameras.size() == 1;
+    return is_searching(mode_) && !given() && subject_.scene.cameras.size() == 1;
   }
   // Whether the newest frame has been tracked, so that its particles say where the person is.
   bool tracking() const { return is_tracking(mode_); }
@@ -71,12 +72,12 @@ class Tracker {
   int losses() const { return losses_; }
   // The body that is tracked: the scene's model, until the height has been estimated if the scene
   // does not state it.
-  const Body& body() const { return scene_.model.body; }
-  const BodyModel& model() const { return scene_.model; }
+  const Body& body() const { return model().body; }
+  const BodyModel& model() const { return subject_.scene.model; }
   // Whether keypoints count for more than outlines (tracker/start/keypoint_lead.h).
-  bool keypoints_lead() const { return scene_.observation.outline_share < 1; }
+  bool keypoints_lead() const { return subject_.keypoints_lead(); }
   // The estimated height; nullopt if there is none.
-  std::optional<Stature> stature() const { return stature_; }
+  std::optional<Stature> stature() const { return subject_.stature; }
 
   // A tracker of the same scene, configuration and seed that resumes the state of another one
   // continues like that one. There is a state only while tracking(): the data of a search are large
@@ -89,36 +90,20 @@ class Tracker {
   void consume(const SceneEvidence& evidence, Records& out);
   void search(const SceneEvidence& evidence, Records& out);
   void look_for_walk(Records& out);
-  bool start_from_window(Records& out);
-  void lead_by_keypoints();
-  bool start_at(const DetectedWalk& walk, size_t lead, Records& out);
-  bool start_sized(const DetectedWalk& walk, Records& out);
-  bool start_unsized(const DetectedWalk& walk, Records& out);
-  void start_as_given(Records& out);
-  Starting started(const DetectedWalk& walk, std::optional<double> stride_phase);
+  void start_given(Records& out);
   void report(Records records, const SceneEvidence& newest, Records& out);
-  void set_height(double height, const std::optional<Stature>& estimate);
 
   const Tracking& tracked() const { return std::get<Tracking>(mode_); }
-  bool wants_size() const { return !scene_.size_known && !stature_; }
-  TrackContext context() const { return {scene_, prior_, config_, subject_, seed_, threads_}; }
-  SearchMoment moment() const { return {frame_, std::get<Searching>(mode_).last_seen}; }
+  // Whether the scene states a walk that has not been used yet.
+  bool given() const { return subject_.scene.initial.has_value(); }
 
-  TrackerScene scene_;
-  const GaitPrior& prior_;
-  TrackerConfig config_;
-  uint64_t seed_;
-  int threads_;
-  SubjectModel subject_;
-
+  TrackedSubject subject_;
   TrackMode mode_;
   WalkSearch search_;
   std::deque<SceneEvidence> starting_;  // frames of the start hypotheses
   uint32_t frame_ = 0;                  // the next to be tracked
   uint32_t starts_ = 0;                 // tried
   int losses_ = 0;
-  std::optional<Stature> stature_;
-  bool outlines_misled_ = false;  // the start that was tried; keypoints are to lead the next one
 };
 
 }  // namespace tracker

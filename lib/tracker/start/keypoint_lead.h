@@ -30,8 +30,11 @@ inline constexpr double kBadOverlap = 0.72;
 // More along the ray than across it.
 inline constexpr double kAlongRay = 0.7;  // cosine
 
-// Whether there is anything to decide: one camera, keypoints that are used, nobody who has decided,
-// and a walk towards the camera or away from it.
+// Whether keypoints lead from the beginning, as the configuration states.
+bool must_lead(const KeypointConfig& keypoints);
+
+// Whether they may lead and do not yet: there is one camera, keypoints are used, the configuration
+// leaves it open, and the subject walks towards the camera or away from it.
 bool may_lead(const TrackerScene& scene, const DetectedWalk& walk);
 
 // `records` of the first frames of `window`.

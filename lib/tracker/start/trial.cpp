@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tracker/moves/mirror_legs.h"
+#include "tracker/start/keypoint_lead.h"
 #include "tracker/start/leg_label_evidence.h"
 
 namespace walktrack {
@@ -106,14 +107,17 @@ WalkerFilter filter_of(TrackMode mode) {
 }  // namespace
 
 Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& window,
-                uint32_t first_frame, Starting start, double walk_score) {
-  const std::optional<LastSeen> last_seen = start.before.last_seen;
+                uint32_t first_frame, const DetectedWalk& walk, uint32_t number,
+                const Searching& before) {
   const WindowFrames frames{context, window, first_frame};
-  Attempt attempt{.mode = std::move(start)};
+  Attempt attempt{.mode = start_around(context, walk, std::nullopt, number, before)};
   follow_rest(frames, attempt);
   if (attempt.legs != 0) attempt = with_legs_named(frames, std::move(attempt));
+  const double walk_score = walk.score * static_cast<double>(window.size());
   if (is_searching(attempt.mode) || explained(attempt) < walk_score)
-    return {Searching{filter_of(std::move(attempt.mode)), last_seen}, {}};
+    return {Searching{filter_of(std::move(attempt.mode)), before.last_seen}};
+  if (may_lead(context.scene, walk) && outlines_fit_badly(context.scene, window, attempt.records))
+    return {.mode = before, .outlines_misled = true};
   return {std::move(attempt.mode), std::move(attempt.records)};
 }
 

@@ -1,0 +1,99 @@
+#include "tracker/start/window_start.h"
+
+#include <utility>
+
+#include "tracker/start/keypoint_lead.h"
+#include "tracker/start/trial.h"
+
+namespace walktrack {
+inline namespace tracker {
+
+namespace {
+
+struct Window {
+  TrackedSubject& subject;
+  WalkSearch& search;
+  uint32_t first_frame;
+  uint32_t& starts;
+  TrackMode& mode;
+  bool outlines_misled = false;  // in the last trial
+
+  const Searching& searching() const { return std::get<Searching>(mode); }
+  SearchMoment moment() const { return {first_frame, searching().last_seen}; }
+};
+
+void set_height(Window& window, double height, const std::optional<Stature>& estimate) {
+  window.subject.set_height(height, estimate);
+  window.search.forget_places();
+}
+
+// Tracks the window's frames from a walk on, and `lead` frames before them.
+std::optional<WindowStart> start_at(Window& window, const DetectedWalk& walk, size_t lead) {
+  WalkSearch& search = window.search;
+  search.reach_back(lead);
+  const uint32_t first = window.first_frame - static_cast<uint32_t>(lead);
+  Trial trial = try_start(window.subject.context(), search.window(), first, walk, ++window.starts,
+                          window.searching());
+  window.outlines_misled = trial.outlines_misled;
+  window.mode = std::move(trial.mode);
+  if (is_searching(window.mode)) {
+    search.let_go(lead);
+    return std::nullopt;
+  }
+  const size_t untracked = search.waiting();
+  return WindowStart{search.take(), first, std::move(trial.records), untracked};
+}
+
+// Starts where the subject stands before the walk, if they do; otherwise with the walk.
+std::optional<WindowStart> start_sized(Window& window, const DetectedWalk& walk) {
+  if (const auto lead = window.search.standing_lead(window.subject.context(), walk)) {
+    std::optional<WindowStart> start = start_at(window, lead->detected, lead->frames);
+    if (start || window.outlines_misled) return start;
+  }
+  return start_at(window, walk, 0);
+}
+
+std::optional<WindowStart> start_unsized(Window& window, const DetectedWalk& walk) {
+  const double height_before = window.subject.scene.model.body.subject.height;
+  const SizedWalk sized = window.search.with_size(window.subject.context(), window.moment(), walk);
+  set_height(window, sized.stature.height, sized.stature);
+  std::optional<WindowStart> start = start_at(window, sized.walk, 0);
+  if (!start) set_height(window, height_before, std::nullopt);
+  return start;
+}
+
+std::optional<WindowStart> start_with_walk(Window& window) {
+  const std::optional<DetectedWalk> walk =
+      window.search.find(window.subject.context(), window.moment());
+  if (!walk) return std::nullopt;
+  return window.subject.wants_size() ? start_unsized(window, *walk) : start_sized(window, *walk);
+}
+
+}  // namespace
+
+std::optional<WindowStart> start_in_window(TrackedSubject& subject, WalkSearch& search,
+                                           uint32_t first_frame, uint32_t& starts,
+                                           TrackMode& mode) {
+  Window window{subject, search, first_frame, starts, mode};
+  std::optional<WindowStart> start = start_with_walk(window);
+  if (!window.outlines_misled) return start;
+  let_keypoints_lead(subject.scene.observation);
+  search.forget_scores();
+  return start_with_walk(window);
+}
+
+void start_as_given(TrackedSubject& subject, WalkSearch& search, uint32_t first_frame,
+                    uint32_t& starts, TrackMode& mode) {
+  Window window{subject, search, first_frame, starts, mode};
+  const DetectedWalk given = *std::exchange(subject.scene.initial, std::nullopt);
+  if (subject.wants_size()) {
+    const Stature stature =
+        search.with_size_along(subject.context(), window.moment(), given).stature;
+    set_height(window, stature.height, stature);
+  }
+  mode = start_around(subject.context(), given, subject.scene.initial_phase, ++starts,
+                      window.searching());
+}
+
+}  // namespace tracker
+}  // namespace walktrack

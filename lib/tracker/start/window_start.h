@@ -1,0 +1,40 @@
+// The start of a track in the window of a search: a walk is detected in it, the height is estimated
+// if it is unknown, and the window's frames are tracked as a trial (tracker/start/trial.h).
+//
+// If the trial shows that outlines mislead (tracker/start/keypoint_lead.h), keypoints lead from
+// then on, and the walk is detected anew. A subject who stood before the walk is tracked from there
+// on (tracker/detect/standing_start.h), unless that trial fails.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "tracker/detect/walk_search.h"
+#include "tracker/modes/track_mode.h"
+#include "tracker/tracked_subject.h"
+
+namespace walktrack {
+inline namespace tracker {
+
+struct WindowStart {
+  std::deque<SceneEvidence> frames;  // of the window and of standing before it
+  uint32_t first_frame;              // number of the first of them
+  std::vector<FrameRecord> records;  // of those that are finished
+  size_t untracked;                  // number of frames before them in which nobody was tracked
+};
+
+// `first_frame` is the number of the window's first frame, `starts` the number of trials so far.
+// If a trial succeeds, `mode` is the mode after the window's frames; otherwise nullopt is returned
+// and `mode` keeps searching.
+std::optional<WindowStart> start_in_window(TrackedSubject& subject, WalkSearch& search,
+                                           uint32_t first_frame, uint32_t& starts, TrackMode& mode);
+
+// The same in the window's first frame, around a walk that the scene states; the window's frames
+// are still to be followed.
+void start_as_given(TrackedSubject& subject, WalkSearch& search, uint32_t first_frame,
+                    uint32_t& starts, TrackMode& mode);
+
+}  // namespace tracker
+}  // namespace walktrack

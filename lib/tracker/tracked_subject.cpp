@@ -1,0 +1,29 @@
+#include "tracker/tracked_subject.h"
+
+#include <utility>
+
+#include "tracker/start/keypoint_lead.h"
+
+namespace walktrack {
+inline namespace tracker {
+
+TrackedSubject::TrackedSubject(TrackerScene stated_scene, const GaitPrior& gait,
+                               const TrackerConfig& stated, uint64_t stream_seed, int thread_count)
+    : scene(std::move(stated_scene)),
+      prior(gait),
+      config(stated),
+      seed(stream_seed),
+      threads(thread_count),
+      model(scene.model, prior, config.motion, scene.dt) {
+  config.detector = detector_for(scene, config.detector);
+  if (must_lead(scene.observation.keypoints)) let_keypoints_lead(scene.observation);
+}
+
+void TrackedSubject::set_height(double height, const std::optional<Stature>& estimate) {
+  stature = estimate;
+  scene.model = with_height(scene.model, height);
+  model = SubjectModel(scene.model, prior, config.motion, scene.dt);
+}
+
+}  // namespace tracker
+}  // namespace walktrack
