@@ -1,5 +1,5 @@
-// How many threads work on pictures inside OpenCV: as many as the machine has unless told
-// otherwise. It is one number of the whole program.
+// The number of threads that OpenCV uses on images: as many as the machine has by default. It is
+// one number for the whole program.
 #pragma once
 
 namespace walktrack {
@@ -7,8 +7,8 @@ inline namespace observation {
 
 void set_image_threads(int threads);
 
-// One thread while this lives, the number before afterwards: OpenCV splits a network's layers by
-// its threads, and other sums have other last bits.
+// One thread during the life of this object, the former number afterwards: OpenCV splits a
+// network's layers by its threads, which changes the last bits of sums.
 class OneImageThread {
  public:
   OneImageThread();

@@ -9,24 +9,24 @@
 namespace walktrack {
 inline namespace observation {
 
-// Whether a term is on; auto is decided before anything is tracked.
+// Whether a term is on; auto is decided before tracking.
 enum class TermSetting { kAuto, kOn, kOff };
 
 struct BackgroundConfig {
   bool enabled = true;
-  int samples = 32;  // frames that the model is made of, spread over what it is given
-  // Whether people, whom the pose network finds, are left out of a model that is made of the video.
+  int samples = 32;  // frames for the estimate of the model, evenly spread
+  // Whether people that the pose network detects are left out of a model from the video.
   TermSetting without_people = TermSetting::kAuto;
-  double noise = 3;         // smallest standard deviation of a channel, grey levels of 256
-  double jitter_px = 0.35;  // edges move about so much (compression, wind), px of the shrunk image
-  double shadow_darkest = .45;  // a cast shadow keeps at least this share of a pixel's value
-  double shadow_share = .15;    // prior probability that a background pixel lies in a shadow
+  double noise = 3;             // smallest standard deviation of a channel, grey levels of 256
+  double jitter_px = 0.35;      // shaking of edges (compression, wind), px of the shrunk image
+  double shadow_darkest = .45;  // smallest ratio of a pixel's value in a cast shadow
+  double shadow_share = .15;    // prior probability that a background pixel is in a shadow
   double shadow_tint = 5;       // standard deviation of a shadow's chroma, grey levels
   double shadow_sky = .2;       // and per grey level that the shadow takes: skylight is blue
-  double gradient_weight =
-      .5;                      // of the gradient's log-density: it is not independent of the colour
-  double unknown_share = .02;  // of a background pixel looking like nothing learned
-  double drift_rate = .02;     // share of a frame that an explained pixel takes on; 0 = frozen
+  double gradient_weight = .5;  // weight of the gradient's log-density, which is not independent of
+                                // the colour
+  double unknown_share = .02;   // probability that a background pixel has any colour
+  double drift_rate = .02;      // learning rate for pixels that the model explains; 0 = constant
 };
 
 struct ForegroundConfig {
@@ -34,42 +34,43 @@ struct ForegroundConfig {
   // Which appearances share a model, by Appearance {trunk, legs, feet, head, arms}: equal numbers
   // share one. Left and right always do.
   std::array<int, kAppearanceCount> classes{0, 1, 2, 3, 4};
-  double broad_share = .1;     // of a class's model that expects any colour
-  double prior_pixels = 60;    // weight of "any colour" against the pixels learned from
-  double learning_rate = .05;  // share of a new frame in the recent half of a model
-  double anchor_share = .5;    // share of the first frames learned that is never forgotten
+  double broad_share = .1;     // of a class's model that is uniform over colours
+  double prior_pixels = 60;    // weight of the uniform model in pixels
+  double learning_rate = .05;  // learning rate of the recent half of a model
+  double anchor_share = .5;    // share of the anchor, which is learned from the first frames and
+                               // kept
 };
 
 struct FlowConfig {
   TermSetting enabled = TermSetting::kAuto;
   // Of the Student-t, fitted to a real video (reports/flow.md).
   double noise = 1.2;        // of a difference without texture, grey levels of 256
-  double error_px = .35;     // of what rests, px: pictures tremble, edges are compressed
-  double error_share = .05;  // and more of what moves, as a share of its motion
+  double error_px = .35;     // error of what is at rest, px: images shake, edges are compressed
+  double error_share = .05;  // additional error of what moves, as a share of its motion
   double dof = 1.7;          // the smaller, the more outliers are expected
-  double weight = .5;        // against the silhouettes, both per independent area
+  double weight = .5;        // relative to silhouettes, both for an independent area
 };
 
 // Points of a pose detector: from the scene's files, or from the built-in network where a camera
 // has none.
 struct KeypointConfig {
-  TermSetting enabled = TermSetting::kAuto;  // decided before anything is tracked
-  int every = 3;                             // frames, of which the network looks at one
-  // Whether it looks at a tracked subject only while left and right are in doubt
+  TermSetting enabled = TermSetting::kAuto;  // decided before tracking
+  int every = 3;                             // the network runs on one of so many frames
+  // Whether, while a subject is tracked, it only runs if left and right are uncertain
   // (tracker/smooth/leg_labels.h).
   bool in_doubt_only = false;
   std::string model = "movenet_lightning";  // the shipped network, or a file of the same family
-  // Of one point: a network's points err together from joint to joint and for several frames.
+  // Weight of one point: a network's points err together from joint to joint and for several
+  // frames.
   double weight = .2;
-  // Probability that the names of a frame's left and right are swapped. Of clear views it is below
-  // one in a hundred, but those that there are come in runs of several frames, each of which would
-  // be counted.
+  // Probability that left and right are swapped in a frame. For clear views it is below one in a
+  // hundred, but swapped frames come in runs, each of which would be counted several times.
   double flip = .1;
-  // Whether they count for more than outlines (tracker/start/keypoint_lead.h); auto: where outlines
-  // do not fit. Off: never.
+  // Whether keypoints count for more than outlines (tracker/start/keypoint_lead.h); auto: if
+  // outlines do not fit.
   TermSetting lead = TermSetting::kAuto;
   double dof = 3;        // of the Student-t: the smaller, the more outliers are expected
-  double outlier = .25;  // radius in which stray points lie, share of the person's height
+  double outlier = .25;  // radius of the distribution of outliers, share of the person's height
 };
 
 struct ObservationConfig {
@@ -79,12 +80,12 @@ struct ObservationConfig {
   KeypointConfig keypoints;
   // Images are shrunk by a whole factor while a standing subject stays at least this high.
   double person_px = 120;
-  double clip = 4;  // of a pixel's log-ratio, nats, both ways: what one pixel may say at most
-  // Neighbouring pixels err together (a body is not quite our body's shape, clothes fold), so a
-  // patch of this side counts as one independent pixel. On the body, hence in metres: a figure
-  // twice as large in the image has not four times the evidence.
+  double clip = 4;  // limit of a pixel's log-likelihood ratio, nats
+  // Neighbouring pixels have common errors (the subject's shape differs from the model's, clothes
+  // fold), so that a patch of this side counts as one independent pixel. It is measured on the
+  // body, in metres: a figure twice as large in the image does not have four times the evidence.
   double independent_m = .1;
-  // Of the outlines' evidence that counts: less where keypoints lead (KeypointConfig::lead).
+  // Share of the outlines' evidence that is used: less if keypoints lead (KeypointConfig::lead).
   double outline_share = 1;
 };
 

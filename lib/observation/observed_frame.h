@@ -1,5 +1,5 @@
-// What terms are given of a camera and of one of its frames. Internal to this module: OpenCV is
-// seen here.
+// The data of a camera and of one of its frames for the terms. Internal to this module, because it
+// uses OpenCV.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -14,20 +14,20 @@ struct ObserverSetting {
   Camera camera, full_camera;  // of the shrunk image, and as calibrated
   int shrink;
   int threads;
-  bool occluded;  // whether there are pixels of which nothing is known
-  cv::Mat mask;   // 255 there: something stands in front, or what is behind was never seen
+  bool occluded;  // whether some pixels are unknown
+  cv::Mat mask;   // 255 at pixels that are occluded or whose background was never seen
 };
 
 struct ObservedFrame {
   Region region;
-  cv::Mat bgr;                             // shrunk; empty without a picture
-  const DetectedPeople* people = nullptr;  // only while the frame is prepared
+  cv::Mat bgr;                             // shrunk; empty without an image
+  const DetectedPeople* people = nullptr;  // only during preparation
   GreyImage grey;                          // see grey_of()
-  // The empty scene, only while the frame is prepared and where it is modelled.
+  // The empty scene, only during preparation and if there is a model of it.
   FlowBackground background;
 };
 
-// The grey image, made when a term first asks for it.
+// The grey image, which is computed when a term first asks for it.
 const GreyImage& grey_of(ObservedFrame& frame);
 
 }  // namespace observation

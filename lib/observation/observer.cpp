@@ -34,7 +34,7 @@ cv::Mat occluder_mask(const Camera& camera, const std::vector<Polygon>& occluder
   return mask;
 }
 
-// Where it is not known what is behind people.
+// Mask of the pixels at which the background behind people is unknown.
 cv::Mat unseen_mask(const std::optional<BackgroundModel>& background) {
   if (!background) return {};
   const auto& precision = background->luma_precision;

@@ -1,14 +1,14 @@
 // The definition of a likelihood term. CONTRIBUTING.md says how to add one; terms.h has the list of
 // all terms.
 //
-// A term is a struct of which no object is made. kName is its name in results, kStage says when it
-// is computed for particles, kAsksBefore whether it needs the pose of the frame before as well,
-// kSwitches which flags of the configuration turn it on (none: it is always on), describe() the
+// A term is a struct of which no object is made. kName is its name in results, kStage states when
+// it is computed for particles, kAsksBefore whether it also needs the pose in the previous frame,
+// kSwitches which flags of the configuration turn it on (none: it is always on), and describe() the
 // keys of these flags.
 //
 // Evidence is the data of one frame of one camera for this term, a base of CameraEvidence; State is
 // the data that it keeps from frame to frame, a base of ObserverState. Memory is the state with its
-// functions: prepare() while particles of the frame before are still being weighed, complete()
+// functions: prepare() while particles are still being weighted with the previous frame, complete()
 // afterwards, learn() from the pose that was found.
 //
 // says() returns whether a frame has any evidence for this term; log_likelihood() returns the
@@ -44,9 +44,9 @@ enum class TermStage {
   kTracks,  // never for a particle, only for whole tracks
 };
 
-// A body and where its parts are. Lives on the stack.
+// A body with the positions of its parts. It is stored on the stack.
 struct PosedBody {
-  // `shape` has to outlive this.
+  // `shape` has to outlive this object.
   PosedBody(const Body& shape, const Pose& pose)
       : body(&shape),
         skeleton(forward_kinematics(shape, pose)),
@@ -68,23 +68,23 @@ struct TermSwitch {
 // The work for a frame of one camera.
 struct TermWork {
   double region_px = 0;  // pixels of the shrunk image around the subject
-  double rows = 0;       // that the subject covers there
-  double poses = 0;      // asked about, particles and moves together
+  double rows = 0;       // height of the subject there
+  double poses = 0;      // evaluated poses, of particles and moves together
   int parts = 0;         // of the body
-  int classes = 0;       // appearances told apart; 0 = appearance is off
+  int classes = 0;       // appearance classes; 0 = appearance is off
 };
 
 struct TermCost {
-  std::string_view what;  // it is spent on
+  std::string_view what;  // the operation
   double cpu_ns;
 };
 // Empty for a term that is off.
 using TermCosts = std::vector<TermCost>;
 
-// The pose that was found in the frame observed last.
+// The pose that was found in the last frame.
 struct FoundPose {
   const CapsuleList& capsules;
-  const PosedBody* body;  // nullptr = not known
+  const PosedBody* body;  // nullptr = unknown
 };
 
 }  // namespace observation

@@ -19,17 +19,17 @@ template <typename... T>
 struct TermList {
   static constexpr size_t kCount = sizeof...(T);
 
-  // The members of all terms in one struct; each term keeps its own names.
+  // The members of all terms in one struct; each term has names of its own.
   struct Evidence : T::Evidence... {};
   struct State : T::State... {};
 
-  // f.template operator()<Term>() for each of them, in order.
+  // Calls f.template operator()<Term>() for each of them, in order.
   template <typename F>
   static constexpr void each(F&& f) {
     (f.template operator()<T>(), ...);
   }
-  // A tuple with one object for each term, such as map<std::tuple, MemoryOf>, made from the same
-  // arguments.
+  // A tuple with one object for each term, such as map<std::tuple, MemoryOf>, constructed from the
+  // same arguments.
   template <template <typename...> typename Of, template <typename> typename From>
   using map = Of<From<T>...>;
   template <template <typename...> typename Of, template <typename> typename From, typename... A>
@@ -42,10 +42,11 @@ using Terms = TermList<SilhouetteTerm, FlowTerm, LegOrderTerm, KeypointTerm>;
 
 // The evidence of a frame of one camera.
 struct CameraEvidence : Terms::Evidence {
-  double pixel_weight = 1;  // independent pixels in a pixel: the temper of all sums over pixels
+  double pixel_weight = 1;  // independent pixels that a pixel represents: tempers all sums over
+                            // pixels
 };
 
-// What an observer of one camera has learned and keeps between frames.
+// The state that an observer of one camera keeps between frames.
 struct ObserverState : Terms::State {};
 
 // Whether a term is computed for particles at all.
@@ -58,7 +59,7 @@ inline constexpr bool kTellsLegsApart = requires {
   &Term::names_log_odds;
 };
 
-// For one camera: all terms that need no frame before.
+// For one camera: the sum of all terms that need no previous frame.
 inline double still_log_likelihood(const ObservationConfig& config, const CameraEvidence& evidence,
                                    const Camera& camera, const PosedBody& body) {
   double sum = 0;

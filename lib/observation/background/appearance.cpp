@@ -9,15 +9,15 @@ inline namespace observation {
 
 namespace {
 
-// Frames whose pixels make the anchor, with equal weights. By hand.
+// Number of frames whose pixels make the anchor, with equal weights. By hand.
 constexpr int kAnchorFrames = 10;
-// A frame is learned from when at least so many pixels of the class, and such a share of those
-// seen, were probably foreground: otherwise the pose is off or the class is hidden. By
+// A class learns from a frame only if at least so many of its pixels, and at least this share of
+// those seen, were probably foreground: otherwise the pose is wrong or the class is hidden. By
 // hand.
 constexpr double kLeastPixels = 8, kLeastShare = .3;
 
-// Chroma of clothes, skin and most other things: Laplace around grey with this scale, mixed with
-// any chroma at all. By hand; sensitivity not measured.
+// The chroma of clothes, skin and most other things: a Laplace distribution around grey with this
+// scale, mixed with a uniform one. By hand; sensitivity not measured.
 constexpr double kChromaScale = 25, kAnyChroma = .2;
 
 double chroma_density(double chroma) {
@@ -30,8 +30,8 @@ double broad_density(const ColourBins& bins, int bin) {
          chroma_density(bins.middle(bin % kChromaBins)) / 256;
 }
 
-// [1 2 1] / 4 along one axis of the histogram, whose neighbours are `step` bins apart; the ends
-// keep what would fall off.
+// Smooths with [1 2 1] / 4 along one axis of the histogram, whose neighbours are `step` bins apart;
+// shares at the ends stay in their bins.
 void smooth(const std::vector<float>& histogram, int length, int step, std::vector<float>& out) {
   for (int block = 0; block < kColourBins; block += length * step) {
     for (int k = 0; k < length; ++k) {
@@ -120,7 +120,7 @@ void AppearanceModel::refresh(const ColourBins& bins, AppearanceState& state) co
   const auto others = static_cast<float>(std::log(1 - own));
   for (int bin = 0; bin < kColourBins; ++bin) {
     const auto i = static_cast<size_t>(bin);
-    if (state.anchor[i] == 0 && state.recent[i] == 0) {  // most of them
+    if (state.anchor[i] == 0 && state.recent[i] == 0) {  // true for most bins
       state.log_density[i] = others + log_broad_[i];
       continue;
     }

@@ -1,13 +1,15 @@
-// How probable each colour is on the walker: one smoothed colour histogram a class of clothes.
+// The probability of each colour on the subject: one smoothed colour histogram for each class of
+// clothes.
 //
 //   p(I | class) = (1 - b) h(I) + b broad(I)
-// h is a histogram over ColourBins, learned from the pixels inside projected parts, each weighted
-// by its probability of being foreground, and drawn towards `broad` while it has seen few pixels.
-// `broad` expects any brightness and, more loosely, any chroma: it is the model of a class that has
-// not been learned, so that a tracker can start without knowing what the walker wears.
+// h is a histogram over ColourBins. It is learned from the pixels inside projected parts, each
+// weighted by its probability of being foreground, and tends to `broad` while it has seen few
+// pixels. `broad` is a wide distribution over brightness and, more loosely, over chroma: it is the
+// model of a class that has not been learned, so that a tracker can start without knowing the
+// subject's clothes.
 //
-// Half of a learned model (anchor_share) is what its first frames showed and never changes; the
-// other half follows slowly. A frame in which hardly any foreground was found is not learned.
+// Half of a learned model (anchor_share) is estimated from the first frames and never changes; the
+// other half adapts slowly. Frames with hardly any foreground are not used.
 #pragma once
 
 #include <array>
@@ -26,7 +28,7 @@ using ColourTable = std::vector<float>;
 
 ColourTable broad_table(const ColourBins& bins);
 
-// What has been learned of one class.
+// The learned model of one class.
 struct AppearanceState {
   int frames = 0;
   std::vector<float> anchor, recent;  // histograms: shares, sum 1
@@ -45,7 +47,8 @@ class AppearanceModel {
   bool learned(int cls) const { return states_[static_cast<size_t>(cls)].frames > 0; }
   bool any_learned() const;
 
-  // One frame's pixels: weights[cls][bin] sums of P(foreground), seen[cls] the numbers of pixels.
+  // The pixels of one frame: weights[cls][bin] are sums of P(foreground), seen[cls] numbers of
+  // pixels.
   struct Counts {
     std::vector<std::vector<float>> weights;
     std::vector<double> seen;

@@ -17,8 +17,8 @@ namespace {
 const float kLogTwoPi = static_cast<float>(std::log(2 * kPi));
 const float kLogCube = static_cast<float>(3 * std::log(256.0));  // volume of all colours
 
-// ln x for positive normal x, within 1e-4: exponent by the bits, mantissa by a polynomial. Simple
-// enough to be computed for several pixels at once.
+// ln x for positive normal x, within 1e-4: the exponent from the bits, the mantissa by a
+// polynomial. It is simple enough to be vectorised.
 inline float fast_log(float x) {
   const auto bits = std::bit_cast<int32_t>(x);
   const auto exponent = static_cast<float>((bits >> 23) - 127);
@@ -28,8 +28,8 @@ inline float fast_log(float x) {
   return 0.69314718F * exponent + p;
 }
 
-// Beside a shadow's or a body's edge the gradient is anything, though the pixel is background: the
-// log of the share of such pixels. By hand.
+// Log of the share of background pixels whose gradient is arbitrary because they are beside the
+// edge of a shadow or of a body. By hand.
 constexpr float kLogEdge = -3.0F;
 
 // Constants of the mixture.
@@ -47,10 +47,10 @@ struct Weights {
   float log_plain, log_shadow, log_unknown, darkest, tint, sky, gradient;
 };
 
-// Below this mean a pixel is black anyway and a shadow of it is no share of anything. By hand.
+// A pixel with a mean below this is black, so that the ratio of a shadow is undefined. By hand.
 constexpr float kDarkestMean = 8;
 
-// A row of a channel with its neighbours above and below (itself at the image's edge).
+// A row of a channel with the rows above and below (itself at the border of the image).
 struct Rows {
   const float *above, *here, *below;
 };
@@ -73,14 +73,14 @@ Gradient slope(const Rows& rows, int x, int left, int right) {
           0.5F * (rows.below[x] - rows.above[x])};
 }
 
-// Luma gradients of whatever stands in front: heavy tails in all directions alike,
-// p(g) = s / (2 pi (s^2 + |g|^2)^(3/2)).
+// Luma gradients of foreground: heavy tails in all directions, p(g) = s / (2 pi (s^2 +
+// |g|^2)^(3/2)).
 float log_broad_gradient(const Gradient& g) {
   constexpr float kScale = 4;  // grey levels per px; by hand
   return fast_log(kScale) - kLogTwoPi - 1.5F * fast_log(kScale * kScale + g.x * g.x + g.y * g.y);
 }
 
-// One row of a frame and of the model; all pointers stand at the first pixel wanted.
+// One row of a frame and of the model; all pointers refer to the first pixel of the area.
 struct PixelRows {
   Rows luma;
   const float *orange, *green;
@@ -89,13 +89,14 @@ struct PixelRows {
   float gain;
 };
 
-// The header's density at one pixel; `left` and `right` lead to its neighbours.
+// The density in the header at one pixel; `left` and `right` are offsets of its neighbours.
 [[gnu::always_inline]] inline float log_density(const Weights& w, const PixelRows& p, int x,
                                                 int left, int right) {
   const Gradient seen = slope(p.luma, x, left, right), mean = slope(p.mean, x, left, right);
   const float luma = p.luma.here[x], mu = p.gain * p.mean.here[x];
   const float pl = p.luma_precision[x], pc = p.chroma_precision[x];
-  // Independent errors of variance v in two pixels two apart: their slope has variance v / 2.
+  // The slope between two pixels two apart with independent errors of variance v has variance v /
+  // 2.
   const float pg = 2 * pl;
   const float fore_gradient = log_broad_gradient(seen);
   const auto log_gradient = [&](float a) {
@@ -127,7 +128,7 @@ float luma_at(const cv::Mat& bgr, int x, int y) {
 }  // namespace
 
 std::vector<LightPoint> light_points(int width, int height) {
-  // Points along a side of the grid; by hand.
+  // Points along each side of the grid; by hand.
   constexpr int kSide = 48, kHalves = 2 * kSide;
   std::vector<LightPoint> points;
   points.reserve(size_t{kSide} * kSide);
@@ -158,7 +159,7 @@ double light_gain(const BackgroundModel& model, const cv::Mat& bgr) {
 void background_log_density(const BackgroundModel& model, const BackgroundConfig& config,
                             const ColourPatch& patch, const PixelRect& area, int y, double gain,
                             std::span<float> out) {
-  if (area.width() == 0) return;  // of somebody outside the picture there is nothing to fill
+  if (area.width() == 0) return;  // a body outside the image covers nothing
   const Weights w(config);
   const PixelRect image{0, 0, model.width, model.height};
   const PixelRows rows{rows_of(patch.luma, patch.area, area.x0, y),
@@ -173,7 +174,7 @@ void background_log_density(const BackgroundModel& model, const BackgroundConfig
   const int end = area.width();
   const int first = area.x0 == 0 ? 1 : 0, last = area.x1 == model.width ? end - 1 : end;
   if (first == 1) out[0] = log_density(w, rows, 0, 0, 1);
-  // Through a buffer that nothing else points to, so that several pixels can be computed at once.
+  // A separate buffer without aliases, so that the loop can be vectorised.
   constexpr int kChunk = 64;
   for (int begin = first; begin < last; begin += kChunk) {
     std::array<float, kChunk> chunk;
@@ -187,7 +188,7 @@ void background_log_density(const BackgroundModel& model, const BackgroundConfig
 
 void follow_drift(BackgroundModel& model, const BackgroundConfig& config, const cv::Mat& bgr,
                   double gain, int phase, int skip) {
-  constexpr float kExplained = 9;  // squared deviation, three standard deviations
+  constexpr float kExplained = 9;  // squared deviation, i.e. three standard deviations
   const auto g = static_cast<float>(gain);
   const float rate = static_cast<float>(std::min(1.0, config.drift_rate * skip));
   for (int y = phase; y < model.height; y += skip) {

@@ -1,15 +1,15 @@
-// The model of the empty scene: the look of each pixel without the subject, and the probability of
-// a frame's pixels under it.
+// The model of the empty scene: the appearance of each pixel without the subject, and the
+// probability of a frame's pixels under it.
 //
 // Per pixel: mean of (Y, Co, Cg), a variance of luma and one of chroma, and the luma gradient
 // of the mean image. With I the observed pixel, mu the mean times the frame's gain:
 //   p(I | background) = max of
-//     (1 - s - e) N(I; mu, variances)                             the place itself
+//     (1 - s - e) N(I; mu, variances)                             the background itself
 //     s  U(a; darkest..1) N(chroma; a mu, tint)                   in a cast shadow, I_Y = a mu_Y
 //     e  U(colour cube)                                           something never seen
-// the first two times the density of the luma gradient, normal around that of the mean (times a),
-// or anything for the one pixel in ten that lies beside an edge. The maximum stands for the sum:
-// the parts hardly overlap.
+// The first two are multiplied by the density of the luma gradient, which is normal around that of
+// the mean (times a), or uniform for the one pixel in ten that is beside an edge. The maximum
+// replaces the sum, because the parts hardly overlap.
 //
 // Variances are at least those of the sensor noise plus that of an edge that moves by `jitter_px`,
 // so that a model can be made from a single image.
@@ -24,8 +24,8 @@
 namespace walktrack {
 inline namespace observation {
 
-// Precision of a pixel that hardly any frame showed without people: the background behind them is
-// not known, and the pixel gives no evidence. Far below the precision of every pixel that was seen.
+// Precision of a pixel that hardly any frame shows without people: the background behind them is
+// unknown, and the pixel gives no evidence. It is far below the precision of every other pixel.
 inline constexpr float kNeverSeen = 1e-6F;
 inline bool never_seen(float precision) { return precision <= 2 * kNeverSeen; }
 
@@ -35,14 +35,14 @@ struct BackgroundModel {
   std::vector<float> luma_precision, chroma_precision;  // 1 / variance
 };
 
-// The places at which the light is measured: points of a grid over the image.
+// The points of a grid over the image at which the brightness of the light is measured.
 struct LightPoint {
   int x, y;
   size_t pixel;  // in row order
 };
 std::vector<LightPoint> light_points(int width, int height);
 
-// Strength of the light in `bgr` relative to the model: the median ratio of luma over those points.
+// Brightness of `bgr` relative to the model: the median ratio of luma over those points.
 double light_gain(const BackgroundModel& model, const cv::Mat& bgr);
 
 // Logs of densities of one row of pixels, area.x0 <= x < area.x1, per cubed grey level. The
@@ -52,7 +52,7 @@ void background_log_density(const BackgroundModel& model, const BackgroundConfig
                             std::span<float> out);
 
 // Moves the means of every `skip`-th row, from row `phase` on, towards the pixels of the frame that
-// the model explains: it follows a slow drift of the light and never learns a body.
+// the model explains, so that it follows slow changes of the light but does not learn a body.
 void follow_drift(BackgroundModel& model, const BackgroundConfig& config, const cv::Mat& bgr,
                   double gain, int phase, int skip);
 

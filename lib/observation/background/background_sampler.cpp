@@ -15,11 +15,11 @@ inline namespace observation {
 
 namespace {
 
-// Grey levels from a pixel's densest colour within which its samples are of the background.
-// By hand.
+// Distance from a pixel's densest colour within which its samples are background, grey levels. By
+// hand.
 constexpr float kNeighbourhood = 18;
 
-// Frames that have to show a pixel free; by hand.
+// Number of frames in which a pixel has to be free; by hand.
 constexpr size_t kFreeFrames = 3;
 
 struct Statistics {
@@ -32,9 +32,9 @@ struct Sample {
 
 using Channel = float Sample::*;
 
-// The channel in which samples differ most, by what the same noise in red, green and blue makes of
-// each: people differ from what is behind them in lightness, or in hue alone.
-Channel most_telling(const std::vector<Sample>& samples) {
+// The channel in which samples differ most, relative to equal noise in red, green and blue: people
+// differ from the background in lightness, or only in hue.
+Channel most_distinctive(const std::vector<Sample>& samples) {
   constexpr std::pair<Channel, float> kChannels[] = {
       {&Sample::luma, 0.612F}, {&Sample::orange, 1.414F}, {&Sample::green, 1.225F}};
   Channel best = &Sample::luma;
@@ -51,8 +51,8 @@ Channel most_telling(const std::vector<Sample>& samples) {
   return best;
 }
 
-// Where the samples are densest: the middle of the shortest run of sorted values that holds `share`
-// of them (the shorth). Breaks down only when another colour fills a larger share.
+// The densest part of the samples: the middle of the shortest run of sorted values that contains
+// `share` of them (the shorth). It fails only if another colour fills a larger share.
 size_t densest_run(const std::vector<Sample>& sorted, Channel channel, size_t length) {
   const auto spread = [&](size_t i) {
     return sorted[i + length - 1].*channel - sorted[i].*channel;
@@ -71,7 +71,7 @@ float median_of(std::vector<float>& values) {
 
 // Mean and variances of the samples within reach of the densest colour.
 Statistics robust_statistics(std::vector<Sample>& samples, std::vector<float>& scratch) {
-  const Channel telling = most_telling(samples);
+  const Channel telling = most_distinctive(samples);
   std::sort(samples.begin(), samples.end(),
             [=](const Sample& a, const Sample& b) { return a.*telling < b.*telling; });
   const size_t length = (2 * samples.size() + 4) / 5;
@@ -115,7 +115,7 @@ BackgroundModel sized(int width, int height) {
   return model;
 }
 
-// What was kept of the frames: BGR, and the strength of the light in each.
+// The frames that are kept, BGR, and the brightness of each.
 struct Frames {
   int width, height;
   const std::vector<std::vector<uint8_t>>& bgr;
@@ -136,7 +136,7 @@ struct Frames {
   }
 };
 
-// Puts variances in the place of precisions, until floor_variances.
+// Stores variances in place of precisions, until floor_variances() is called.
 void set_pixel(BackgroundModel& model, size_t pixel, const Statistics& s) {
   model.luma[pixel] = s.luma;
   model.orange[pixel] = s.orange;
@@ -145,7 +145,7 @@ void set_pixel(BackgroundModel& model, size_t pixel, const Statistics& s) {
   model.chroma_precision[pixel] = s.chroma_variance;
 }
 
-// Works out pixels one after the other, whatever they show.
+// Estimates single pixels, whatever they show.
 class PixelStatistics {
  public:
   explicit PixelStatistics(const Frames& frames) : frames_(frames) {}
@@ -202,8 +202,8 @@ class ChannelSums {
   std::vector<float> origin_, low_, high_, sum_, squares_;
 };
 
-// The same for a row of pixels together. Where all samples are within reach of each other they are
-// within reach of the densest colour, wherever it is: nothing has to be sorted to find it.
+// The same for a row of pixels together. If all samples are within reach of each other they are
+// within reach of the densest colour, so that no sorting is needed.
 void fill_row(const Frames& frames, size_t y, BackgroundModel& model) {
   ColourPatch row;
   ChannelSums luma, orange, green;
@@ -229,7 +229,7 @@ void fill_row(const Frames& frames, size_t y, BackgroundModel& model) {
   }
 }
 
-// The strength of the light in each frame, against what the points look like throughout.
+// Measures the brightness of each frame relative to the mean of the points over all frames.
 void measure_light(Frames& frames) {
   BackgroundModel model = sized(frames.width, frames.height);
   PixelStatistics statistics(frames);
@@ -239,7 +239,8 @@ void measure_light(Frames& frames) {
     frames.gains[f] = static_cast<float>(light_gain(model, frames.image(f)));
 }
 
-// Square of the largest step of a channel to the four neighbours: what a shake by a pixel changes.
+// Square of the largest difference of a channel to the four neighbours, which is the error if the
+// image shakes by a pixel.
 float squared_step(const std::vector<float>& channel, int x, int y, int width, int height) {
   const auto at = [&](int column, int row) {
     return channel[static_cast<size_t>(row) * static_cast<size_t>(width) +

@@ -1,4 +1,4 @@
-// The background model of a set of frames, with or without people in them.
+// Estimates the background model from frames with or without people.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 namespace walktrack {
 inline namespace observation {
 
-// Collects frames in bounded memory and learns the model from them. Frames may show people: each
-// pixel gets the colour that it has most of the time, so that a place has to be free in the largest
-// share of the frames, not in all.
+// Collects frames in bounded memory and estimates the model from them. Frames may show people: each
+// pixel gets its most frequent colour, so that a place has to be free in the largest share of the
+// frames, not in all.
 class BackgroundSampler {
  public:
   // Frames are shrunk by the whole factor `shrink` by area averaging.
@@ -26,12 +26,12 @@ class BackgroundSampler {
   // One of the frames that are kept, shrunk, in BGR; valid until the next frame is added.
   cv::Mat frame(int index) const;
 
-  // Leaves out of the model the pixels of a kept frame at which `mask` (8-bit, of that frame's
+  // Excludes from the model the pixels of a kept frame at which `mask` (8-bit, of that frame's
   // size) is not 0. A pixel that is free in hardly any frame becomes kNeverSeen. To be called after
   // the last frame was added.
   void hide(int index, const cv::Mat& mask);
 
-  // The same for any number of threads. Throws InputError when no frame was added.
+  // The result does not depend on `threads`. Throws InputError if no frame was added.
   BackgroundModel model(int threads = 1) const;
 
  private:
@@ -39,7 +39,7 @@ class BackgroundSampler {
   int shrink_;
   int64_t seen_ = 0, stride_ = 1;
   std::vector<std::vector<uint8_t>> kept_;    // BGR
-  std::vector<std::vector<uint8_t>> hidden_;  // by kept frame: 0 = counts; empty = all counts
+  std::vector<std::vector<uint8_t>> hidden_;  // by kept frame: 0 = used; empty = all used
   int width_ = 0, height_ = 0;
 };
 

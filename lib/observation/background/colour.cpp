@@ -26,8 +26,8 @@ void read_colours(const cv::Mat& bgr, const PixelRect& area, ColourPatch& out) {
   }
 }
 
-// Chroma c falls into bin round(16 asinh(c / 16) / asinh(255 / 16)): 3.5 grey levels wide at grey,
-// about 50 at the ends.
+// Chroma c is in bin round(16 asinh(c / 16) / asinh(255 / 16)): 3.5 grey levels wide at grey, about
+// 50 at the ends.
 ColourBins::ColourBins() {
   constexpr double kBend = 16;  // grey levels; by hand
   constexpr int kHalf = kChromaBins / 2;

@@ -1,7 +1,7 @@
 // Colours as luma and two chromas, by the integer transform of JPEG XR's lossy sibling:
 //   Y = (R + 2G + B) / 4,  Co = R - B,  Cg = G - (R + B) / 2
-// Its determinant is 1, so densities over (Y, Co, Cg) are densities over (R, G, B). Under light of
-// another strength all three scale by the same factor.
+// Its determinant is 1, so that densities over (Y, Co, Cg) are densities over (R, G, B). All three
+// are proportional to the brightness of the light.
 #pragma once
 
 #include <array>
@@ -27,10 +27,11 @@ struct ColourPatch {
   }
 };
 
-// The pixels of an 8-bit BGR image inside `area`, which must lie in it. Reuses the memory of `out`.
+// Converts the pixels of an 8-bit BGR image inside `area`, which must be part of it. Reuses the
+// memory of `out`.
 void read_colours(const cv::Mat& bgr, const PixelRect& area, ColourPatch& out);
 
-// Bins of colour space: luma evenly, chroma finer towards grey, where most colours are.
+// Bins of colour space: uniform in luma, finer in chroma towards grey, where most colours are.
 inline constexpr int kLumaBins = 16, kChromaBins = 33;
 inline constexpr int kColourBins = kLumaBins * kChromaBins * kChromaBins;
 

@@ -7,7 +7,7 @@ inline namespace observation {
 
 namespace {
 
-// Adds to each cell the row's pixels of which one of the planes says that they show a body.
+// Adds to each cell the number of the row's pixels that look like a body in one of the planes.
 void count_row(const LogRatioPlanes& planes, int y, int cell_px, std::vector<int>& counts) {
   for (size_t cell = 0; cell < counts.size(); ++cell) {
     const size_t from = cell * static_cast<size_t>(cell_px);

@@ -1,4 +1,4 @@
-// A frame's foreground in coarse cells, which suffice to see whether somebody moves.
+// A frame's foreground in coarse cells, which suffices to detect motion.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct ForegroundGrid {
   std::vector<uint8_t> covered;  // by row: whether most of the cell's pixels look like a body
 };
 
-// Cells are squares of `cell_px`; what is left over at the right and below is left out. No cells
-// without planes.
+// Cells are squares of `cell_px`; a remainder at the right and at the bottom is ignored. There are
+// no cells without planes.
 ForegroundGrid foreground_grid(const LogRatioPlanes& planes, int cell_px);
 
 // Cells that are covered now and were not before; 0 if the grids are of different areas.

@@ -12,12 +12,12 @@ inline namespace observation {
 
 namespace {
 
-constexpr float kSeen = 0.1f;  // confidence of a point that may be somebody's
-// Shares of the height that the points span, which is from the eyes to the ankles and about 0.85 of
-// somebody who stands; by hand. Feet, and the shadow at them, and the top of the head reach further
-// beyond their points than a limb is wide.
+constexpr float kSeen = 0.1f;  // confidence of a point that may belong to a person
+// Shares of the height of the points, which extend from the eyes to the ankles, about 0.85 of a
+// standing person; by hand. Feet with their shadow, and the top of the head, extend further beyond
+// their points than a limb is wide.
 constexpr double kLimbShare = 0.07, kFootShare = 0.14, kHairShare = 0.14;
-constexpr double kTrunkShare = 0.32;  // from shoulders to hips: who bends spans less otherwise
+constexpr double kTrunkShare = 0.32;  // from shoulders to hips, for people who bend forward
 
 cv::Point2d at(const DetectedPerson& person, KeypointName name) {
   return {person[name].x_px, person[name].y_px};

@@ -1,4 +1,4 @@
-// The pixels of people in a picture, from the points of a pose detector.
+// The pixels of people in an image, from the points of a pose detector.
 #pragma once
 
 #include <opencv2/core/mat.hpp>
@@ -8,10 +8,9 @@
 namespace walktrack {
 inline namespace observation {
 
-// 8-bit, 255 where somebody is and 0 elsewhere, of a picture of the given size: around each person
-// the convex hull of their points, widened by what limbs, hair, clothes and a shadow at the feet
-// are wide, and made longer where points leave off (the top of the head, the toes). Points of the
-// same pixels as the picture's.
+// An 8-bit mask of the given size, 255 on people and 0 elsewhere: around each person the convex
+// hull of their points, widened for limbs, hair, clothes and the shadow at the feet, and extended
+// at its ends (the top of the head, the toes). Points are in pixels of the same image.
 cv::Mat people_mask(const DetectedPeople& people, cv::Size size);
 
 }  // namespace observation

@@ -22,7 +22,7 @@ double distance(const cv::Point2f& a, const cv::Point2f& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-// The least distance between neighbours in a row or column, px.
+// The smallest distance between neighbours in a row or column, px.
 double least_spacing(const Board& board, const Points& points) {
   double least = 1e9;
   for (int r = 0; r < board.rows; ++r) {
@@ -35,7 +35,7 @@ double least_spacing(const Board& board, const Points& points) {
   return least;
 }
 
-// Rows the other way round where x to y would turn counter-clockwise.
+// Reverses the rows if x to y would turn counter-clockwise.
 void make_clockwise(const Board& board, Points& points) {
   const cv::Point2f origin = points.front();
   const cv::Point2f x = points[at(board, board.columns - 1, 0)] - origin;
@@ -58,7 +58,8 @@ double square_brightness(const cv::Mat& grey, const Board& board, const Points& 
   return cv::mean(patch)[0];
 }
 
-// Begins at the corner whose inner square is dark, where the two ends differ.
+// Reverses the order if it does not begin at the corner whose inner square is dark and the two ends
+// differ.
 void make_dark_first(const cv::Mat& grey, const Board& board, Points& points) {
   if (!has_one_origin(board)) return;
   const double first = square_brightness(grey, board, points, 0, 0);
@@ -81,11 +82,11 @@ std::optional<Points> find_chessboard(const cv::Mat& grey, const Board& board) {
   return points;
 }
 
-// Centroids of dark regions that are about elliptic.
+// Centroids of dark regions that are nearly elliptic.
 Points dark_blobs(const cv::Mat& grey) {
   // By hand.
   constexpr double kLeastArea = 12;          // px
-  constexpr double kLeastEllipticity = 0.9;  // area over that of the ellipse with its moments
+  constexpr double kLeastEllipticity = 0.9;  // area over that of the ellipse with the same moments
   cv::Mat dark;
   const int window = std::max(15, grey.cols / 12) | 1;
   cv::adaptiveThreshold(grey, dark, 255, cv::ADAPTIVE_THRESH_MEAN_C, cv::THRESH_BINARY_INV, window,
@@ -96,7 +97,7 @@ Points dark_blobs(const cv::Mat& grey) {
   for (const std::vector<cv::Point>& outline : outlines) {
     const cv::Moments m = cv::moments(outline);
     if (m.m00 < kLeastArea) continue;
-    // An ellipse of semi-axes a, b has det(second moments) = (a b / 4)^2 per area.
+    // An ellipse with semi-axes a, b has det(second moments) = (a b / 4)^2 per area.
     const double xx = m.mu20 / m.m00, yy = m.mu02 / m.m00, xy = m.mu11 / m.m00;
     const double of_ellipse = 4 * CV_PI * std::sqrt(std::max(xx * yy - xy * xy, 0.0));
     if (m.m00 < kLeastEllipticity * of_ellipse) continue;

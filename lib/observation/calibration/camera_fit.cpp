@@ -51,7 +51,7 @@ void solve_fisheye(const std::vector<CvPoints3>& board, const std::vector<CvPoin
                          out.translations, flags);
 }
 
-// OpenCV reports views that determine nothing as an exception.
+// OpenCV throws an exception if the views determine nothing.
 bool solve(const std::vector<CvPoints3>& board, const std::vector<CvPoints2>& views, cv::Size size,
            LensModel model, Intrinsics& out) {
   try {
@@ -82,7 +82,7 @@ Camera lens_of(const Intrinsics& found, cv::Size size, LensModel model) {
   camera.focal_px = {found.matrix.at<double>(0, 0), found.matrix.at<double>(1, 1)};
   camera.centre_px = {found.matrix.at<double>(0, 2), found.matrix.at<double>(1, 2)};
   const cv::Mat flat = found.distortion.reshape(1, 1);
-  // calibrateCamera gives up to 14 numbers; those beyond the model are zero.
+  // calibrateCamera returns up to 14 coefficients; those beyond the model are zero.
   const int most = model == LensModel::kRational ? 8 : model == LensModel::kFisheye ? 4 : 5;
   const std::vector<double> numbers(flat.ptr<double>(),
                                     flat.ptr<double>() + std::min(most, flat.cols));

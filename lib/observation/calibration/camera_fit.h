@@ -1,8 +1,8 @@
-// Cameras from points: the lens from views of a board, the place from points whose world
-// coordinates are known. Pixels have their centres at integers, lengths are metres.
+// Cameras from points: the lens from views of a board, the pose from points whose world coordinates
+// are known. Pixel centres are at integers, lengths are in metres.
 //
-// The lens fit is OpenCV's (Zhang, IEEE PAMI 22(11), 2000; fisheye: Kannala & Brandt 2006), the
-// place SQPnP (Terzakis & Lourakis, ECCV 2020) followed by Levenberg-Marquardt on normalised
+// The lens is estimated by OpenCV (Zhang, IEEE PAMI 22(11), 2000; fisheye: Kannala & Brandt 2006),
+// the pose by SQPnP (Terzakis & Lourakis, ECCV 2020) followed by Levenberg-Marquardt on normalised
 // coordinates.
 #pragma once
 
@@ -27,26 +27,27 @@ enum class LensModel {
 using PixelPoints = std::vector<Eigen::Vector2d>;
 
 struct LensFit {
-  Camera camera;                    // in its place before the last view's board
+  Camera camera;                    // at its pose relative to the last view's board
   Eigen::Vector2d focal_sd_px;      // standard deviation of the focal lengths; NaN for a fisheye
-  std::vector<PixelPoints> misses;  // found minus projected, of each view's points
-  double rms_px = 0;                // of the misses' lengths
-  double boards_apart = 0;          // rad, largest angle between two views' boards; parallel boards
-                                    // do not tell the focal length, whatever its deviation says
+  std::vector<PixelPoints> misses;  // detected minus projected, of each view's points
+  double rms_px = 0;                // of the lengths of these residuals
+  double boards_apart = 0;          // rad, largest angle between the boards of two views; parallel
+                                    // boards do not determine the focal length, whatever its
+                                    // standard deviation
 };
 
-// From the points of at least three views of the board, in the order of find_board; nullopt where
-// the equations have no solution (all views alike).
+// From the points of at least three views of the board, in the order of find_board; nullopt if the
+// equations have no solution (all views alike).
 std::optional<LensFit> fit_lens(const Board& board, const std::vector<PixelPoints>& views,
                                 int width_px, int height_px, LensModel model);
 
 struct PlaceFit {
-  Camera camera;       // the given lens in its place
+  Camera camera;       // the given lens at its pose
   PixelPoints misses;  // given minus projected; NaN for a point behind the camera
-  double rms_px = 0;   // infinite with a point behind the camera
+  double rms_px = 0;   // infinite if a point is behind the camera
 };
 
-// From at least four points that do not lie on one line; nullopt where there is no solution.
+// From at least four points that are not on one line; nullopt if there is no solution.
 std::optional<PlaceFit> fit_place(const Camera& lens, const PixelPoints& pixels,
                                   const std::vector<Eigen::Vector3d>& world);
 

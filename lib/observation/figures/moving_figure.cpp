@@ -14,11 +14,12 @@ namespace {
 using Eigen::Vector2d;
 
 // All by hand.
-constexpr int kShrunkSide = 640;                                // px, enough to find a figure
-constexpr int kBackgroundFrames = 25;                           // whose median is the empty scene
+constexpr int kShrunkSide = 640;                                // px, enough to detect a figure
+constexpr int kBackgroundFrames = 25;                           // the empty scene is the median of
+                                                                // so many frames
 constexpr int kDifference = 25;                                 // grey levels
 constexpr double kSmallestFigure = 5e-4, kLargestFigure = 0.3;  // shares of the image
-constexpr double kUpperPart = 0.4;  // of a figure's height, free of shadow and legs
+constexpr double kUpperPart = 0.4;  // of a figure's height, without shadow and legs
 
 void put_smaller_first(uchar* a, uchar* b, size_t width) {
   for (size_t x = 0; x < width; ++x) {
@@ -40,7 +41,7 @@ cv::Mat median_frame(const std::vector<cv::Mat>& all) {
   for (int y = 0; y < median.rows; ++y) {
     for (size_t k = 0; k < count; ++k)
       std::copy_n(frames[k * frames.size() / count]->ptr<uchar>(y), width, &rows[k * width]);
-    // Pixels side by side, so that a vector of them is compared at once.
+    // Pixels are stored side by side, so that the comparison can be vectorised.
     for (size_t i = 0; i <= count / 2; ++i)
       for (size_t k = i + 1; k < count; ++k)
         put_smaller_first(&rows[i * width], &rows[k * width], width);
@@ -49,16 +50,17 @@ cv::Mat median_frame(const std::vector<cv::Mat>& all) {
   return median;
 }
 
-// Where anything moves, and so much around it that closing gaps there is as in the whole image.
+// The part of the image with motion, with a margin for which closing gaps gives the same result as
+// in the whole image.
 cv::Rect moving_part(const cv::Mat& moving) {
-  constexpr int kAround = 4;  // px, the reach of closing gaps
+  constexpr int kAround = 4;  // px, the radius of closing gaps
   const cv::Rect found = cv::boundingRect(moving);
   if (found.empty()) return {};
   const cv::Rect whole({}, moving.size());
   return (found - cv::Point(kAround, kAround) + cv::Size(2 * kAround, 2 * kAround)) & whole;
 }
 
-// The largest of the blobs: 255 where it is, and the box around it. Of a black image: nothing.
+// The largest blob: 255 on it, and its bounding box. Empty for a black image.
 struct Blob {
   cv::Mat mask;  // of the image's part `around`
   cv::Rect around;
@@ -81,7 +83,7 @@ Blob largest_blob(const cv::Mat& moving) {
   return {labels(box) == best, box, area};
 }
 
-// The blob's outermost pixels, column by column, px of the shrunk image.
+// Adds the blob's outermost pixels in each column, px of the shrunk image.
 void add_ends(const Blob& blob, int image_rows, MovingFigure& figure) {
   const cv::Rect& box = blob.around;
   for (int x = 0; x < box.width; ++x) {
@@ -98,13 +100,13 @@ void add_ends(const Blob& blob, int image_rows, MovingFigure& figure) {
   }
 }
 
-// The largest moving blob, px of the shrunk image; its middle is that of the upper part, for its
-// shadow lies below. None if it touches the image's side.
+// The largest moving blob, px of the shrunk image. Its middle is that of the upper part, because
+// the lower part may contain a shadow. nullopt if it touches the left or right border of the image.
 std::optional<MovingFigure> figure_in(const cv::Mat& frame, const cv::Mat& background) {
   cv::Mat difference;
   cv::absdiff(frame, background, difference);
   const cv::Mat everywhere = difference > kDifference;
-  // Looking for blobs is most of what this costs, so it is done where there are any.
+  // Detecting blobs takes most of the time, so that it is limited to the part with motion.
   const cv::Rect part = moving_part(everywhere);
   if (part.empty()) return std::nullopt;
   cv::Mat moving;
@@ -134,10 +136,10 @@ MovingFigure enlarged(MovingFigure figure, int factor) {
 }  // namespace
 
 MovingFigures::MovingFigures(int width_px, int height_px)
-    // A whole factor averages whole pixels, which is quick.
+    // Averages over whole pixels are fast.
     : factor_((std::max(width_px, height_px) + kShrunkSide - 1) / kShrunkSide) {}
 
-// Row by row of the small picture, for a grey copy of a large one is a needless one.
+// Converts each row of the small image, because a grey copy of a large one is not needed.
 void MovingFigures::add(const cv::Mat& frame) {
   frames_.emplace_back();
   if (frame.empty()) return;

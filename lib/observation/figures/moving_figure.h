@@ -1,4 +1,4 @@
-// A fast search for what moves in a video: in each frame the largest blob that differs from the
+// A fast search for moving figures in a video: in each frame the largest blob that differs from the
 // median frame.
 #pragma once
 
@@ -14,18 +14,18 @@ inline namespace observation {
 // The moving figure of one frame, px of the full image.
 struct MovingFigure {
   Eigen::Vector2d middle;                      // of its upper part
-  std::vector<Eigen::Vector2d> tops, bottoms;  // of its columns; empty where the image cuts it off
+  std::vector<Eigen::Vector2d> tops, bottoms;  // of its columns; empty if the image cuts it off
 };
-// By frame; nullopt when nothing or too much moves, or there was no frame.
+// By frame; nullopt if nothing or too much moves, or if there was no frame.
 using FigurePath = std::vector<std::optional<MovingFigure>>;
 
 // The frames of one camera, grey and small: at most 400 kB each.
 class MovingFigures {
  public:
-  // Of frames of this size.
+  // For frames of this size.
   MovingFigures(int width_px, int height_px);
 
-  // 8-bit BGR; empty where the camera had no frame of its own.
+  // Adds a frame, 8-bit BGR; empty if the camera had no frame of its own.
   void add(const cv::Mat& frame);
   FigurePath path() const;
 

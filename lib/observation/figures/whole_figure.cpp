@@ -12,16 +12,16 @@ inline namespace observation {
 namespace {
 
 // All by hand, on videos of people who walk past.
-constexpr double kLeastHeight = 0.08, kMostHeight = 0.98;  // of the figure, shares of the picture
-constexpr double kWidest = 1.2;                            // a walker is higher than wide
-// Beyond the points of a head and an ankle, shares of the way between them.
+constexpr double kLeastHeight = 0.08, kMostHeight = 0.98;  // of the figure, shares of the image
+constexpr double kWidest = 1.2;                            // a walking person is higher than wide
+// Margins above the points of the head and below those of the ankles, shares of their distance.
 constexpr double kAboveHead = 0.17, kBelowAnkle = 0.10, kBeside = 0.2;
-// Of the height in which a person is looked for: pieces that are more than specks, and how much of
-// it a whole person fills.
+// Shares of the height of a detected person: the height of pieces that are more than noise, and the
+// height that a complete person covers.
 constexpr double kLeastPiece = 0.04, kLeastCovered = 0.72;
-constexpr float kSurePoint = 0.25F;  // confidence of a point that counts
+constexpr float kSurePoint = 0.25F;  // least confidence of a point
 
-// A camera as good as any: only the size of its pictures matters here.
+// Any camera will do: only the size of its images matters here.
 Camera plain_camera(int width_px, int height_px) {
   Camera camera;
   camera.width_px = width_px;
@@ -56,7 +56,7 @@ struct Part {
   cv::Mat mask;  // of the box
 };
 
-// Those that are at least so high.
+// The parts that are at least this high.
 std::vector<Part> parts_of(const cv::Mat& mask, double least_px) {
   cv::Mat labels, statistics, centres;
   const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centres);
@@ -70,7 +70,7 @@ std::vector<Part> parts_of(const cv::Mat& mask, double least_px) {
   return parts;
 }
 
-// The box in which a detected person can be, px of the picture; nothing without head and ankles.
+// The box that can contain a detected person, px of the image; nullopt without head and ankles.
 std::optional<cv::Rect> box_of(const DetectedPerson& person) {
   using enum KeypointName;
   double top = 1e9, bottom = -1e9, left = 1e9, right = -1e9;
@@ -96,7 +96,7 @@ std::optional<cv::Rect> box_of(const DetectedPerson& person) {
                   cv::Point2d(right + kBeside * height, bottom + kBelowAnkle * height));
 }
 
-// First and last row in which enough of the figure is seen to be more than a speck.
+// The first and last row in which the figure is wider than noise.
 std::optional<WholeFigure> ends_of(const cv::Mat& part, const cv::Rect& box, int shrink) {
   const int least = std::max(1, box.height / 80);
   int top = -1, bottom = -1;
@@ -107,13 +107,13 @@ std::optional<WholeFigure> ends_of(const cv::Mat& part, const cv::Rect& box, int
   }
   if (top < 0) return std::nullopt;
   const cv::Moments moments = cv::moments(part.rowRange(top, (top + bottom) / 2 + 1), true);
-  // Edges lie between pixels.
+  // Edges are between pixels.
   const auto enlarged = [&](double edge) { return shrink * edge - 0.5; };
   return WholeFigure{enlarged(box.x + moments.m10 / moments.m00 + 0.5), enlarged(box.y + top),
                      enlarged(box.y + bottom + 1)};
 }
 
-// The figure of a mask's box; nothing where it can be no whole person.
+// The figure of a box of a mask; nullopt if it cannot be a complete person.
 std::optional<WholeFigure> figure_of(const cv::Mat& part, const cv::Rect& box,
                                      const cv::Size& image, int shrink) {
   if (box.height < kLeastHeight * image.height || box.height > kMostHeight * image.height ||
@@ -121,11 +121,11 @@ std::optional<WholeFigure> figure_of(const cv::Mat& part, const cv::Rect& box,
     return std::nullopt;
   if (box.x <= 1 || box.y <= 1 || box.x + box.width >= image.width - 1 ||
       box.y + box.height >= image.height - 1)
-    return std::nullopt;  // cut off by the picture's edge
+    return std::nullopt;  // cut off by the border of the image
   return ends_of(part, box, shrink);
 }
 
-// Where the network sees a person: all that is foreground there, for a figure may be in pieces.
+// All foreground where the network detects a person, because a figure may be in pieces.
 std::optional<WholeFigure> figure_in(const cv::Mat& mask, const cv::Rect& person, int shrink) {
   const cv::Rect around = cv::Rect(person.x / shrink, person.y / shrink, person.width / shrink,
                                    person.height / shrink) &
@@ -135,7 +135,8 @@ std::optional<WholeFigure> figure_in(const cv::Mat& mask, const cv::Rect& person
   for (const Part& part : parts_of(mask(around), kLeastPiece * around.height))
     whole(part.box).setTo(255, part.mask);
   const cv::Rect box = cv::boundingRect(whole);
-  // A person's points span nine tenths of them; less foreground is not the person, or half hidden.
+  // A person's points cover nine tenths of their height; less foreground is not the person, or is
+  // partly hidden.
   if (box.height < kLeastCovered * around.height) return std::nullopt;
   return figure_of(whole(box), box + around.tl(), mask.size(), shrink);
 }

@@ -1,6 +1,6 @@
-// People who are wholly visible in a picture of a camera that stands still: pixels that differ from
-// the background, in one piece or where a pose network detects a person. Pictures may be shrunk
-// first (shrink.h).
+// People who are completely visible in images of a static camera: pixels that differ from the
+// background, either in one piece or in the place where a pose network detects a person. Images may
+// be shrunk first (shrink.h).
 #pragma once
 
 #include <optional>
@@ -16,11 +16,10 @@ inline namespace observation {
 
 class ForegroundMask {
  public:
-  // Of pictures of this size; the background is of shrunk ones.
+  // For images of this size; the background is that of shrunk ones.
   ForegroundMask(int width_px, int height_px, BackgroundModel background, int shrink, int threads);
 
-  // 255 where the picture does not look like the background; shrunk. Specks are left out, gaps
-  // closed.
+  // A shrunk mask, 255 where the image differs from the background, without small specks and gaps.
   cv::Mat of(const cv::Mat& frame);
 
  private:
@@ -28,18 +27,17 @@ class ForegroundMask {
   CameraEvidence evidence_;
 };
 
-// Head and feet of somebody, px of the picture.
+// Head and feet of a person, px of the image.
 struct WholeFigure {
   double u_px, top_px, bottom_px;
 };
 
-// The pieces of a mask that can be whole people: as high as one, higher than wide, not cut off by
-// the picture's edge.
+// The pieces of a mask that can be complete people: of a person's height, higher than wide, and not
+// cut off by the border of the image.
 std::vector<WholeFigure> whole_figures(const cv::Mat& mask, int shrink);
 
-// All of the mask that lies where a person was detected, because a figure may be in pieces; nothing
-// if the head or the ankles were not detected, or if less of the person stands out than of a whole
-// figure.
+// All of the mask where a person was detected, because a figure may be in pieces; nullopt if the
+// head or the ankles were not detected, or if the foreground covers less than a complete person.
 std::optional<WholeFigure> whole_figure_of(const DetectedPerson& person, const cv::Mat& mask,
                                            int shrink);
 

@@ -31,7 +31,7 @@ CapsuleList on_lattice(const FlowField& flow, const CapsuleList& capsules) {
   return out;
 }
 
-// Which part a frame ago's body shows in each cell, counted from 1; 0 = none.
+// The part of the body in the previous frame in each cell, counted from 1; 0 = none.
 struct PartMap {
   std::array<uint8_t, kMaxFlowCells> part;
   int columns, rows;
@@ -42,7 +42,8 @@ struct PartMap {
   }
 };
 
-// Draws the body of a frame ago and sums up what there would be uncovered if it were gone.
+// Draws the body of the previous frame and returns the sum over what would be uncovered if it were
+// absent now.
 double draw_before(const FlowField& flow, const CapsuleList& before, PartMap& map) {
   map.columns = flow.columns;
   map.rows = flow.rows;
@@ -60,17 +61,17 @@ double draw_before(const FlowField& flow, const CapsuleList& before, PartMap& ma
   return static_cast<double>(sum) / LogRatioPlanes::kNat;
 }
 
-// Where the points of a part come from: cell (column, row) shows the point that was at corner +
-// column right + row down, in pixels from the corner of FlowField::known.
+// The points of a part in the previous frame: cell (column, row) shows the point that was at corner
+// + column right + row down, in pixels from the corner of FlowField::known.
 struct Origin {
   Vector2f corner, right, down;
-  float error2;  // squared error of that place, px^2
-  bool known;    // whether the part was there
+  float error2;  // squared error of that position, px^2
+  bool known;    // whether the part was in the image
 };
 
 struct Limb {
   Vector2d middle, axis, aside;  // px; unit vectors
-  double length, width;          // px; half the axis and the ends, the middle's radius
+  double length, width;          // px; half the axis with the ends, the radius in the middle
 };
 
 Limb limb_of(const Capsule& capsule) {
@@ -85,8 +86,8 @@ Limb limb_of(const Capsule& capsule) {
           width};
 }
 
-// A point goes with its part: as far along the axis and aside as before, shares of length and
-// width.
+// A point moves with its part: its coordinates along the axis and across are constant shares of
+// length and width.
 Origin origin_of(const FlowConfig& config, const FlowField& flow, const Capsule& now,
                  const Capsule& before) {
   const Limb is = limb_of(now), was = limb_of(before);
@@ -103,8 +104,8 @@ Origin origin_of(const FlowConfig& config, const FlowField& flow, const Capsule&
           static_cast<float>(config.error_px * config.error_px + motion * motion), true};
 }
 
-// A product of Student-t densities; logarithms are taken of some factors at a time, few enough to
-// be far from overflow.
+// A product of Student-t densities; logarithms are taken of several factors at a time, few enough
+// not to overflow.
 class Likelihood {
  public:
   Likelihood(const FlowConfig& config)
@@ -128,7 +129,7 @@ class Likelihood {
   }
 
  private:
-  // Of at most 1e17 each, with the largest errors that a configuration may state.
+  // Factors are at most 1e17, with the largest errors that a configuration may state.
   static constexpr int kMostFactors = 16;
 
   void take_logs() {
@@ -143,7 +144,7 @@ class Likelihood {
   int factors_ = 0, anything_ = 0;
 };
 
-// One run of cells in a row that shows one part.
+// A run of cells in a row that shows one part.
 struct Run {
   int row, begin, end;
   int part;  // counted from 1
@@ -196,7 +197,7 @@ class BodyPixels {
     likelihood_.multiply(cell.now - (above + down * (below - above)), origin.error2 * slope2);
   }
 
-  // By another part, a frame ago.
+  // Hidden by another part in the previous frame.
   bool hidden(const Vector2f& was, int part) const {
     const float x = was.x() * to_cells_ + shift_.x(), y = was.y() * to_cells_ + shift_.y();
     if (!(x >= 0 && y >= 0)) return false;

@@ -13,14 +13,15 @@ inline namespace observation {
 namespace {
 
 // By hand.
-constexpr double kLattice = 0.045;  // m: three across a leg
-constexpr double kReach = 0.7;      // m that a foot swings between frames, at seven a second
+constexpr double kLattice = 0.045;  // m: three cells across a leg
+constexpr double kReach = 0.7;      // m; a foot swings this far between frames at seven frames per
+                                    // second
 constexpr int kLeastReach = 16;     // px
-// Of the smoothing, in steps of the lattice, so that the pixels between those of the lattice
-// contribute, too. By hand.
+// Smoothing in steps of the lattice, so that the pixels between those of the lattice contribute,
+// too. By hand.
 constexpr double kSmoothing = 0.4;
 constexpr double kLeastSmoothing = 0.8;  // px
-constexpr double kNats = 64;             // bound of a cell's sum, never met
+constexpr double kNats = 64;             // bound of a cell's sum, which is never reached
 
 int lattice_step(const PixelRect& area, double metres_per_px) {
   const auto cells = [&](int step) {
@@ -41,7 +42,7 @@ cv::Mat smoothed(const cv::Mat& grey, double sigma) {
 
 cv::Rect rect_of(const PixelRect& area) { return {area.x0, area.y0, area.width(), area.height()}; }
 
-// The grey levels of the empty scene, as OpenCV weighs red, green and blue.
+// The grey levels of the empty scene, with OpenCV's weights of red, green and blue.
 cv::Mat grey_of(const BackgroundModel& model, const PixelRect& area) {
   // Rec. ITU-R BT.601.
   constexpr float kRed = 0.299F, kGreen = 0.587F, kBlue = 0.114F;
@@ -61,7 +62,7 @@ cv::Mat grey_of(const BackgroundModel& model, const PixelRect& area) {
 
 constexpr double kLevels = 256;  // of grey, in 8 bits
 
-// log of background.h's mixture, of grey levels alone.
+// Log of background.h's mixture for grey levels alone.
 class UncoveredDensity {
  public:
   explicit UncoveredDensity(const BackgroundConfig& c)
@@ -83,7 +84,7 @@ class UncoveredDensity {
   double plain_, shadow_, darkest_, unknown_;
 };
 
-// log of the Student-t of a pixel at rest, about the same pixel of the frame before.
+// Log of the Student-t of a pixel at rest, about the same pixel of the previous frame.
 class RestDensity {
  public:
   explicit RestDensity(const FlowConfig& c)
@@ -105,7 +106,7 @@ class RestDensity {
   double dof_, peak_, noise2_, error2_;
 };
 
-// The lattice over out.area, and the part of the image around it that may be compared.
+// Defines the lattice over out.area, and the part of the image around it that may be compared.
 void lay_lattice(const PixelRect& image, double metres_per_px, FlowField& out) {
   const PixelRect& area = out.area;
   out.step = lattice_step(area, metres_per_px);
@@ -197,7 +198,7 @@ void make_flow_field(const ObservationConfig& config, const GreyImage& before, c
 
 void block(const cv::Mat& blocked, FlowField& field) {
   if (field.cells.empty()) return;
-  // Pixels that smoothing mixes with an occluder's say nothing.
+  // Pixels that smoothing mixes with those of an occluder give no evidence.
   const int reach = std::max(2, field.step);
   cv::Mat near;
   cv::dilate(blocked, near, cv::Mat::ones(2 * reach + 1, 2 * reach + 1, CV_8U));

@@ -11,12 +11,12 @@ inline namespace observation {
 
 namespace {
 
-// CPU of a frame, nanoseconds, as scripts/measure_costs.py prints them.
+// CPU time for a frame, nanoseconds, as scripts/measure_costs.py prints it.
 constexpr double kFlowMeasured = 31;
 constexpr double kFlowWeighed = 380;
 
-// What is above the legs hardly moves against them, silhouettes know it as well, and the arms of
-// people pass in front of it where the body has none.
+// Only the legs are used: the upper body moves little relative to them, silhouettes determine it as
+// well, and the arms of people pass in front of a body without arms.
 CapsuleList project_legs(const Camera& camera, const PosedParts& parts) {
   PosedParts legs;
   for (const PosedPart& part : parts)
@@ -29,7 +29,7 @@ CapsuleList project_legs(const Camera& camera, const PosedParts& parts) {
 
 void FlowTerm::Memory::prepare(const ObserverSetting& setting, ObservedFrame& frame, int,
                                Prepared& out) const {
-  out.flow.area = {};  // none, but for its memory, where there is no frame before
+  out.flow.area = {};  // empty, but with its memory, if there is no previous frame
   out.flow.cells.clear();
   if (!is_on(setting.config.flow) || frame.bgr.empty() || state_.grey_before.pixels.empty()) return;
   make_flow_field(setting.config, state_.grey_before, grey_of(frame), frame.background,

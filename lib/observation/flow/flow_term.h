@@ -1,4 +1,5 @@
-// Optical flow: how well this frame and the one before agree along the motion of a pose (flow.h).
+// Optical flow: the agreement of this frame with the previous one along the motion of a pose
+// (flow.h).
 #pragma once
 
 #include <array>
@@ -20,11 +21,11 @@ struct FlowTerm {
                  [](const ObservationConfig& c) { return is_on(c.flow); }}};
 
   struct Evidence {
-    FlowField flow;  // no samples when flow is off or there is no frame before
+    FlowField flow;  // empty if flow is off or there is no previous frame
   };
 
   struct State {
-    GreyImage grey_before;  // the last frame; empty = none
+    GreyImage grey_before;  // the previous frame; empty = none
   };
 
   struct Prepared {

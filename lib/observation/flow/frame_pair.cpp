@@ -7,13 +7,13 @@ inline namespace observation {
 
 namespace {
 
-// Pixels around the area that are kept: a foot swings this far between frames. By hand.
+// Number of pixels around the area that are kept: a foot swings this far between frames. By hand.
 constexpr int kMargin = 48;
-// Of the smoothing, px: less than a limb's width, enough for a motion that is a pixel off to be
-// pulled the right way. By hand, like the two below.
+// Smoothing, px: less than a limb's width, and enough that a motion that is off by a pixel is
+// pulled in the right direction. By hand, like the two below.
 constexpr double kGreySmoothing = 0.8;
 constexpr float kNoise = 4;    // of a difference without texture, grey levels
-constexpr float kErrorPx = 1;  // of a pose's motion that is still right
+constexpr float kErrorPx = 1;  // allowed error of a pose's motion
 
 cv::Mat smoothed(const cv::Mat& grey) {
   cv::Mat out;

@@ -1,4 +1,4 @@
-// Two successive frames of one camera around a few pixels, smoothed, as leg_order.h compares them.
+// Smoothed parts of two successive frames of one camera, which leg_order.h compares.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ struct GreyImage {
   std::vector<uint8_t> pixels;  // row by row
 };
 
-// The same as OpenCV sees it; it has no view of constant pixels, so nothing may be written.
+// An OpenCV view of the image. OpenCV has no view of constant pixels; nothing may be written.
 cv::Mat view_of(const GreyImage& image);
 
 struct PairPixel {
@@ -35,8 +35,8 @@ struct FramePair {
   }
 };
 
-// `before` and `now`: of one size. Holds `area` and some pixels more to all sides, from which a
-// walker in it may have come; nothing for an empty area.
+// `before` and `now`: of one size. Contains `area` and a margin from which the subject's pixels may
+// have come; empty for an empty area.
 FramePair pair_frames(const GreyImage& before, const GreyImage& now, const PixelRect& area);
 
 }  // namespace observation

@@ -1,5 +1,5 @@
-// Points on the capsules of a pose and the two frames that they are looked up in, as
-// leg_order asks about them. Pixels throughout.
+// Points on the capsules of a pose, and their pixels in two frames, for leg_order. In pixels
+// throughout.
 #pragma once
 
 #include <algorithm>
@@ -14,16 +14,17 @@
 namespace walktrack {
 inline namespace observation {
 
-// A capsule with what asking about many points needs.
+// A capsule with precomputed values for testing many points.
 struct Shape {
   Eigen::Vector2d foot, axis, aside;  // lower centre; to the upper centre; unit vector across
-  double radius, grow;                // at the foot; more at the other end
-  double inverse_curvature;  // see inside() of capsules.cpp; huge when one disc holds the other
+  double radius, grow;                // at the foot; difference at the other end
+  double inverse_curvature;  // see inside() of capsules.cpp; very large if one disc contains the
+                             // other
 };
 
-// Of the capsule with its radii multiplied by `share`.
+// The shape of the capsule with its radii multiplied by `share`.
 inline Shape shape_of(const Capsule& capsule, double share = 1) {
-  constexpr double kOneDisc = 1e30;  // sends the nearest disc of covers() to the larger end
+  constexpr double kOneDisc = 1e30;  // makes covers() use the larger end only
   const Eigen::Vector2d axis = capsule.upper.centre - capsule.lower.centre;
   const double radius = share * capsule.lower.radius;
   const double grow = share * capsule.upper.radius - radius;
@@ -44,8 +45,8 @@ inline bool covers(const Shape& shape, const Eigen::Vector2d& point) {
   return (p - t * shape.axis).squaredNorm() <= radius * radius;
 }
 
-// A point that goes with its capsule: a share `along` of the axis from the foot, moved aside by a
-// share `aside` of the radius there.
+// A point that moves with its capsule: a share `along` of the axis from the foot, and to the side
+// by a share `aside` of the radius there.
 struct MaterialPoint {
   double along, aside;
 };
@@ -61,7 +62,7 @@ inline MaterialPoint material_point(const Shape& shape, const Eigen::Vector2d& p
   return {along, p.dot(shape.aside) / (shape.radius + along * shape.grow + 1e-9)};
 }
 
-// The box around a shape.
+// The bounding box of a shape.
 struct Box {
   Eigen::Vector2d low, high;
 };
@@ -76,9 +77,9 @@ inline bool meet(const Box& a, const Box& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-// A place between four pixels.
+// A position between four pixels.
 struct Between {
-  const PairPixel* corner;  // of lower x and y
+  const PairPixel* corner;  // the one with the lower x and y
   const PairPixel* below;   // the one under it
   float right, down;        // shares
 

@@ -16,10 +16,10 @@ namespace {
 using Eigen::Vector2d;
 
 // By hand; sensitivity not measured.
-constexpr double kInnerRadius = 0.85;  // share of a leg's width that is surely the leg
+constexpr double kInnerRadius = 0.85;  // share of a leg's width that certainly shows the leg
 constexpr double kBelowHands = 0.4;    // share of the thigh, from the knee
-// Beyond three standard deviations one misfit is like another: shoes, hems, the edge of a shadow.
-// By hand.
+// Differences are limited to three standard deviations, because larger ones are due to shoes, hems
+// or the edge of a shadow. By hand.
 constexpr double kWorst = 9;
 constexpr double kDof = 3;  // of the Student-t
 
@@ -42,7 +42,7 @@ bool is_thigh(Segment segment) {
   return segment == Segment::kLeftThigh || segment == Segment::kRightThigh;
 }
 
-// A part of one leg in front of a part of the other one: places in the list of capsules.
+// A part of one leg in front of a part of the other one: indices in the list of capsules.
 struct Crossing {
   size_t near, far;
   PixelRect area;
@@ -77,7 +77,7 @@ struct SeenLimb {
   bool shows(const Vector2d& point) const {
     return covers(inner, point) && !(thigh && material_point(now, point).along > kBelowHands);
   }
-  // Where a point of it was.
+  // Position of a point of the part in the previous frame.
   Vector2d origin(const Vector2d& point) const {
     return pixel_of(before, material_point(now, point));
   }
@@ -88,7 +88,7 @@ bool looks_like(const SeenLimb& limb, const LogRatioPlanes& planes, const Vector
                       static_cast<int>(std::lround(point.y()))) > 0;
 }
 
-// Student-t: how strange it is that a point comes from there, as a logarithm.
+// Logarithm of the Student-t factor for the assumption that a point comes from there.
 std::optional<double> strangeness(const FramePair& pair, const Vector2d& is, const Vector2d& was) {
   const auto here = between(pair, is), there = between(pair, was);
   if (!here || !there) return {};
@@ -116,7 +116,7 @@ double point_log_ratio(const Asked& asked, const SeenLimb& near, const SeenLimb&
   return as_near && as_far ? *as_far - *as_near : 0;
 }
 
-// What may be in front of a crossing.
+// The capsules that may be in front of a crossing.
 std::vector<Shape> hiders(const CapsuleList& capsules, const Crossing& crossing) {
   const PixelRect& area = crossing.area;
   const Box box{{area.x0, area.y0}, {area.x1, area.y1}};

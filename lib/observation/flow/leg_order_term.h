@@ -1,6 +1,6 @@
-// Which leg is in front, by how the pictures move where the legs overlap (leg_order.h). Particles
-// are not asked: one picture more a frame is only held while a walk is looked for, and whole tracks
-// are asked once whether their legs bear the right names.
+// Which leg is in front, from the motion of the image where the legs overlap (leg_order.h). It is
+// not computed for particles: the additional image for each frame is only kept during the search
+// for a walk, and whole tracks are tested once for swapped labels.
 #pragma once
 
 #include <array>

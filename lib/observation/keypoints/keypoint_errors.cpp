@@ -13,18 +13,19 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-// By kind; toes and heels are those of COCO-WholeBody (Jin et al., ECCV 2020).
+// By kind; those of toes and heels are from COCO-WholeBody (Jin et al., ECCV 2020).
 constexpr std::array<double, kPointKinds> kFirstScale{.015, .033, .030, .026, .045,
                                                       .037, .037, .028, .028};
-// A track that has gone astray makes every residual large: scales may grow by so much only, and
-// shrink by as much as the best detectors do. By hand.
+// A track that is lost makes every residual large: scales may grow by this factor at most, and
+// shrink to those of the best detectors. By hand.
 constexpr double kMostGrowth = 1.5, kSmallestShare = 0.2;
-// Steps of the running median, of the logarithm of a scale. By hand.
+// Steps of the running median of a scale's logarithm. By hand.
 constexpr double kFirstStep = 0.2, kLastStep = 0.005;
-// Frames after which an offset's evidence has faded to 1/e: 10 to 20 s. By hand.
+// Number of frames after which the weight of an offset's evidence has decayed to 1/e: 10 to 20 s.
+// By hand.
 constexpr double kMemory = 600;
-// Where people and detectors put a joint differs by some 2 cm, a hip's by more; shares of the
-// height. An offset may take no more than that away from what a point says about where the body is.
+// People and detectors place a joint about 2 cm apart, a hip more; shares of the height. This prior
+// limits how far an offset can explain an error of the body's position.
 constexpr double kOffsetSd = 0.008, kHipOffsetSd = 0.016;
 
 double offset_sd(size_t kind) {
@@ -40,7 +41,7 @@ Vector2d offset_of(const KeypointErrors& errors, size_t kind) {
 }
 
 void learn_scale(size_t kind, double z, double dof, KeypointErrors& errors) {
-  // The median length of a residual of two Student-t coordinates, in scales.
+  // The median length of a residual with two Student-t coordinates, in scales.
   const double median = std::sqrt(dof * (std::pow(2, 2 / dof) - 1));
   const auto seen = static_cast<double>(++errors.seen[kind]);
   const double step = std::max(kLastStep, kFirstStep / std::sqrt(seen));

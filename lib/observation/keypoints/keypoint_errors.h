@@ -1,8 +1,8 @@
-// How a detector's points err, learnt from the recording itself while it is tracked.
+// The errors of a detector's points, learned from the recording itself while it is tracked.
 //
-// Of every kind of point: the scale of its error, as a running median, and where on the body the
-// detector sees it, as a regularised least-squares fit that forgets slowly. Both in shares of the
-// person's height, the same left and right.
+// For every kind of point: the scale of its error, as a running median, and its offset from the
+// body model's point, as a regularised least-squares fit with exponential forgetting. Both are
+// shares of the person's height, and the same left and right.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@ inline namespace observation {
 struct KeypointErrors {
   std::array<double, kPointKinds> scale;  // of one coordinate, at full confidence
   std::array<int64_t, kPointKinds> seen{};
-  // Of the offsets' normal equations, by kind: the matrix's upper half, and the right-hand side.
+  // The normal equations of the offsets, by kind: the matrix's upper half, and the right-hand side.
   std::array<std::array<double, 3>, kPointKinds> information{};
   std::array<std::array<double, 2>, kPointKinds> pull{};
 };
 
-// Before anything has been seen: what people differ by who mark COCO's pictures (sigma_i of its
-// object keypoint similarity, Lin et al. 2014, times the object's size, .42 of a person's height).
-// Detectors do better on clear views and worse on others.
+// The initial errors: the disagreement of people who annotate COCO's images (sigma_i of its object
+// keypoint similarity, Lin et al. 2014, times the object's size, .42 of a person's height).
+// Detectors are more accurate on clear views and less on others.
 KeypointErrors initial_errors();
 
 PointOffsets offsets_of(const KeypointErrors& errors);
@@ -31,15 +31,15 @@ PointOffsets offsets_of(const KeypointErrors& errors);
 // One matched point of a frame.
 struct PointResidual {
   size_t point;
-  Eigen::Vector2d px;             // detected minus predicted with the offsets so far
-  double scale_px;                // of the error, as it was expected
+  Eigen::Vector2d px;             // detected minus predicted with the present offsets
+  double scale_px;                // expected scale of the error
   Eigen::Matrix2d px_per_offset;  // pixel_per_offset()
 };
 
-// `dof` of the Student-t; `temper`: a residual counts as so many independent ones.
+// `dof` of the Student-t; `temper`: the number of independent residuals that one represents.
 void learn(const PointResidual& residual, double dof, double temper, KeypointErrors& errors);
 
-// After each frame.
+// To be called after each frame.
 void forget(KeypointErrors& errors);
 
 }  // namespace observation

@@ -11,9 +11,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Below it a detector guesses: MoveNet's authors draw points from .11 on, OpenPose's from .05.
+// Least confidence of a point that is used: MoveNet's authors draw points from .11 on, OpenPose's
+// from .05.
 constexpr double kLeastConfidence = 0.1;
-// Far from every image, and still far from overflow.
+// Far outside every image, and still far from overflow.
 constexpr double kNowhere = 1e6;
 constexpr float kFarthest = 1e6F;
 
@@ -48,7 +49,7 @@ Vector2d shrunk_pixel(const Keypoint& point, int shrink) {
   return (px.array() + 0.5) / shrink - 0.5;
 }
 
-// Face and ears lie around the centre of the head.
+// Face and ears are around the centre of the head.
 void add_head(const DetectedPerson& person, int shrink, SeenPoints& out) {
   double sum = 0, most = 0;
   Vector2d mean = Vector2d::Zero();
@@ -68,8 +69,8 @@ void add(const Keypoint& point, int shrink, size_t i, SeenPoints& out) {
   out.px[i] = out.confidence[i] > 0 ? shrunk_pixel(point, shrink) : Vector2d::Zero();
 }
 
-// From the head's centre to the ankles it is .89 of the height, from shoulders to hips .29
-// (subject.h). A subject who is hidden in part or bends down shows less of the first.
+// Distances from the head's centre to the ankles are .89 of the height, from shoulders to hips .29
+// (subject.h). The first is shorter for a subject who is partly hidden or bends forward.
 double height_px(const SeenPoints& points) {
   Vector2d low = Vector2d::Constant(1e9), high = -low;
   for (size_t i = 0; i < kBodyPoints; ++i) {
@@ -134,7 +135,7 @@ Vector3d body_point(const PosedBody& body, size_t point) {
       return s.joints[knee(side)];
     case PointKind::kAnkle:
       return s.joints[ankle(side)];
-    case PointKind::kToe:  // its tip; a foot reaches .77 of its length ahead of the ankle
+    case PointKind::kToe:  // its tip; a foot extends .77 of its length in front of the ankle
                            // (body.cpp)
       return s.joints[ankle(side)] +
              s.axes(limb_of(point)) * Vector3d(.77 * l.foot, 0, l.ball_height - l.ankle_height);
@@ -178,7 +179,7 @@ PointPixels point_pixels(const Camera& camera, const PosedBody& body, const Poin
     if (!has(body, i)) continue;
     const Vector2d& offset = offsets[static_cast<size_t>(kind_of(i))];
     const auto px = project(camera, seen_point(body, i, offset));
-    // A lens bends points far outside the image to anywhere.
+    // A lens model is not valid for points far outside the image.
     if (px && px->cwiseAbs().maxCoeff() < kNowhere) out[i] = *px;
   }
   return out;
@@ -186,7 +187,7 @@ PointPixels point_pixels(const Camera& camera, const PosedBody& body, const Poin
 
 Eigen::Matrix2d pixel_per_offset(const Camera& camera, const PosedBody& body, size_t point,
                                  const PointOffsets& offsets) {
-  constexpr double kStep = 0.005;  // share of the height: a centimetre
+  constexpr double kStep = 0.005;  // share of the height, about a centimetre
   const Vector2d& offset = offsets[static_cast<size_t>(kind_of(point))];
   Eigen::Matrix2d out = Eigen::Matrix2d::Zero();
   for (Eigen::Index axis = 0; axis < 2; ++axis) {

@@ -16,15 +16,15 @@ using Eigen::Vector2d;
 using Person = KeypointEvidence::Person;
 using Point = KeypointEvidence::Point;
 
-// CPU of a frame, nanoseconds: points of a pose projected and compared with one person's.
+// CPU time for a frame, nanoseconds: points of a pose are projected and compared with one person's.
 constexpr double kPointsCompared = 1500;
-// A point is no better known than that, px of the shrunk image: detectors round.
+// Smallest scale of an error, px of the shrunk image: detectors round.
 constexpr double kLeastScale = 0.5;
 
-// Who is further away from a figure, in its heights, is another person. By hand.
+// A person who is further away from a figure, in its heights, is somebody else. By hand.
 constexpr double kNear = 0.5;
 
-// Points whose names may be swapped together.
+// Points whose left and right labels may be swapped together.
 struct Group {
   size_t begin, end;
 };
@@ -36,7 +36,7 @@ double log_sum(double a, double b) {
   return most + std::log1p(std::exp(std::min(a, b) - most));
 }
 
-// A group's tempered sums of l_j, as named and with the names swapped.
+// A group's tempered sums of l_j, with the detector's labels and with swapped ones.
 struct NamedSums {
   double as_named = 0, swapped = 0;
 };
@@ -69,7 +69,7 @@ double person_score(const KeypointConfig& config, const Person& person,
 
 double people_score(const KeypointConfig& config, std::span<const Person> people,
                     const PointPixels& predicted) {
-  double sum = 0;  // none of them
+  double sum = 0;  // none of the people
   for (const Person& person : people) sum = log_sum(sum, person_score(config, person, predicted));
   return sum;
 }
@@ -108,7 +108,7 @@ const Person* subject_of(const KeypointConfig& config, std::span<const Person> p
   return best;
 }
 
-// Of the figure, from its head to its ankles, px.
+// Height of the figure from its head to its ankles, px.
 double height_of(const PointPixels& points) {
   constexpr size_t kAnkle = 2 * static_cast<size_t>(PointKind::kAnkle) - 1;
   return (points[0] - 0.5 * (points[kAnkle] + points[kAnkle + 1])).norm();

@@ -1,17 +1,18 @@
-// Keypoints: points of a pose network, from a file or the built-in one, against a pose.
+// Keypoints: the points of a pose network, from a file or the built-in one, compared with a pose.
 //
-// With r_j the distance of a detected point j from where the pose puts it (keypoint_points.h), a
-// person's points say, relative to the same points being anywhere near the person,
+// With the distance r_j of a detected point j from its projection for the pose (keypoint_points.h),
+// a person's points have the log-likelihood ratio, relative to a uniform distribution near the
+// person,
 //   l_j = log p(r_j) - log u,   p = Student-t of two coordinates of scale s_j,   u = 1 / (pi R^2),
 //   s_j = scale of its kind x height of the person in the image / sqrt(confidence),
 //   R = outlier x that height.
-// Left and right are labels, which a detector confuses for both legs together, or for both arms: of
-// the points G of either group, and with m(j) the same point of the other side,
+// A detector may swap the labels left and right of both legs together, or of both arms: for the
+// points G of either group, and with m(j) the same point of the other side,
 //   l_G = log[ (1 - flip) exp(w sum of l_j) + flip exp(w sum of l_m(j)) ],
-// w tempering points that err together, from joint to joint and from frame to frame. Of the people
-// in a picture one is the subject, or none of them:
+// where w tempers points that err together, from joint to joint and from frame to frame. Either one
+// of the people in an image is the subject, or none of them:
 //   log p = log[ 1 + sum over people of exp(w l_head + l_arms + l_legs) ] + constant,
-// so that whoever is far from a pose changes nothing. Missing points are no evidence.
+// so that people far from a pose change nothing. Missing points are no evidence.
 #pragma once
 
 #include <array>
@@ -26,7 +27,7 @@
 namespace walktrack {
 inline namespace observation {
 
-// What a frame's keypoints say, in pixels of the shrunk image.
+// The evidence of a frame's keypoints, in pixels of the shrunk image.
 struct KeypointEvidence {
   struct Point {
     Eigen::Vector2d px = Eigen::Vector2d::Zero();
@@ -39,14 +40,15 @@ struct KeypointEvidence {
   PointOffsets offsets;
 };
 
-// Of a person's points from where a pose has them, px; NaN where none was seen.
+// The median distance of a person's points from their projections for a pose, px; NaN if none was
+// detected.
 double median_distance(const KeypointEvidence::Person& person, const PointPixels& predicted);
 
-// Of one camera: counts for the run's record.
+// Counts for one camera, for run.json.
 struct KeypointUse {
-  int64_t frames = 0;        // tracked frames with people in them
-  int64_t matched = 0;       // in which one of them is the subject
-  int64_t legs_flipped = 0;  // with the names of the legs swapped
+  int64_t frames = 0;        // tracked frames in which people were detected
+  int64_t matched = 0;       // those in which one of them is the subject
+  int64_t legs_flipped = 0;  // those in which the labels of the legs are swapped
 };
 
 inline bool is_on(const KeypointConfig& config) { return config.enabled == TermSetting::kOn; }
@@ -60,7 +62,7 @@ struct KeypointTerm {
                  [](const ObservationConfig& c) { return is_on(c.keypoints); }}};
 
   struct Evidence {
-    KeypointEvidence keypoints;  // nobody when the term is off or the detector saw nobody
+    KeypointEvidence keypoints;  // empty if the term is off or nobody was detected
   };
 
   struct State {
@@ -100,14 +102,13 @@ struct KeypointTerm {
                                const Camera& camera, const PosedBody& now, const PosedBody* before);
   static TermCosts cost(const ObservationConfig& config, const TermWork& work);
 
-  // Whether a pose lies on one of the people whose points were seen; nullopt where nobody's were
-  // seen near it: whoever is further away than half the figure's height is known to be another one.
+  // Whether a pose agrees with one of the detected people; nullopt if nobody was detected near it:
+  // a person further away than half the figure's height is somebody else.
   static std::optional<bool> on_somebody(const ObservationConfig& config,
                                          const CameraEvidence& evidence, const Camera& camera,
                                          const PosedBody& now);
 
-  // How much more this frame's points speak for the legs' names than for the same pose with left
-  // and right swapped, nats.
+  // Log-odds of the labels of the legs against swapped ones by this frame's points, nats.
   static double names_log_odds(const ObservationConfig& config, const Body& body,
                                const Camera& camera, const CameraEvidence& evidence_before,
                                const CameraEvidence& evidence, const PosedBody& before,

@@ -1,10 +1,9 @@
-// What a pose network or a file of detections says about one picture: people, each with points that
-// have names.
+// The result of a pose network or of a file of detections for one image: people with named points.
 //
-// The points are those of HALPE_26 (Fang et al., "AlphaPose", PAMI 2022) and in its order: the 17
-// of COCO (Lin et al., ECCV 2014) followed by the top of the head, the neck, the middle of the hips
+// The points are those of HALPE_26 (Fang et al., "AlphaPose", PAMI 2022) in its order: the 17 of
+// COCO (Lin et al., ECCV 2014) followed by the top of the head, the neck, the middle of the hips
 // and three points of each foot. OpenPose's BODY_25 has the same without the top of the head.
-// "Left" is the person's own left, as the detector says: it may be wrong (keypoint_term.h).
+// "Left" is the person's left according to the detector, which may be wrong (keypoint_term.h).
 #pragma once
 
 #include <array>
@@ -45,7 +44,7 @@ enum class KeypointName {
 };
 inline constexpr size_t kKeypointCount = 26;
 
-// As a user writes them, for example in the map of a file whose points have names of their own.
+// The names in configurations, for example in the map for a file with names of its own.
 inline constexpr std::array<std::string_view, kKeypointCount> kKeypointNames{
     "nose",         "left_eye",      "right_eye",      "left_ear",
     "right_ear",    "left_shoulder", "right_shoulder", "left_elbow",
@@ -55,8 +54,8 @@ inline constexpr std::array<std::string_view, kKeypointCount> kKeypointNames{
     "left_big_toe", "right_big_toe", "left_small_toe", "right_small_toe",
     "left_heel",    "right_heel"};
 
-// Pixels of the picture as it was recorded, its lens included and not shrunk; the centre of the top
-// left pixel is (0, 0).
+// In pixels of the image as it was recorded, with its lens distortion and not shrunk; the centre of
+// the top left pixel is (0, 0).
 struct Keypoint {
   float x_px = 0, y_px = 0;
   float confidence = 0;  // the detector's, 0 to 1; 0 = missing. Larger values count as 1
@@ -69,7 +68,8 @@ struct DetectedPerson {
   const Keypoint& operator[](KeypointName name) const { return points[static_cast<size_t>(name)]; }
 };
 
-// Of one picture; nobody when the detector saw nobody or was not asked: both say nothing.
+// The people in one image; empty if the detector found nobody or was not run, neither of which is
+// evidence.
 using DetectedPeople = std::vector<DetectedPerson>;
 
 }  // namespace observation

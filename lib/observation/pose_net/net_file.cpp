@@ -13,7 +13,7 @@ inline namespace observation {
 
 namespace {
 
-// Wire types of protocol buffers, and the fields that are looked at.
+// Wire types of protocol buffers, and the fields that are used.
 constexpr int kVarint = 0, kEight = 1, kPacket = 2, kFour = 5;
 constexpr int kModelGraph = 7;
 constexpr int kGraphTensor = 5, kGraphInput = 11;
@@ -22,13 +22,13 @@ constexpr uint64_t kFloat = 1, kHalf = 10;
 constexpr int kInfoType = 2, kTypeTensor = 1, kTensorShape = 2, kShapeSize = 1, kSizeValue = 1;
 constexpr int kSmallest_px = 32, kLargest_px = 1024;
 
-struct Broken {};  // no protocol buffer
+struct Broken {};  // not a protocol buffer
 
 struct Field {
   int number = 0, wire = 0;
   uint64_t value = 0;         // of a varint
   std::string_view content;   // of a packet
-  std::string_view complete;  // with its key, as it stands in the file
+  std::string_view complete;  // with its key, as in the file
 };
 
 uint64_t take_varint(std::string_view& rest) {
@@ -127,7 +127,7 @@ std::string_view inner(std::string_view message, int number) {
   return out;
 }
 
-// Of a picture of 1 x 3 x side x side.
+// The side of an input with the shape 1 x 3 x side x side.
 int side_of(std::string_view input) {
   const std::string_view shape = inner(inner(inner(input, kInfoType), kTypeTensor), kTensorShape);
   std::vector<uint64_t> sizes;

@@ -1,6 +1,7 @@
-// A network's ONNX file, with its weights widened from half precision: OpenCV 4.6 reads none, and
-// files with them are half as large. Only what that takes is known of the format (onnx.proto: a
-// model's graph is its field 7, the graph's tensors and inputs are its fields 5 and 11).
+// Reads a network's ONNX file and converts its weights from half precision, which OpenCV 4.6 cannot
+// read and which halves the size of the file. Only the fields that are needed are known
+// (onnx.proto: a model's graph is its field 7, the graph's tensors and inputs are its fields 5 and
+// 11).
 #pragma once
 
 #include <string>
@@ -11,10 +12,10 @@ inline namespace observation {
 
 struct NetFile {
   std::string onnx;  // with 32-bit weights
-  int side_px = 0;   // of the square picture that it takes
+  int side_px = 0;   // of the square input image
 };
 
-// InputError naming `name` where that is no ONNX file of a network with one square input.
+// InputError that names `name` if it is not an ONNX file of a network with one square input.
 NetFile widened_net(std::string_view file, const std::string& name);
 
 }  // namespace observation

@@ -1,4 +1,4 @@
-// In place of pose_net.cpp where OpenCV's dnn module was not there when this was built.
+// Replaces pose_net.cpp if OpenCV has no dnn module.
 #include "core/errors.h"
 #include "observation/pose_net/pose_net.h"
 

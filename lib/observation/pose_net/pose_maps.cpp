@@ -17,7 +17,7 @@ struct Peak {
   float value = 0;  // after the logistic function, without the weight
 };
 
-// The cell of a map that stands out most near (x, y).
+// The cell with the largest value of a map weighted by the nearness to (x, y).
 Peak peak_near(std::span<const float> map, int side, float x, float y) {
   Peak best;
   float highest = -1;
@@ -35,7 +35,7 @@ Peak peak_near(std::span<const float> map, int side, float x, float y) {
   return best;
 }
 
-// The edge of the cut-out's first pixel lies half a pixel before its centre.
+// The edge of the cut-out's first pixel is half a pixel before its centre.
 float picture_px(float cells, int side, int from_px, int side_px) {
   return static_cast<float>(from_px) - 0.5f +
          cells / static_cast<float>(side) * static_cast<float>(side_px);

@@ -1,14 +1,14 @@
-// From the maps that MoveNet's last layers make of a cut-out to the points of a person.
+// Decodes the maps of MoveNet's last layers for a cut-out into the points of a person.
 //
-// A map has side x side cells of 4 px of the cut-out. Per cell: whether a person's middle is there
-// (centre), whether each of the 17 points of COCO is (heat), both before the logistic function; how
-// far each point is from a person whose middle is there (regress), and from the cell's corner to
-// the point (offset), as (y, x) in cells. Channels one after the other, row by row.
+// A map has side x side cells of 4 px of the cut-out. For each cell it states whether a person's
+// middle is there (centre), whether each of the 17 points of COCO is (heat), both before the
+// logistic function; the offset of each point from the person's middle (regress), and from the
+// cell's corner (offset), as (y, x) in cells. Channels are stored one after the other, row by row.
 //
 //   middle  = argmax over cells of  sigmoid(centre) / (distance to the map's middle + 1.8)
 //   point k = argmax over cells of  sigmoid(heat_k) / (distance to middle + regress_k + 1.8)
 //   its place is that cell + offset_k, its confidence sigmoid(heat_k) there.
-// (As the graph that Google publishes does, but for its fixed table of weights for the middle.)
+// (This is Google's published graph, except for its fixed table of weights for the middle.)
 #pragma once
 
 #include <span>
@@ -26,12 +26,12 @@ struct PoseMaps {
   std::span<const float> centre, heat, regress, offset;
 };
 
-// A square piece of a picture, px of it; it may reach beyond.
+// A square part of an image, px; it may extend beyond the image.
 struct CutOut {
   int x0 = 0, y0 = 0, side_px = 0;
 };
 
-// In pixels of the picture that the cut-out is of.
+// In pixels of the image.
 DetectedPerson decoded(const PoseMaps& maps, const CutOut& cut_out);
 
 }  // namespace observation

@@ -26,7 +26,7 @@ cv::Rect rectangle(const CutOut& cut_out) {
   return {cut_out.x0, cut_out.y0, cut_out.side_px, cut_out.side_px};
 }
 
-// The cut-out at the network's size, black where it reaches beyond the picture.
+// The cut-out at the network's size, black outside of the image.
 cv::Mat cut(const cv::Mat& picture, const CutOut& cut_out, int side_px) {
   const cv::Rect wanted = rectangle(cut_out);
   const cv::Rect there = wanted & cv::Rect(0, 0, picture.cols, picture.rows);
@@ -55,7 +55,7 @@ struct PoseNet::Net {
     net.forward(maps, names);
   }
 
-  // Every output has a map of the expected channels, or this is another network.
+  // Whether every output has a map with the expected channels; otherwise it is another network.
   bool fits() const {
     for (size_t i = 0; i < kMaps.size(); ++i) {
       const cv::MatSize& size = maps[i].size;

@@ -1,8 +1,8 @@
-// The built-in pose detector: MoveNet SinglePose, run by OpenCV's dnn module. It looks at a cut-out
-// around a person and says where the 17 points of COCO are; it has none of the feet.
+// The built-in pose detector: MoveNet SinglePose, run by OpenCV's dnn module. It returns the 17
+// points of COCO for a cut-out around a person; points of the feet are not among them.
 //
-// The same picture gives the same points on any number of threads as long as OpenCV itself is kept
-// on one (cv::setNumThreads(1)): it splits layers by its threads and adds in another order then.
+// The same image gives the same points on any number of threads as long as OpenCV itself uses one
+// (cv::setNumThreads(1)): it splits layers by its threads and then adds in another order.
 #pragma once
 
 #include <memory>
@@ -21,15 +21,15 @@ bool has_pose_net();
 
 class PoseNet {
  public:
-  // From an ONNX file's content; InputError naming `name` where that is no network of this family.
-  // Without the dnn module, always.
+  // From the content of an ONNX file; InputError that names `name` if it is not a network of this
+  // family, and always without the dnn module.
   PoseNet(std::string_view file, const std::string& name);
   PoseNet(PoseNet&&) noexcept;
   PoseNet& operator=(PoseNet&&) noexcept;
   ~PoseNet();
 
-  // The person nearest the cut-out's middle, in pixels of the picture (8-bit BGR); what is outside
-  // it is black. There always is an answer: of nobody, with low confidences.
+  // The person nearest to the cut-out's middle, in pixels of the image (8-bit BGR), which is
+  // continued in black. There is always a result, which has low confidences if nobody is there.
   DetectedPerson detect(const cv::Mat& picture, const CutOut& cut_out);
 
  private:

@@ -43,9 +43,9 @@ CapsuleList scaled_radii(const CapsuleList& capsules, double factor) {
   return out;
 }
 
-// The hull is the union of the discs centre(t) = a + t axis, radius(t) = r_a + t (r_b - r_a),
-// 0 <= t <= 1. |p - centre(t)|^2 - radius(t)^2 is a parabola in t, open upwards unless one disc
-// holds the other.
+// The hull is the union of the discs centre(t) = a + t axis, radius(t) = r_a + t (r_b - r_a), 0 <=
+// t <= 1. |p - centre(t)|^2 - radius(t)^2 is a parabola in t, open upwards unless one disc contains
+// the other.
 bool inside(const Capsule& capsule, const Vector2d& point_px) {
   const Disc &a = capsule.lower, &b = capsule.upper;
   const Vector2d axis = b.centre - a.centre, p = point_px - a.centre;

@@ -1,4 +1,4 @@
-// Where the discs of parts' ends come to lie, before the lens bends it.
+// Positions of the discs at the ends of parts, before lens distortion.
 #pragma once
 
 #include "observation/silhouette/part_table.h"

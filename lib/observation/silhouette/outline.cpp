@@ -14,7 +14,7 @@ Edge edge_between(const Vector2d& a, const Vector2d& b) {
   const Vector2d& top = a.y() < b.y() ? a : b;
   const Vector2d& bottom = a.y() < b.y() ? b : a;
   const double height = bottom.y() - top.y();
-  // A level edge adds nothing to a row that the discs do not hold already.
+  // A horizontal edge adds nothing to the discs in any row.
   if (height < 1e-9) return {};
   const double slope = (bottom.x() - top.x()) / height;
   return {top.y(), bottom.y(), top.x() - slope * top.y(), slope};
@@ -34,8 +34,8 @@ void add_edges(const Disc& a, const Disc& b, Outline& out) {
   }
 }
 
-// Rows are clamped before they become integers: a part close to the camera may be projected
-// millions of pixels away.
+// Rows are clamped before they are converted to integers: a part close to the camera may be
+// projected millions of pixels away.
 int clamped_row(double value, int low, int high) {
   return static_cast<int>(std::clamp(value, static_cast<double>(low), static_cast<double>(high)));
 }

@@ -1,4 +1,4 @@
-// The outline of a capsule in the image, ready to be asked row by row.
+// The outline of a capsule in the image, prepared for evaluation row by row.
 #pragma once
 
 #include "observation/silhouette/capsules.h"
@@ -7,7 +7,7 @@
 namespace walktrack {
 inline namespace observation {
 
-// A straight piece of an outline, x = x_at_0 + slope y for first <= y <= last.
+// A straight part of an outline, x = x_at_0 + slope y for first <= y <= last.
 struct Edge {
   double first = 1, last = 0;  // empty
   double x_at_0 = 0, slope = 0;
@@ -17,7 +17,7 @@ struct Edge {
 struct Outline {
   Disc discs[2];
   Edge edges[2];
-  int first_row, end_row;  // rows of the area whose pixel centres it may cover, end excluded
+  int first_row, end_row;  // rows of the area whose pixel centres it may cover, without end_row
 };
 
 Outline outline_of(const Capsule& capsule, const PixelRect& area);

@@ -28,7 +28,7 @@ PixelRect widened(const PixelRect& box) {
   return {box.x0 - by, box.y0 - by, box.x1 + by, box.y1 + by};
 }
 
-// What the likeliest of a body's parts says of each pixel of a row, in fixed point.
+// For each pixel of a row, the largest log-ratio over the appearances of a body, in fixed point.
 void best_of_planes(const LogRatioPlanes& planes, const PixelRect& box, int y,
                     std::span<int32_t> out) {
   const auto from = static_cast<size_t>(box.x0 - planes.area.x0);

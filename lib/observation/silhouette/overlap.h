@@ -1,12 +1,12 @@
 // The overlap of a figure's silhouette with the foreground near it, in one camera.
 //
-// The log-ratio of a pixel says how certain it is that the pixel shows a body, or none. Weighted by
-// it,
+// The log-ratio of a pixel states how certain it is that the pixel shows a body, or does not. With
+// these weights,
 //   share = sum over both / (sum over either),
 // where "both" are the pixels of the silhouette that look like a body, and "either" are these, the
-// pixels of the silhouette that do not, and the pixels near it, outside, that do: the weighted
-// Jaccard index (intersection over union) of silhouette and foreground. Pixels of which nothing is
-// known, such as those behind occluders, are not counted.
+// pixels of the silhouette that do not, and the pixels near the silhouette that do: the weighted
+// Jaccard index (intersection over union) of silhouette and foreground. Pixels without evidence,
+// such as those behind occluders, are not counted.
 #pragma once
 
 #include "observation/silhouette/capsules.h"
@@ -15,7 +15,7 @@
 namespace walktrack {
 inline namespace observation {
 
-// Nats; all zero where nothing is known.
+// Nats; all zero if there is no evidence.
 struct Overlap {
   double both = 0;     // in the silhouette, for a body
   double against = 0;  // in the silhouette, against a body
@@ -24,8 +24,8 @@ struct Overlap {
   double share() const { return both / known(); }
 };
 
-// Near is everything in the silhouette's bounding box, widened to all sides by kNearMargin of the
-// longer of its sides. A pixel looks like a body if any part of the body may look so. By hand.
+// The neighbourhood is the silhouette's bounding box, widened to all sides by kNearMargin of its
+// longer side. A pixel looks like a body if it looks like any part of it. By hand.
 inline constexpr double kNearMargin = 0.15;
 
 Overlap overlap(const LogRatioPlanes& planes, const CapsuleList& figure);

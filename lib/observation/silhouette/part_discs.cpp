@@ -18,10 +18,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 const hn::CappedTag<double, kPartVector> kReal;
 using Real = hn::Vec<decltype(kReal)>;
 
-// Square of the sine of the angle between ray and axis below which the end-on radius blends in:
+// Square of the sine of the angle between ray and axis below which the end-on radius is blended in:
 // within about 20 degrees of end-on, one half ellipsoid hides most of the part.
 constexpr double kEndOn = 0.1;
-// And below which the direction across is lost.
+// Below this value the direction across the axis is undefined.
 constexpr double kAlongRay = 1e-12;
 
 struct Vector {
@@ -59,7 +59,7 @@ HWY_ATTR Vector turned(const Eigen::Matrix3d& r, const Vector& a) {
   return {row(0), row(1), row(2)};
 }
 
-// In camera axes, whose origin is the eye.
+// In camera axes, whose origin is the camera centre.
 HWY_ATTR Vector seen(const Camera& camera, const Vector& point) {
   const Vector a = turned(camera.rotation, point);
   return {hn::Add(a.x, hn::Set(kReal, camera.translation.x())),
@@ -85,12 +85,12 @@ HWY_ATTR Across across(const Vector& ray, const Vector& axis) {
           hn::IfThenZeroElse(lost, share)};
 }
 
-// One end of eight parts or fewer, in camera axes; `axis` is the unit vector from lower to upper,
+// One end of at most eight parts, in camera axes; `axis` is the unit vector from lower to upper,
 // `outwards` the one away from the part.
 struct End {
   Vector point, axis, outwards;
   Real lateral, forward;  // semi-axes of its cross-section
-  Real least;             // how far its disc may move outwards: not beyond the middle of the part
+  Real least;             // largest outward shift of its disc: not beyond the middle of the part
 };
 
 HWY_ATTR void store_flat(const Vector& point, FlatPoints& out, size_t i) {
@@ -98,8 +98,8 @@ HWY_ATTR void store_flat(const Vector& point, FlatPoints& out, size_t i) {
   hn::Store(hn::Div(point.y, point.z), kReal, out.y + i);
 }
 
-// A half ellipsoid of height h with an outline r wide at its foot is replaced by the disc of radius
-// r that has the same apex. Returns the smaller depth of the disc's middle and rim.
+// Replaces a half ellipsoid of height h, whose outline is r wide at its base, by the disc of radius
+// r with the same apex. Returns the smaller depth of the disc's middle and rim.
 HWY_ATTR Real flatten(const End& end, const Vector& lateral, const Vector& forward, FlatEnds& out,
                       size_t i) {
   const Across view = across(end.point, end.axis);
@@ -159,7 +159,7 @@ HWY_ATTR void bend(const Camera& camera, const FlatPoints& flat, size_t count, F
   }
 }
 
-// From bent coordinates to pixels.
+// From distorted coordinates to pixels.
 HWY_ATTR void to_pixels(const Camera& camera, const FlatEnds& flat, size_t count,
                         PartDiscs::Ends& out) {
   const Real fx = hn::Set(kReal, camera.focal_px.x()), fy = hn::Set(kReal, camera.focal_px.y());
@@ -189,8 +189,8 @@ HWY_EXPORT(flatten_parts);
 HWY_EXPORT(bend);
 HWY_EXPORT(to_pixels);
 
-// Short formulas are worked out together; a long one, or a point beyond what the formula was fitted
-// to, by itself.
+// Short formulas are evaluated for all lanes together; a long formula, or a point outside of the
+// fitted range, is evaluated separately.
 void bend_all(const Camera& camera, size_t count, FlatPoints& points) {
   const FlatPoints flat = points;
   const bool is_short = camera.lens == Lens::kBrown;

@@ -1,9 +1,9 @@
-// The two discs that stand for a part's ends in the image (observation/silhouette/capsules.h), for
+// The two discs that represent a part's ends in the image (observation/silhouette/capsules.h), for
 // all parts of a body at once.
 //
-// Parts are the lanes of vectors: compiled for every instruction set and chosen when the program
-// runs (Highway). Only sums, products, quotients and roots are used, each rounded as IEEE 754 says,
-// so that every instruction set gives the same discs.
+// Parts are the lanes of vectors: the code is compiled for every instruction set, and one is chosen
+// at run time (Highway). Only sums, products, quotients and roots are used, each rounded according
+// to IEEE 754, so that every instruction set gives the same discs.
 #pragma once
 
 #include <span>
@@ -14,14 +14,15 @@
 namespace walktrack {
 inline namespace observation {
 
-// By part. Pixels of the camera given; depth along the optical axis, m.
+// By part. In pixels of the given camera; depth along the optical axis, m.
 struct PartDiscs {
   struct Ends {
     alignas(64) double x[kMaxParts], y[kMaxParts], radius[kMaxParts];  // px
   };
   Ends lower, upper;
   alignas(64) double depth[kMaxParts];    // of the middle of the axis
-  alignas(64) double nearest[kMaxParts];  // of the discs; below kMinDepth nothing else holds
+  alignas(64) double nearest[kMaxParts];  // of the discs; if it is below kMinDepth the other values
+                                          // are undefined
 };
 
 // Throws std::length_error for more than kMaxParts parts.

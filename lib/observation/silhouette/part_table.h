@@ -1,4 +1,4 @@
-// Posed parts by coordinate, as vector code reads them.
+// Coordinates of posed parts in the layout for vector code.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 namespace walktrack {
 inline namespace observation {
 
-// The widest vector, in doubles. Vectors are whole: the lanes beyond the last part repeat it.
+// The widest vector, in doubles. Vectors are complete: the lanes after the last part repeat it.
 inline constexpr size_t kPartVector = 8;
 
 struct VectorTable {
@@ -20,7 +20,7 @@ struct SectionTable {
 };
 
 struct PartTable {
-  size_t count = 0;  // of whole vectors
+  size_t count = 0;  // number of complete vectors
   VectorTable lower, upper, lateral, forward;
   SectionTable at_lower, at_upper;
 };

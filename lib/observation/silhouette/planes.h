@@ -1,8 +1,9 @@
-// Per-pixel log-ratios of one frame, stored so that a run of pixels in a row costs one subtraction.
+// Log-ratios of the pixels of one frame, stored so that the sum over a run of pixels in a row takes
+// one subtraction.
 //
-// Values are fixed point (kNat = 1 nat): integer sums are exact, so a silhouette's sum does not
-// depend on the order of its parts or on threads. Only a rectangle is stored; elsewhere l = 0,
-// which says: nothing is known there.
+// Values are in fixed point (kNat = 1 nat): integer sums are exact, so that a silhouette's sum does
+// not depend on the order of its parts or on threads. Only a rectangle is stored; outside it l = 0,
+// i.e. there is no evidence.
 #pragma once
 
 #include <array>
@@ -25,7 +26,7 @@ struct PixelRect {
 
 PixelRect intersection(const PixelRect& a, const PixelRect& b);
 
-// One plane for each kind of appearance that is told apart, or none at all.
+// One plane for each appearance class, or none at all.
 struct LogRatioPlanes {
   static constexpr double kNat = 256;  // fixed-point units in a nat
 
@@ -34,7 +35,7 @@ struct LogRatioPlanes {
   std::array<int, kAppearanceCount> plane_of{};  // by Appearance
   std::vector<int32_t> prefix;                   // [row][plane][x]: sum over area.x0 .. x - 1
 
-  // area.width() + 1 prefix sums of one row of one plane.
+  // The area.width() + 1 prefix sums of one row of one plane.
   std::span<const int32_t> row(int plane, int y) const {
     return {prefix.data() + offset(plane, y), stride()};
   }
@@ -50,7 +51,7 @@ struct LogRatioPlanes {
   }
 };
 
-// Gives `planes` room for `count` planes over `area`, keeping its memory.
+// Resizes `planes` to `count` planes over `area`, keeping its memory.
 void resize(LogRatioPlanes& planes, const PixelRect& area, int count);
 
 // Writes the prefix sums of one row: each value is clipped to +-clip nats.

@@ -24,7 +24,7 @@ int real_lanes() { return static_cast<int>(hn::Lanes(kReal)); }
 
 using Real = hn::Vec<decltype(kReal)>;
 
-// What bounds an outline in the rows of a vector, px.
+// The bounds of an outline in the rows of a vector, px.
 struct Reach {
   Real left, right;
 };
@@ -37,7 +37,7 @@ HWY_ATTR void widen_rows(Mask rows, Real left, Real right, Reach& reach) {
 
 struct DiscRows {
   Real x, y, square;
-  double first, last;  // rows that it meets
+  double first, last;  // rows that it covers
 
   HWY_ATTR explicit DiscRows(const Disc& disc)
       : x(hn::Set(kReal, disc.centre.x())),
@@ -68,12 +68,12 @@ struct EdgeRows {
   }
 };
 
-// The area's columns, as numbers to compare with.
+// The columns of the area as floating-point numbers.
 struct Span {
   Real x0, width;
 };
 
-// Columns whose centres lie between left and right.
+// Columns whose centres are between left and right.
 HWY_ATTR void to_columns(const Reach& reach, const Span& span, int32_t* begins, int32_t* ends) {
   const Real zero = hn::Zero(kReal), one = hn::Set(kReal, 1.0);
   const auto clamped = [&](Real x) HWY_ATTR { return hn::Min(span.width, hn::Max(zero, x)); };
@@ -86,8 +86,8 @@ HWY_ATTR void to_columns(const Reach& reach, const Span& span, int32_t* begins, 
   hn::StoreU(hn::IfThenElseZero(some, end), kNarrow, ends);
 }
 
-// Every piece of the outline lies in the convex hull, so the outermost of those that meet a row
-// bound it there.
+// Every part of the outline is in the convex hull, so that the outermost of those in a row are its
+// bounds there.
 HWY_ATTR void cover_rows(const Outline& outline, const PixelRect& area, int block_row,
                          BlockRows rows, RowIntervals& out) {
   const DiscRows discs[2]{DiscRows(outline.discs[0]), DiscRows(outline.discs[1])};
@@ -102,11 +102,11 @@ HWY_ATTR void cover_rows(const Outline& outline, const PixelRect& area, int bloc
     const Real row = hn::Iota(kReal, first);
     Reach reach = nothing;
     for (const EdgeRows& edge : edges) edge.widen(row, reach);
-    for (const DiscRows& disc : discs)  // roots are dear
+    for (const DiscRows& disc : discs)  // roots are expensive
       if (first <= disc.last && last >= disc.first) disc.widen(row, reach);
     to_columns(reach, span, out.begin + k, out.end + k);
   }
-  std::fill(out.begin + rows.to, out.begin + whole.to, 0);  // the area may end before a vector does
+  std::fill(out.begin + rows.to, out.begin + whole.to, 0);  // the area may end within a vector
   std::fill(out.end + rows.to, out.end + whole.to, 0);
 }
 
@@ -126,8 +126,8 @@ HWY_ATTR void store(const Columns& columns, RowIntervals& rows, int k) {
   hn::Store(columns.end, kWhole, rows.end + k);
 }
 
-// What `nearer` leaves of a piece. It begins after the piece begins, ends before the piece ends,
-// both (then it lies within, and the part before it is what is left), or neither.
+// The rest of a piece after `nearer` is removed. `nearer` begins after the piece begins, ends
+// before the piece ends, both (then it is inside, and the part before it is the rest), or neither.
 struct Left {
   Columns piece;
   WholeMask within;

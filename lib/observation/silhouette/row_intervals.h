@@ -1,8 +1,9 @@
-// Which columns of consecutive image rows a capsule covers, and what nearer capsules leave of them.
+// The columns of consecutive image rows that a capsule covers, and the rest of them that nearer
+// capsules do not hide.
 //
-// Rows are the lanes of vectors: compiled for every instruction set and chosen when the program
-// runs (Highway). Only additions, products, quotients and roots are used, each rounded as IEEE 754
-// says, so that every instruction set gives the same columns.
+// Rows are the lanes of vectors: the code is compiled for every instruction set, and one is chosen
+// at run time (Highway). Only additions, products, quotients and roots are used, each rounded
+// according to IEEE 754, so that every instruction set gives the same columns.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@
 namespace walktrack {
 inline namespace observation {
 
-// Rows are worked on in blocks, so that all that is known about them has a fixed size, stays in the
-// nearest cache, and has a bit for each row in one word.
+// Rows are processed in blocks, so that all data about them have a fixed size, stay in the nearest
+// cache, and have one bit for each row in one word.
 inline constexpr int kBlockRows = 64;
 
 // Rows from <= k < to of a block.
@@ -21,7 +22,7 @@ struct BlockRows {
   int from, to;
 };
 
-// Rows that may share a vector, whatever the instruction set.
+// Number of rows that may share a vector, for any instruction set.
 inline constexpr int kRowVector = 16;
 
 inline BlockRows whole_vectors(BlockRows rows) {
@@ -29,8 +30,8 @@ inline BlockRows whole_vectors(BlockRows rows) {
           (rows.to + kRowVector - 1) / kRowVector * kRowVector};
 }
 
-// By row of a block: the columns begin <= x < end, counted from the area's left; none where begin
-// >= end. Of the rows outside the outline, those that share a vector with it hold none.
+// By row of a block: the columns begin <= x < end, counted from the area's left; empty if begin >=
+// end. Rows outside the outline that share a vector with it are empty.
 struct RowIntervals {
   alignas(64) int32_t begin[kBlockRows];
   alignas(64) int32_t end[kBlockRows];
@@ -40,18 +41,18 @@ struct RowIntervals {
 void cover_rows(const Outline& outline, const PixelRect& area, int block_row, BlockRows rows,
                 RowIntervals& out);
 
-// What is seen of a capsule in the rows of a block: in each at most two pieces, the second one
-// empty while `two` is not set.
+// The visible part of a capsule in the rows of a block: at most two pieces in each, of which the
+// second one is empty unless `two` is set.
 struct SeenRows {
   RowIntervals first, second;
   bool two;
 };
 
-// All of the capsule, in these rows and those that share a vector with them.
+// Makes all of the capsule visible, in these rows and those that share a vector with them.
 void show_rows(const RowIntervals& covered, BlockRows rows, SeenRows& seen);
 
-// Takes `nearer` away in these rows. Bit k of the answer: in row k this would leave more than two
-// pieces, and what `seen` says of that row means nothing any more.
+// Removes `nearer` in these rows. Bit k of the result: in row k more than two pieces would be left,
+// so that `seen` is invalid for that row.
 uint64_t hide_rows(const RowIntervals& nearer, BlockRows rows, SeenRows& seen);
 
 }  // namespace observation

@@ -1,8 +1,8 @@
 // The exact sum of log-ratios over the visible silhouette of a body.
 //
-// A pixel belongs to a capsule when its centre lies inside or on the outline. It counts once, with
-// the plane of the nearest capsule that covers it. A capsule meets an image row in one interval, so
-// the sum over a row is a handful of differences of prefix sums: the cost grows with the height of
+// A pixel belongs to a capsule if its centre is inside or on the outline. It counts once, with the
+// plane of the nearest capsule that covers it. A capsule covers one interval of an image row, so
+// that the sum over a row takes a few differences of prefix sums: the cost grows with the height of
 // the figure in pixels, not with its area.
 #pragma once
 
@@ -15,7 +15,7 @@ inline namespace observation {
 // Sum of l over the visible silhouette, nats (neither tempered nor weighted); 0 without planes.
 double silhouette_log_ratio(const LogRatioPlanes& planes, const CapsuleList& capsules);
 
-// A run of pixels x0 <= x < x1 of row y that is seen of one capsule.
+// A run of pixels x0 <= x < x1 of row y in which one capsule is visible.
 struct VisibleRun {
   int y, x0, x1;
   int capsule;  // index into the list

@@ -14,15 +14,15 @@ inline namespace observation {
 
 namespace {
 
-// Rows of the background that follow the light in one frame: every eighth, in turn.
+// In each frame, every eighth row of the background is adapted to the light, in turn.
 constexpr int kDriftRows = 8;
-// Rows that are worked on together.
+// Number of rows that are processed together.
 constexpr int kBand = 32;
-// Colours are learned from the inner part of each silhouette, where the body is surely. By
+// Colours are learned from the inner part of each silhouette, which certainly shows the body. By
 // hand.
 constexpr double kInner = 0.75;
 
-// CPU of a frame, nanoseconds, as scripts/measure_costs.py prints them.
+// CPU time for a frame, nanoseconds, as scripts/measure_costs.py prints it.
 constexpr double kBackground = 22.2;
 constexpr double kAppearance = 2.0e5;
 constexpr double kRowSummed = 8.71;
@@ -31,14 +31,14 @@ bool uses_colours(const ObservationConfig& config) {
   return config.background.enabled || config.foreground.enabled;
 }
 
-// One pixel more on all sides where there is one: gradients need neighbours.
+// Adds one pixel on all sides inside the image: gradients need neighbours.
 PixelRect with_border(const PixelRect& area, const Camera& camera) {
   return intersection({area.x0 - 1, area.y0 - 1, area.x1 + 1, area.y1 + 1},
                       {0, 0, camera.width_px, camera.height_px});
 }
 
-// The colours of a whole image, as a class of its own: what stands against the walker's colours
-// where no background is modelled.
+// The colours of a whole image, as a class of its own, to which the subject's colours are compared
+// if there is no model of the background.
 ColourTable scene_table(const ColourBins& bins, const cv::Mat& bgr) {
   ForegroundConfig config;
   config.classes.fill(0);
@@ -63,7 +63,7 @@ void require_background(const std::optional<BackgroundModel>& background, const 
                                 " px, the calibrated size divided by the shrink factor"));
 }
 
-// f(begin, end) for bands of rows that make up the area.
+// Calls f(begin, end) for bands of rows that cover the area.
 template <typename F>
 void for_bands(const PixelRect& area, int threads, const F& f) {
   const size_t bands = (static_cast<size_t>(area.height()) + kBand - 1) / kBand;
@@ -117,7 +117,8 @@ void SilhouetteTerm::Memory::complete(const ObserverSetting& setting, ObservedFr
   ++frames_;
 }
 
-// One generic plane until the walker's colours are known; without a background, nothing until then.
+// One generic plane until the subject's colours are known; without a background, no plane until
+// then.
 int SilhouetteTerm::Memory::planes_wanted(const ObservationConfig& config) const {
   if (config.foreground.enabled && appearance_.any_learned()) return appearance_.classes();
   return config.background.enabled ? 1 : 0;

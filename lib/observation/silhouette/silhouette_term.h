@@ -1,6 +1,6 @@
 // Foreground against background: the sum of log-ratios over the visible silhouette,
 //   w sum of log p(I | foreground) - log p(I | background),
-// w being the number of independent pixels in a pixel.
+// where w is the number of independent pixels that a pixel represents.
 #pragma once
 
 #include <array>
@@ -26,25 +26,25 @@ struct SilhouetteTerm {
                  [](const ObservationConfig& c) { return c.foreground.enabled; }}};
 
   struct Evidence {
-    LogRatioPlanes planes;  // no planes when foreground and background are both off
+    LogRatioPlanes planes;  // empty if foreground and background are both off
   };
 
   struct State {
     std::optional<BackgroundModel> background;
     std::vector<AppearanceState> appearance;
     ColourTable scene;   // the colours of the first image; only without a background
-    int64_t frames = 0;  // with a picture
+    int64_t frames = 0;  // with an image
   };
 
   struct Prepared {
-    ColourPatch colours;        // of the region and a border
-    double gain = 1;            // strength of the light; 1 without a background
+    ColourPatch colours;        // of the region and its border
+    double gain = 1;            // brightness of the light; 1 without a background
     std::vector<float> behind;  // log densities under the background, row by row of the area
   };
 
   class Memory {
    public:
-    // InputError when the background is enabled and missing or of another size.
+    // InputError if the background is enabled and missing or of another size.
     Memory(const ObserverSetting& setting, ObserverInput& input);
     void prepare(const ObserverSetting& setting, ObservedFrame& frame, int threads,
                  Prepared& out) const;
@@ -71,7 +71,7 @@ struct SilhouetteTerm {
     ColourTable scene_;  // only without a background model
     ColourTable broad_;
     int64_t frames_ = 0;
-    ColourPatch patch_;  // of the frame observed last
+    ColourPatch patch_;  // of the last frame
   };
 
   template <typename Groups>

@@ -1,6 +1,6 @@
-// The visible silhouette of a body, run by run: which pixels of a row are seen of which capsule.
+// The visible silhouette of a body, run by run: which capsule is visible in which pixels of a row.
 //
-// A pixel belongs to the nearest capsule that covers its centre. Rows are worked on in blocks, as
+// A pixel belongs to the nearest capsule that covers its centre. Rows are processed in blocks, as
 // vectors (row_intervals.h); nothing is allocated.
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace walktrack {
 inline namespace observation {
 
-// Every capsule of a list, nearest first, and the rows that it covers of one block.
+// Every capsule of a list, nearest first, with the rows of one block that it covers.
 struct SilhouetteBlock {
   std::array<Outline, kMaxCapsules> outlines;
   std::array<RowIntervals, kMaxCapsules> covered;
@@ -26,7 +26,7 @@ inline BlockRows rows_of_block(const Outline& outline, int block_row) {
           std::min(outline.end_row - block_row, kBlockRows)};
 }
 
-// Calls visit(begin, end) for what capsule `i` shows of row k, however often it is interrupted.
+// Calls visit(begin, end) for every visible piece of capsule `i` in row k.
 template <typename Visit>
 void visit_pieces_of_row(const SilhouetteBlock& block, size_t i, int k, Visit&& visit) {
   struct Piece {
@@ -49,8 +49,8 @@ void visit_pieces_of_row(const SilhouetteBlock& block, size_t i, int k, Visit&& 
   for (size_t p = 0; p < count; ++p) visit(pieces[p].begin, pieces[p].end);
 }
 
-// Calls visit(k, begin, end) for what is seen of capsule `i` in the rows of the block; also for
-// rows in which nothing is left of it, with begin >= end.
+// Calls visit(k, begin, end) for the visible pieces of capsule `i` in the rows of the block; also
+// for rows in which none is left, with begin >= end.
 template <typename Visit>
 void visit_seen_rows(const SilhouetteBlock& block, size_t i, Visit&& visit) {
   const BlockRows own = block.rows[i];
@@ -73,8 +73,8 @@ void visit_seen_rows(const SilhouetteBlock& block, size_t i, Visit&& visit) {
   for (int k = own.from; k < own.to; ++k) visit(k, seen.second.begin[k], seen.second.end[k]);
 }
 
-// Calls visit(row, begin, end, capsule) for every visible run, columns counted from area.x0; also
-// for rows in which nothing is left of the capsule, with begin >= end.
+// Calls visit(row, begin, end, capsule) for every visible run, with columns counted from area.x0;
+// also for rows in which nothing of the capsule is left, with begin >= end.
 template <typename Visit>
 void visit_visible(const PixelRect& area, const CapsuleList& capsules, Visit&& visit) {
   SilhouetteBlock block;

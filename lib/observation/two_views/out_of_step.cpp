@@ -14,14 +14,15 @@ using Eigen::Vector2d;
 
 constexpr int kLargestLag = 15;  // frames
 constexpr int kFewestInstants = 20;
-// One camera is said to be late when the planes miss each other by more than shadows and arms make
-// them (m), and the lag brings them this much nearer.
+// A camera is reported to lag if the planes miss each other by more than shadows and arms explain
+// (m), and the lag reduces this distance by so much.
 constexpr double kClearGap = 0.012, kClearGain = 0.6;
-constexpr double kParallel = 0.03;  // smallest determinant of the planes' normals that still meet
+constexpr double kParallel = 0.03;  // smallest determinant of the planes' normals for which they
+                                    // are taken to meet
 
 // The vertical plane through a camera and the figure: normal . x = offset on the ground.
 struct Plane {
-  Vector2d normal;  // unit
+  Vector2d normal;  // unit vector
   double offset;
 };
 
@@ -40,7 +41,7 @@ PlanePath planes_of(const Camera& camera, const FigurePath& path) {
   return planes;
 }
 
-// Root mean square distance, m, of the planes of one instant from the line nearest to them all.
+// Root mean square distance, m, of the planes at one time from the line nearest to them all.
 std::optional<double> gap_at(const std::vector<PlanePath>& planes, int instant, size_t late,
                              int lag) {
   Eigen::Matrix2d normals = Eigen::Matrix2d::Zero();
@@ -65,7 +66,7 @@ std::optional<double> gap_at(const std::vector<PlanePath>& planes, int instant, 
   return std::sqrt(sum / static_cast<double>(met.size()));
 }
 
-// The median over all instants; nullopt if there are too few.
+// The median over all times; nullopt if there are too few.
 std::optional<double> median_gap(const std::vector<PlanePath>& planes, size_t late, int lag) {
   std::vector<double> gaps;
   size_t instants = 0;

@@ -1,4 +1,4 @@
-// Whether three cameras and more are in step, from the vertical planes through the figure.
+// Tests whether three or more cameras are synchronous, by the vertical planes through the figure.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@
 namespace walktrack {
 inline namespace observation {
 
-// Cameras out of step, found from three or more paths: the vertical planes through the figure, seen
-// by all cameras at one instant, meet in one line. Every single camera that could be shifted to
-// make them meet is listed, the best first; with three cameras there may be several.
-// Empty if the cameras agree or nothing can be said.
+// Cameras that are not synchronous, found from three or more paths: the vertical planes through the
+// figure, seen by all cameras at one time, meet in one line. Every single camera for which a lag
+// makes them meet is listed, the best first; with three cameras there may be several. Empty if the
+// cameras agree or if there is too little evidence.
 struct OutOfStep {
   size_t camera;
-  int frames_late;               // positive: it shows things later than the others
-  double gap_before, gap_after;  // m, how far the planes miss each other
+  int frames_late;               // positive: it shows everything later than the others
+  double gap_before, gap_after;  // m, distance by which the planes miss each other
 };
 std::vector<OutOfStep> find_out_of_step(const std::vector<Camera>& cameras,
                                         const std::vector<FigurePath>& paths);

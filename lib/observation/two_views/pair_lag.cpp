@@ -19,27 +19,28 @@ using Eigen::Vector3d;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLongestLag = 1;       // s
-constexpr double kShortestPart = 0.75;  // s, of a video before or after its lag changes
-constexpr double kMostLost = 0.5;       // s of frames that are missing at once
-constexpr double kMoment = 0.25;        // s; frames nearer to each other err together
-constexpr double kNearLine = 0.15;      // sine of the angle to the cameras' line
-constexpr double kTrembling = 0.01;     // m, of an outline's end
-constexpr double kMostBias = 0.02;      // m, by which one camera sees ends higher
-constexpr double kAgreement = 0.3;      // share of the frames in which cameras in step agree
-constexpr double kTelling = 0.1;        // and by how much more than out of step,
-constexpr double kPeak = 0.1;           // s, which begins here
+constexpr double kShortestPart = 0.75;  // s; least duration before and after a change of the lag
+constexpr double kMostLost = 0.5;       // s; longest run of missing frames
+constexpr double kMoment = 0.25;        // s; frames nearer to each other have common errors
+constexpr double kNearLine = 0.15;      // sine of the angle to the line through both cameras
+constexpr double kEndNoise = 0.01;      // m, noise of an outline's end
+constexpr double kMostBias = 0.02;      // m, by which one camera sees ends higher than the other
+constexpr double kAgreement = 0.3;      // least share of frames that agree if cameras are
+                                        // synchronous
+constexpr double kDistinct = 0.1;       // and its least excess over other lags,
+constexpr double kPeak = 0.1;           // s; other lags are at least so far away
 constexpr size_t kFewest = 20;          // frames
 constexpr int kLeastLag = 2;            // frames
 constexpr double kQuickStep = 0.4;      // s; walking steps take longer
 constexpr double kClear = 3;            // standard errors
-constexpr double kWorth = 0.08;         // gain in that share
+constexpr double kLeastGain = 0.08;     // least increase of that share
 
 // The planes that contain the line through both cameras.
 struct Pencil {
-  Vector3d up, aside;  // unit, square to that line; up as far as can be
+  Vector3d up, aside;  // unit vectors at right angles to that line; up as far as possible
 };
 
-// None where one camera hangs above the other.
+// nullopt if one camera is above the other.
 std::optional<Pencil> pencil_of(const Camera& a, const Camera& b) {
   const Vector3d line = (camera_centre(b) - camera_centre(a)).stableNormalized();
   const Vector3d up = Vector3d::UnitZ() - line.z() * line;
@@ -47,14 +48,15 @@ std::optional<Pencil> pencil_of(const Camera& a, const Camera& b) {
   return Pencil{up.normalized(), line.cross(up.normalized())};
 }
 
-// How steeply the plane through a pixel rises from the cameras' line; NaN near that line.
+// The slope of the plane through a pixel relative to the line through both cameras; NaN near that
+// line.
 double slope(const Camera& camera, const Pencil& pencil, const Vector2d& pixel) {
   const auto ray = unproject(camera, pixel);
   const double aside = ray ? std::abs(ray->direction.dot(pencil.aside)) : 0;
   return aside > kNearLine ? ray->direction.dot(pencil.up) / aside : kNan;
 }
 
-// The steepest one, or with -1 the least steep one; NaN where one of them is not known.
+// The steepest one or, with -1, the least steep one; NaN if one of them is unknown.
 double steepest(const Camera& camera, const Pencil& pencil, const std::vector<Vector2d>& pixels,
                 double sign) {
   double most = -std::numeric_limits<double>::infinity();
@@ -66,7 +68,7 @@ double steepest(const Camera& camera, const Pencil& pencil, const std::vector<Ve
   return pixels.empty() ? kNan : sign * most;
 }
 
-// By frame: the slopes of the planes that touch the figure's head, and its feet.
+// By frame: the slopes of the planes that touch the figure's head and its feet.
 enum OutlineEnd : size_t { kTop, kBottom, kEnds };
 using Heights = std::array<std::vector<double>, kEnds>;
 
@@ -86,7 +88,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// How far from the cameras' line the figure usually walks, m: slopes become heights by it.
+// Usual distance of the figure from the line through both cameras, m, which converts slopes to
+// heights.
 double usual_distance(const Camera& camera, const Pencil& pencil, const FigurePath& path) {
   std::vector<double> distances;
   for (const auto& figure : path) {
@@ -100,7 +103,7 @@ double usual_distance(const Camera& camera, const Pencil& pencil, const FigurePa
 }
 
 // By frame of the first camera: how well an end agrees with the second camera's so many frames
-// later, 0 to 1; NaN where one of them is not known.
+// later, 0 to 1; NaN if one of them is unknown.
 using Agreement = std::vector<double>;
 
 Agreement agreement(const std::vector<double>& first, const std::vector<double>& second, int lag,
@@ -116,7 +119,7 @@ Agreement agreement(const std::vector<double>& first, const std::vector<double>&
   }
   if (known.size() < kFewest) return Agreement(first.size(), kNan);
   const double bias = std::clamp(median(std::move(known)), -kMostBias, kMostBias);
-  for (double& each : out) each = std::exp(-0.5 * std::pow((each - bias) / kTrembling, 2));
+  for (double& each : out) each = std::exp(-0.5 * std::pow((each - bias) / kEndNoise, 2));
   return out;
 }
 
@@ -134,10 +137,10 @@ double mean(const Agreement& values) {
 // The agreement of one end at all lags, from -longest to longest.
 using ByLag = std::vector<Agreement>;
 
-// Whether an end tells anything: it agrees at some lag, better than at most others, and better than
-// a little before and after it. Where a shadow takes the place of the feet, or a camera misses the
-// head, ends that are not the same agree now and then over a wide range of lags.
-bool tells(const ByLag& end, size_t little) {
+// Whether an end is usable: it agrees at some lag, better than at most other lags, and better than
+// slightly before and after it. If a shadow replaces the feet, or a camera misses the head, ends
+// that do not correspond agree by chance over a wide range of lags.
+bool is_usable(const ByLag& end, size_t little) {
   std::vector<double> means;
   for (const Agreement& each : end) means.push_back(mean(each));
   const auto found = std::max_element(means.begin(), means.end());
@@ -145,11 +148,11 @@ bool tells(const ByLag& end, size_t little) {
   const double best = *found;
   double beside = place >= little ? means[place - little] : 0;
   if (place + little < means.size()) beside = std::max(beside, means[place + little]);
-  return best >= kAgreement && best - beside >= kTelling &&
-         best - median(std::move(means)) >= kTelling;
+  return best >= kAgreement && best - beside >= kDistinct &&
+         best - median(std::move(means)) >= kDistinct;
 }
 
-// Both ends of a frame as one number each: 0 where neither is known or tells anything.
+// Both ends of a frame as one number each: 0 if neither is known and usable.
 struct Sums {
   std::vector<double> sum, count;  // by frame
   double mean() const;
@@ -178,8 +181,8 @@ Sums sums_at(const std::vector<ByLag>& ends, size_t lag, size_t frames) {
   return out;
 }
 
-// How much better one account of the frames is than another: in the mean, and over its standard
-// error between moments. Frames that one of them does not have do not count.
+// The mean difference of agreement between two hypotheses, and its ratio to the standard error
+// between moments. Only frames that both have are counted.
 struct Gain {
   double mean = 0, clear = 0;
 };
@@ -202,9 +205,10 @@ Gain gain(const Sums& account, const Sums& other, size_t moment) {
   return {sum / count, variance > 0 ? sum / std::sqrt(variance) : 0};
 }
 
-// The best account with one change of lag: of the running sums over what the best one lag has.
+// The best hypothesis with one change of lag: maximises running sums relative to the best constant
+// lag.
 struct Change {
-  size_t at = 0, before = 0, after = 0;  // frame and places in the list of lags
+  size_t at = 0, before = 0, after = 0;  // frame, and indices in the list of lags
 };
 
 Change best_change(const std::vector<Sums>& lags, double usual, size_t shortest) {
@@ -230,14 +234,14 @@ Change best_change(const std::vector<Sums>& lags, double usual, size_t shortest)
   return best;
 }
 
-// The frames [from, to) of one account and none of the others.
+// Copies the frames [from, to) of one hypothesis.
 void copy_part(const Sums& whole, size_t from, size_t to, Sums& out) {
   const auto b = std::ptrdiff_t(from), e = std::ptrdiff_t(to);
   std::copy(whole.sum.begin() + b, whole.sum.begin() + e, out.sum.begin() + b);
   std::copy(whole.count.begin() + b, whole.count.begin() + e, out.count.begin() + b);
 }
 
-// The frames whose lag is not the one that is best for all.
+// For each frame, the best agreement at any other lag than the overall best.
 Sums otherwise(const std::vector<Sums>& lags, const Change& change, size_t best) {
   const size_t frames = lags[0].sum.size();
   Sums out{std::vector<double>(frames), std::vector<double>(frames)};
@@ -253,10 +257,10 @@ size_t best_lag(const std::vector<Sums>& lags) {
       lags.begin());
 }
 
-bool is_clear(const Gain& gain) { return gain.mean >= kWorth && gain.clear >= kClear; }
+bool is_clear(const Gain& gain) { return gain.mean >= kLeastGain && gain.clear >= kClear; }
 
-// Standard deviation of the best lag, frames: lags that are not worse by a standard error are as
-// likely, and a lag is a whole number of frames.
+// Standard deviation of the best lag, frames: lags that are worse by less than a standard error are
+// as likely, and a lag is an integer number of frames.
 double lag_sd(const std::vector<Sums>& lags, size_t best, size_t moment) {
   const auto as_likely = [&](size_t l) { return gain(lags[best], lags[l], moment).clear < 1; };
   size_t first = best, last = best;
@@ -265,7 +269,8 @@ double lag_sd(const std::vector<Sums>& lags, size_t best, size_t moment) {
   return static_cast<double>(last - first + 1) / std::sqrt(12.0);
 }
 
-// Whether a lag is one of steps, by the camera and the end that show them best.
+// Whether a lag is a multiple of the step time, measured in the camera and at the end that show it
+// best.
 bool may_be_steps(const std::vector<Camera>& cameras, const std::vector<FigurePath>& paths,
                   double lag, double frame_rate) {
   const auto pencil = pencil_of(cameras[0], cameras[1]);
@@ -276,7 +281,7 @@ bool may_be_steps(const std::vector<Camera>& cameras, const std::vector<FigurePa
   return step ? is_whole_steps(time, *step) : time >= kQuickStep;
 }
 
-// All lags from -longest to longest; empty if neither end tells anything. `little`: see tells().
+// All lags from -longest to longest; empty if neither end is usable. `little`: see is_usable().
 std::vector<Sums> lags_tried(const std::vector<Camera>& cameras,
                              const std::vector<FigurePath>& paths, int longest, int little) {
   const auto pencil = pencil_of(cameras[0], cameras[1]);
@@ -289,7 +294,7 @@ std::vector<Sums> lags_tried(const std::vector<Camera>& cameras,
     ByLag lags;
     for (int lag = -longest; lag <= longest; ++lag)
       lags.push_back(agreement(first[end], second[end], lag, distance));
-    if (tells(lags, static_cast<size_t>(little))) ends.push_back(std::move(lags));
+    if (is_usable(lags, static_cast<size_t>(little))) ends.push_back(std::move(lags));
   }
   std::vector<Sums> out;
   for (size_t l = 0; !ends.empty() && l < ends[0].size(); ++l)

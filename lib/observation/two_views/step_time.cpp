@@ -11,11 +11,11 @@ namespace {
 
 constexpr double kQuickest = 0.3, kSlowest = 0.85;  // s, of steps: children to slow old people
 constexpr double kRepeats = 0.3;                    // least autocorrelation at the time of a step
-constexpr double kRounding = 1e-18;                 // of heights that are all the same
-constexpr double kAsWell = 0.8;                     // of the highest one
-constexpr double kNearShare = 0.15;                 // of a step, within which lags are as good
+constexpr double kRounding = 1e-18;                 // of heights that are all equal
+constexpr double kAsWell = 0.8;                     // relative to the highest peak
+constexpr double kNearShare = 0.15;                 // of a step, within which lags are equivalent
 
-// Less their mean over the second around; NaN where less than half of that is known.
+// Heights minus their mean over the second around them; NaN if less than half of it is known.
 std::vector<double> without_trend(const std::vector<double>& heights, int half) {
   const int frames = static_cast<int>(heights.size());
   std::vector<double> out(heights.size(), std::nan(""));
@@ -62,7 +62,7 @@ std::optional<double> step_time(const std::vector<double>& heights, double frame
     peaks.emplace_back(lag, here);
     most = std::max(most, here);
   }
-  // Two steps repeat themselves as well as one.
+  // A signal repeats after two steps as well as after one.
   for (const auto& [lag, value] : peaks)
     if (value >= kAsWell * most) return static_cast<double>(lag) / frame_rate;
   return std::nullopt;

@@ -23,18 +23,19 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Of those that both cameras see: fewer do not tell, more do not tell more. By hand.
+// Moments that both cameras see: fewer are not enough, more do not improve the result. By hand.
 constexpr size_t kLeastMoments = 20, kMostMoments = 120, kCoarseMoments = 24;
-constexpr int kTurns = 18;            // of the cameras to each other that are tried
+constexpr int kTurns = 18;            // relative rotations of the cameras that are tried
 constexpr double kMostlyAhead = 0.9;  // share of the points; by hand
-// Of what points miss where they are as good as is assumed (walker_rays.cpp): the rays leave one
-// direction of two. Worse ones tell less (the variance of unit weight).
+// Residuals of points, if their errors are as assumed (walker_rays.cpp): the rays leave one
+// direction of two undetermined. Larger residuals increase the uncertainty (the variance of unit
+// weight).
 constexpr double kExpectedRms = 0.007;
-// Limbs seem to swing as much earlier or later from one side, s: found on a rendered walk (1 frame
-// of 30 Hz) and on two telephones (1 of 60 Hz) that had no lag.
+// Limbs seem to swing earlier or later by so much from different sides, s: found on a rendered walk
+// (1 frame of 30 Hz) and on two telephones (1 of 60 Hz) without a lag.
 constexpr double kLagOfSidesSd = 0.02;
 
-// The best of many turns, on few of the moments.
+// The best of many rotations, on few of the moments.
 std::optional<VectorXd> coarse(const std::vector<SharedMoment>& moments,
                                std::span<const SeenMoment> second,
                                const TwoViewAssumptions& given) {
@@ -51,7 +52,7 @@ std::optional<VectorXd> coarse(const std::vector<SharedMoment>& moments,
   return best;
 }
 
-// Cameras in the world.
+// The cameras in the world.
 struct Placed {
   std::array<Camera, 2> cameras;
   std::vector<Vector3d> places;
@@ -117,7 +118,7 @@ Numbers numbers_of(const std::array<Camera, 2>& cameras, double lag) {
   return out;
 }
 
-// Where everything is by the unknowns of the rays: the floor follows from them.
+// All results as functions of the unknowns of the rays; the floor follows from them.
 struct Solution {
   Placed at;
   Numbers numbers;
@@ -136,10 +137,11 @@ Solution solved(const WalkerRays& rays, const VectorXd& unknowns, const TwoViewA
   return out;
 }
 
-// Of what the rays leave open, along the axes of its covariance, of the floor, of the stature.
+// Variances due to what the rays leave undetermined (along the axes of its covariance), the floor
+// and the stature.
 Numbers variances_of(const WalkerRays& rays, const LeastSquaresFit& found, const Solution& best,
                      const TwoViewAssumptions& given) {
-  constexpr double kSmall = 0.1;  // of a deviation, for which all is linear
+  constexpr double kSmall = 0.1;  // share of a deviation for which functions are nearly linear
   Numbers out = Numbers::Zero();
   const auto add = [&](const Solution& other) {
     out += (other.numbers - best.numbers).cwiseAbs2() / (kSmall * kSmall);

@@ -20,11 +20,12 @@ using enum KeypointName;
 
 namespace {
 
-// Shares of the stature (Winter 2009, figure 4.1): eyes and ears above the ankle, less 0.012 for
-// hips that are lower in a walk than in standing; the ankle above the floor, with a sole.
+// Shares of the stature (Winter 2009, figure 4.1): eyes and ears above the ankle, minus 0.012
+// because hips are lower in walking than in standing; the ankle above the floor, with a sole.
 constexpr double kEyesAboveAnkle = 0.936 - 0.039 - 0.012;
 constexpr double kAnkle = 0.039, kSole_m = 0.01;
-// How far people and telephones are from upright, and stance ankles from one height. By hand.
+// Deviations of people and telephones from upright, and of the ankles of supporting legs from a
+// common height. By hand.
 constexpr double kTrunkSidewaysSd_deg = 2, kTrunkForwardSd_deg = 4, kRollSd_deg = 2,
                  kTiltSd_deg = 10, kStanceSd_m = 0.03;
 
@@ -42,7 +43,8 @@ double eyes_and_ears(const BodyPoints& body, const Vector3d& up) {
   return 0.5 * (mean(body, kLeftEye, kRightEye) + mean(body, kLeftEar, kRightEar)).dot(up);
 }
 
-// From the ankles to the shoulders: how far to the subject's right and ahead, per length.
+// Horizontal offset of the shoulders from the ankles, to the subject's right and forward, per
+// length.
 Vector2d lean_of(const BodyPoints& body, const Vector3d& up) {
   const Vector3d hips = point_of(body, kRightHip) - point_of(body, kLeftHip);
   const Vector3d right = (hips - hips.dot(up) * up).normalized();
@@ -64,7 +66,7 @@ double median_over(std::span<const BodyPoints> bodies, const Of& of) {
 FloorFit::FloorFit(std::span<const BodyPoints> bodies, const CameraPair& pair, double weight,
                    double stature)
     : bodies_(bodies), pair_(pair), weight_(weight), stature_(stature) {
-  // The scale follows from the vertical, which hardly depends on it.
+  // The scale follows from the vertical, on which it hardly depends.
   constexpr int kPasses = 3;
   VectorXd x = VectorXd::Zero(3);
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -91,7 +93,7 @@ VectorXd FloorFit::residuals(const VectorXd& x, double scale) const {
   for (Eigen::Index m = 0; m < count; ++m) {
     const BodyPoints& body = bodies_[static_cast<size_t>(m)];
     const double above = (scale * low_ankle(body, up) - x[2]) / kStanceSd_m;
-    // Less than the square for a foot that is on its toes or seen wrongly.
+    // Less than the square for a foot that is on its toes or detected wrongly.
     out[m] =
         weight_ * std::copysign(std::sqrt(2 * (std::sqrt(1 + 0.5 * above * above) - 1)), above);
     lean += lean_of(body, up) / static_cast<double>(count);

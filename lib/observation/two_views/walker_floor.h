@@ -1,4 +1,4 @@
-// Which way is up, how high the floor is and how large everything, from one walker's joints
+// Estimates the vertical direction, the height of the floor and the scale from one subject's joints
 // (two_views.h).
 #pragma once
 
@@ -12,21 +12,21 @@ namespace walktrack {
 inline namespace observation {
 
 struct WalkerFloor {
-  Eigen::Vector3d up;  // in the first camera's axes
+  Eigen::Vector3d up;  // vertical direction in the first camera's axes
   double height;       // of the floor along it, m
-  double scale;        // metres of one unit
+  double scale;        // metres in one unit
 };
 
 class FloorFit {
  public:
-  // At least one body. `weight`: how much a moment counts among the others.
+  // For at least one body. `weight`: weight of each moment.
   FloorFit(std::span<const BodyPoints> bodies, const CameraPair& pair, double weight,
            double stature);
 
-  // Of the lean of the vertical in the first camera's axes (two numbers, rad) and of how high
-  // stance ankles are (m).
+  // Estimates the lean of the vertical in the first camera's axes (two numbers, rad) and the height
+  // of the ankles of supporting legs (m).
   const LeastSquaresFit& fit() const { return fit_; }
-  // With that much more lean.
+  // The floor with additional lean.
   WalkerFloor floor(const Eigen::Vector2d& more_lean = Eigen::Vector2d::Zero()) const;
 
  private:
@@ -39,7 +39,7 @@ class FloorFit {
   LeastSquaresFit fit_;
 };
 
-// What the share of the stature that eyes and ears are above the ankles is uncertain by, share.
+// Relative uncertainty of the height of eyes and ears above the ankles.
 inline constexpr double kEyesSd = 0.017;
 
 }  // namespace observation

@@ -19,29 +19,34 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr float kSeenEnough = 0.25F;  // confidence
-constexpr size_t kLeastPoints = 8;    // of a person, seen by both
+constexpr size_t kLeastPoints = 8;    // of a person, visible to both cameras
 
-// Of a point that a network sees, share of the person's height, from moment to moment and for as
-// long as the walk is seen from one side, for it takes a joint where it seems to be from there:
-// about what MoveNet's points are off the rays of two telephones.
+// Errors of a network's point, share of the person's height: independent from moment to moment, and
+// constant for the side from which the walk is seen, because it takes a joint where it seems to be
+// from there. These are about the distances of MoveNet's points from the rays of two telephones.
 constexpr double kPointSd = 0.01, kSideSd = 0.01;
-// Points of a face, of which a side hides one or two, are guessed more.
+// Points of the face, of which one or two are hidden from the side, have errors this many times as
+// large.
 constexpr double kFaceSd = 2;
 constexpr size_t kFacePoints = 5;
-// Of a bone's length from moment to moment, for joints lie inside and are seen on the outline. By
-// hand; bones count half, for they are made of the same points.
+// Relative variation of a bone's length from moment to moment, because joints are inside the body
+// and detected on its outline. By hand; bones have half weight, because they consist of the same
+// points.
 constexpr double kBoneSd = 0.08, kBoneWeight = 0.5;
-// Errors of a network go with the pose: looks that are nearer in time than this say the same, s.
+// Errors of a network depend on the pose: images that are nearer in time than this are not
+// independent, s.
 constexpr double kIndependent_s = 0.25;
-// Recordings are begun by hand at a sign or by one program; longer lags are for the user to cut.
+// Recordings are started by hand at a sign or by one program; longer lags have to be cut by the
+// user.
 constexpr double kLagSd_s = 0.1;
-// Misses in deviations: as far off as this is nowhere, and no longer the same thing.
+// Residuals in standard deviations: the limit for points that cannot be right, and that for
+// outliers.
 constexpr double kFarOff = 100, kOutlier = 10;
 
 enum Unknown : Eigen::Index {
-  kLogFocal,                   // of both cameras, of their shares of what was assumed
-  kRotation = kLogFocal + 2,   // second from first, rotation vector
-  kDirection = kRotation + 3,  // of the first camera as the second sees it: two angles
+  kLogFocal,                   // of both cameras, logarithms of the ratio to the assumed one
+  kRotation = kLogFocal + 2,   // of the second camera relative to the first, rotation vector
+  kDirection = kRotation + 3,  // of the first camera as seen from the second: two angles
   kLag = kDirection + 2,
   kUnknowns
 };
@@ -98,7 +103,8 @@ Vector3d ray_of(const Vector2d& at, const LensAssumption& lens, double focal_px)
   return Vector2d((at - middle_of(lens)) / focal_px).homogeneous();
 }
 
-// Its square grows like that of small misses and like the size of large ones (Charbonnier 1997).
+// Its square grows quadratically for small residuals and linearly for large ones (Charbonnier
+// 1997).
 double robust(double miss) {
   return std::copysign(std::sqrt(2 * (std::sqrt(1 + 0.5 * miss * miss) - 1)), miss);
 }
@@ -121,11 +127,11 @@ std::vector<SharedMoment> thinned(const std::vector<SharedMoment>& moments, size
   return out;
 }
 
-// Where two rays are nearest, in the first camera's axes.
+// The nearest points of two rays, in the first camera's axes.
 struct WalkerRays::Meeting {
   Vector3d point;
-  bool ahead;  // of both cameras
-  bool above;  // the first ray passes on one side of the second one, or on the other
+  bool ahead;  // whether it is in front of both cameras
+  bool above;  // whether the first ray passes on one side of the second one, or on the other
 };
 
 WalkerRays::WalkerRays(std::vector<SharedMoment> moments, std::span<const SeenMoment> second,
@@ -149,7 +155,7 @@ CameraPair WalkerRays::pair(const VectorXd& x) const {
           x[kLag]};
 }
 
-// On the line between two frames.
+// Interpolated linearly between two frames.
 Vector2d WalkerRays::second_at(const SharedMoment& moment, size_t point, double lag) const {
   const double time = moment.time + lag;
   size_t k = moment.second;
@@ -178,7 +184,7 @@ WalkerRays::Meeting WalkerRays::meeting(const SharedMoment& moment, size_t point
           along > 0 && along_second > 0, pair.translation.dot(first.cross(second)) > 0};
 }
 
-// In deviations, over both pictures; its sign says which ray passes above the other.
+// In standard deviations, over both images; the sign states which ray passes above the other.
 double WalkerRays::miss(const SharedMoment& moment, size_t point, const CameraPair& pair) const {
   const Meeting met = meeting(moment, point, pair);
   const Vector3d second = pair.second_from_first * met.point + pair.translation;
@@ -222,7 +228,7 @@ double WalkerRays::rms(const CameraPair& pair) const {
   return kPointSd * std::sqrt(sum / all);
 }
 
-// By moment, in deviations from the median length; 0 where an end is not seen.
+// By moment, in standard deviations from the median length; 0 if an end was not detected.
 std::vector<double> WalkerRays::bone_misses(const std::vector<BodyPoints>& bodies,
                                             KeypointName from, KeypointName to) const {
   const auto seen = [&](size_t m) {
@@ -238,7 +244,7 @@ std::vector<double> WalkerRays::bone_misses(const std::vector<BodyPoints>& bodie
   return out;
 }
 
-// Of one point by moment, and what they have in common.
+// Adds the residuals of one point by moment, and their common part.
 void WalkerRays::add_point(size_t point, const CameraPair& pair, VectorXd& out,
                            Eigen::Index& at) const {
   const double sd = point < kFacePoints ? kFaceSd : 1;
@@ -279,7 +285,7 @@ VectorXd WalkerRays::residuals(const VectorXd& x) const {
   return out;
 }
 
-// Of the person, where their height is 1, by the middle of their points and their size.
+// Position of the person, in units of their height, from the middle and the size of their points.
 Vector3d WalkerRays::mean_place(size_t camera) const {
   const LensAssumption& lens = given_.lenses[camera];
   std::vector<double> x, y, far;

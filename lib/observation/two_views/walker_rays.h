@@ -1,5 +1,5 @@
-// Two cameras' pose to each other by bundle adjustment over one walker's keypoints (two_views.h):
-// every point is where its two rays are nearest, and bones do not change their length.
+// The relative pose of two cameras by bundle adjustment over one subject's keypoints (two_views.h):
+// every point is at the nearest points of its two rays, and bones have constant length.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ inline namespace observation {
 
 inline constexpr size_t kSharedPoints = 17;  // those of COCO
 
-// The joints of one moment, in the first camera's axes; the cameras are 1 apart.
+// The joints at one moment, in the first camera's axes; the cameras are at a distance of 1.
 using BodyPoints = std::array<Eigen::Vector3d, kSharedPoints>;
 
 inline const Eigen::Vector3d& point_of(const BodyPoints& body, KeypointName name) {
@@ -27,19 +27,19 @@ inline const Eigen::Vector3d& point_of(const BodyPoints& body, KeypointName name
 // A person at one moment as both cameras see them.
 struct SharedMoment {
   double time;
-  size_t second;  // moment of the second video, nearest without a lag
+  size_t second;  // moment of the second video that is nearest without a lag
   std::array<Eigen::Vector2d, kSharedPoints> first;
-  std::array<bool, kSharedPoints> seen;  // by both
-  std::array<double, 2> size_px;         // of the person in each picture
+  std::array<bool, kSharedPoints> seen;  // by both cameras
+  std::array<double, 2> size_px;         // of the person in each image
 };
 
 std::vector<SharedMoment> shared_moments(std::span<const SeenMoment> first,
                                          std::span<const SeenMoment> second);
 
-// Evenly from all of them.
+// A subset, evenly spread.
 std::vector<SharedMoment> thinned(const std::vector<SharedMoment>& moments, size_t most);
 
-// The pose of the cameras to each other, the distance between them being 1.
+// The relative pose of the cameras, whose distance is 1.
 struct CameraPair {
   std::array<double, 2> focal_px;
   Eigen::Matrix3d second_from_first;
@@ -47,28 +47,28 @@ struct CameraPair {
   double lag;  // s
 };
 
-// All that both cameras saw. What it was made from has to outlive it.
+// All observations of both cameras. The arguments have to outlive it.
 class WalkerRays {
  public:
-  // At least one moment.
+  // `moments`: at least one.
   WalkerRays(std::vector<SharedMoment> moments, std::span<const SeenMoment> second,
              const TwoViewAssumptions& given);
 
-  // The unknowns of two level cameras turned to each other by `turn` (rad): the person is as far
-  // from each as their size says, in the middle of where each sees them.
+  // The unknowns of two level cameras rotated relative to each other by `turn` (rad): the distance
+  // of the person from each follows from their size, at the mean of their positions.
   Eigen::VectorXd start(double turn) const;
   // The unknowns near `start` at which rays meet best.
   LeastSquaresFit adjusted(const Eigen::VectorXd& start) const;
 
   CameraPair pair(const Eigen::VectorXd& unknowns) const;
   std::vector<BodyPoints> bodies(const CameraPair& pair) const;
-  // Share of the points that are ahead of both cameras.
+  // Share of the points that are in front of both cameras.
   double ahead(const CameraPair& pair) const;
-  // Rms of what points miss in the pictures, share of the person's height; misses of more than ten
-  // deviations count as that.
+  // Rms of the points' residuals in the images, share of the person's height; residuals of more
+  // than ten standard deviations count as ten.
   double rms(const CameraPair& pair) const;
 
-  // How much a moment counts among the others, for what is nearly at the same time says the same.
+  // Weight of each moment, because moments at nearly the same time are not independent.
   double weight() const { return weight_; }
 
  private:
