@@ -1,4 +1,4 @@
-// walktrack analyse: gait, angles and forces of a motion that is already there.
+// walktrack analyse: gait, angles and forces of an existing motion.
 #include <fmt/format.h>
 
 #include "commands.h"

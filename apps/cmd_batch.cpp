@@ -21,7 +21,7 @@ namespace po = boost::program_options;
 
 namespace {
 
-// This program tracking one sequence, with the options that it was given itself.
+// This program with the options that it was given itself, to track one sequence.
 std::vector<std::string> track_command(const CommonOptions& common, int jobs, bool ignore_checks) {
   std::vector<std::string> words{std::filesystem::read_symlink("/proc/self/exe").string(), "track"};
   if (!common.config_file.empty()) words.insert(words.end(), {"-c", common.config_file});
@@ -50,12 +50,12 @@ int list_work(const BatchJob& job) {
 
 int exit_code(const BatchOutcome& outcome) {
   if (outcome.interrupted || stop_request()) return kInterrupted;
-  // What other workers are at is theirs to answer for.
+  // Sequences of other workers do not count for the exit code of this one.
   if (outcome.failed + outcome.waiting - outcome.elsewhere > 0) return kFailed;
   return outcome.degraded > 0 ? kDegraded : kDone;
 }
 
-// CPU seconds for a second of video; nothing where no result says it.
+// CPU seconds for a second of video; nullopt if no result states it.
 std::optional<double> cost_of(const BatchOutcome& outcome) {
   return outcome.video_seconds > 0 ? std::optional(outcome.cpu_seconds / outcome.video_seconds)
                                    : std::nullopt;
@@ -98,14 +98,14 @@ std::string result_line(const BatchJob& job, const BatchOutcome& outcome, int co
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-// What the whole output folder holds by now, whoever did it.
+// The state of the whole output folder, for all workers.
 int report(const BatchJob& job) {
   const SequenceList all(job);
   const BatchOutcome counts = write_batch_reports(job, all);
   return counts.complete == static_cast<int>(all.size()) ? kDone : kFailed;
 }
 
-// Where the sequences are, which is said once.
+// Notes on the places of the sequences, once.
 void check_places(const BatchJob& job, const CommandLine& line) {
   if (job.folder.empty() && job.manifest.empty())
     throw UsageError("FOLDER is missing, or --manifest; see 'walktrack batch --help'");
@@ -126,7 +126,7 @@ void check_places(const BatchJob& job, const CommandLine& line) {
   if (job.jobs < 1) throw UsageError("--jobs: found less than 1, allowed: from 1");
 }
 
-// What the command line says.
+// Values of the command line.
 struct BatchArguments {
   BatchJob job;
   std::string folder, scene_template, work, shard = "1/1";
@@ -209,7 +209,7 @@ int run_batch(const Arguments& arguments) {
   job.overwrite = line.common().overwrite;
   if (given.list_only) return list(job);
   if (given.report_only) return report(job);
-  job.config = line.config();  // a mistake in it would fail every sequence
+  job.config = line.config();  // a mistake in it would make every sequence fail
   if (given.dry_run) return list_work(job);
   job.command = track_command(line.common(), job.jobs, given.ignore_checks);
   Terminal terminal(line.common());

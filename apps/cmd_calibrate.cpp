@@ -1,4 +1,4 @@
-// walktrack calibrate: a camera's lens and place.
+// walktrack calibrate: a camera's lens and pose.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -25,7 +25,7 @@ constexpr const char* kAbout =
     "Writes the\ncalibration for scenes and for Pose2Sim, the residuals, and pictures that show "
     "how good it is.\nWith --import it converts the calibration of another tool.";
 
-// "9x6": two whole numbers within these limits.
+// "9x6": two integers within these limits.
 std::optional<std::array<int, 2>> two_whole_numbers(std::string_view text, int least, int most) {
   std::array<int, 2> out{};
   const size_t x = text.find('x');
@@ -104,7 +104,7 @@ struct ImportOptions {
     return ImageSize{(*sides)[0], (*sides)[1]};
   }
 
-  // Done or not: whether the line asks for it.
+  // Runs it if the command line asks for it; returns whether it did.
   bool run(const CommandLine& line, const std::string& name, const Arguments& arguments) const {
     if (file.empty()) {
       line.refuse({"image-size"}, "this option with --import");

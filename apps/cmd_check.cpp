@@ -1,4 +1,4 @@
-// walktrack check: the doctor for scenes and calibrations.
+// walktrack check: tests of scenes and calibrations.
 #include <fmt/format.h>
 
 #include "commands.h"

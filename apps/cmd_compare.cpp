@@ -1,4 +1,4 @@
-// walktrack compare: what differs between results, or between left and right.
+// walktrack compare: differences between results, or between left and right.
 #include <fmt/format.h>
 
 #include "commands.h"

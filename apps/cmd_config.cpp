@@ -1,4 +1,4 @@
-// walktrack config: the commented defaults, or what a file and --set make of them.
+// walktrack config: the configuration with comments, after a file and --set.
 #include <fmt/format.h>
 
 #include "commands.h"

@@ -1,4 +1,4 @@
-// walktrack cycle: one limit cycle of a walker and what it is like.
+// walktrack cycle: a limit cycle of a walker and its properties.
 #include <fmt/format.h>
 
 #include "commands.h"
@@ -12,7 +12,7 @@
 namespace walktrack {
 namespace {
 
-// "key=value" of --follow.
+// Parses "key=value" of --follow.
 void set_follow(const std::string& text, CycleJob& job) {
   if (text.empty()) return;
   const size_t equals = text.find('=');

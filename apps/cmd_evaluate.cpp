@@ -1,4 +1,4 @@
-// walktrack evaluate: figures of estimates against a truth.
+// walktrack evaluate: errors of estimates against a truth.
 #include <fmt/format.h>
 
 #include "commands.h"

@@ -1,4 +1,4 @@
-// walktrack init: from one video or two and a height to a scene.
+// walktrack init: makes a scene from one or two videos and a height.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -80,7 +80,7 @@ double subject_height(const CommandLine& line, double height) {
   return *tall;
 }
 
-// What both kinds of jobs take alike.
+// Sets the options that both kinds of jobs share.
 void set_common(auto& job, const CommandLine& line, const InitOptions& options,
                 const Arguments& arguments) {
   job.height = subject_height(line, options.height);
@@ -92,7 +92,7 @@ void set_common(auto& job, const CommandLine& line, const InitOptions& options,
   job.command_line.insert(job.command_line.end(), arguments.begin(), arguments.end());
 }
 
-// The n-th of what was given once for all or once for each video.
+// The n-th value of an option that is given once for all videos or once for each.
 std::optional<double> field_of_view(const CommandLine& line, const InitOptions& options, size_t n) {
   if (options.fovs.empty()) return std::nullopt;
   return within(line, "fov-deg", options.fovs[std::min(n, options.fovs.size() - 1)], 5, 150);

@@ -1,4 +1,4 @@
-// walktrack plan: what tracking would model and cost.
+// walktrack plan: models and cost of tracking a scene.
 #include <fmt/format.h>
 
 #include "commands.h"

@@ -1,4 +1,4 @@
-// walktrack prior: builds the table of gaits, or shows what a table holds.
+// walktrack prior: builds the table of gaits, or describes its content.
 #include <fmt/format.h>
 
 #include "commands.h"

@@ -1,4 +1,4 @@
-// walktrack render: a motion becomes a synthetic scene with its truth.
+// walktrack render: converts a motion to a synthetic scene with its truth.
 #include <chrono>
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// walktrack selftest: extremes on the installed program.
+// walktrack selftest: extreme inputs for the installed program.
 #include <filesystem>
 
 #include <fmt/format.h>

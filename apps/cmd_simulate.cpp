@@ -1,4 +1,4 @@
-// walktrack simulate: a walker through time, as tables, pictures and an animation.
+// walktrack simulate: simulates a walker and writes tables, images and an animation.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,7 +20,7 @@
 namespace walktrack {
 namespace {
 
-// The table of --extremes, to --output or stdout.
+// Writes the table of --extremes to --output or stdout.
 void write_extremes(const CommandLine& line) {
   line.refuse({"model", "config", "set", "integrator", "step", "duration", "seconds", "steps",
                "sample", "slow", "no-pictures", "prior"},
@@ -32,7 +32,7 @@ void write_extremes(const CommandLine& line) {
   line.write_or_print(stability_csv(job, stability_table(job)));
 }
 
-// The body in 3-D takes the same options as far as they mean something to it.
+// The 3-D body takes the same options as far as they apply to it.
 SimulationEnd simulate_articulated(const CommandLine& line, const SimulateJob& shared,
                                    const std::vector<std::string>& command_line) {
   line.refuse({"steps", "prior", "speed", "speed-at", "step-length", "feedback"},
@@ -50,7 +50,7 @@ SimulationEnd simulate_articulated(const CommandLine& line, const SimulateJob& s
                                    command_line);
 }
 
-// Options of a walk out of the table of gaits.
+// Options of a walk from the table of gaits.
 class PriorOptions {
  public:
   void declare(CommandLine& line) {
@@ -69,7 +69,8 @@ class PriorOptions {
         "strength of the feedback at support transfer, with --prior; 0: none");
   }
 
-  // Kuo's anthropomorphic walker has units of its own; whoever names no other walks as an adult.
+  // Kuo's anthropomorphic walker has units of its own; without a named model it is scaled to an
+  // adult.
   void apply(SimulateJob& job, const CommandLine& line) {
     const CommonOptions& common = line.common();
     if (!wanted_)
@@ -112,12 +113,12 @@ class PriorOptions {
   }
 
   bool wanted_ = false;
-  double speed_ = std::numeric_limits<double>::quiet_NaN();  // not given
+  double speed_ = std::numeric_limits<double>::quiet_NaN();  // not stated
   WalkPlan walk_;
   std::vector<std::string> changes_;
 };
 
-// What can be simulated, kept and drawn in memory and before anybody loses patience.
+// Refuses sizes that would take too much memory or time.
 void check_sizes(const CommandLine& line, const SimulateJob& job) {
   line.config_of_run();  // checks --seed and --threads, which a simulation does not depend on
   if (line.given("duration") && line.given("seconds"))
@@ -133,7 +134,7 @@ void check_sizes(const CommandLine& line, const SimulateJob& job) {
                               "frames of animation");
 }
 
-// Says how it ended; a walker that did not hold out has its own exit code.
+// Reports the outcome; a walker that fell has its own exit code.
 int told(const JobControl& control, const SimulationEnd& end) {
   control.say(end.text);
   return end.health == Health::kSound ? kDone : kDegraded;

@@ -1,4 +1,4 @@
-// walktrack sweep: what accuracy costs, measured.
+// walktrack sweep: measures accuracy against time.
 #include <fmt/format.h>
 
 #include "commands.h"

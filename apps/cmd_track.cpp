@@ -1,4 +1,4 @@
-// walktrack track: one scene becomes a result folder.
+// walktrack track: tracks a scene and writes a result folder.
 #include <optional>
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ double above_zero(const char* option, const std::string& text) {
   return *value;
 }
 
-// Both options are other words for budget.frame_ms.
+// Both options set budget.frame_ms.
 void set_budget(const std::string& fps, const std::string& budget_ms, ConfigWithOrigin& config) {
   constexpr double kMsPerSecond = 1000;
   if (!fps.empty() && !budget_ms.empty())
@@ -96,11 +96,11 @@ int run_track(const Arguments& arguments) {
   const JobControl control = terminal.control();
   const TrackOutcome outcome = track_scene(job, control);
   const bool cut_short = outcome.status == TrackStatus::kCutShort;
-  const bool listed = !outcome.failed_checks.empty();  // in the summary
+  const bool listed = !outcome.failed_checks.empty();  // printed by the summary
   if (!outcome.message.empty() && !cut_short && !listed) control.say(outcome.message);
   if (outcome.resumable) control.say("interrupted; run again with --resume to continue from here");
   control.say(summary_text(outcome));
-  // Said last, and even with --quiet, though what came before it is kept.
+  // Reported last, and also with --quiet, although the result before it is kept.
   if (cut_short) throw InputError(outcome.message);
   const int code = stop_request() ? kInterrupted : exit_code(outcome.status);
   if (json_line) fmt::print("{}", summary_json(outcome, job.output.string(), code));

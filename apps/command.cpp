@@ -15,7 +15,8 @@ namespace po = boost::program_options;
 
 namespace {
 
-constexpr char kWords[] = "words that are not options";  // no option on the line can have this name
+constexpr char kWords[] = "words that are not options";  // no option on the command line can have
+                                                         // this name
 
 std::vector<std::string> long_names(const po::options_description& options) {
   std::vector<std::string> names;
@@ -29,7 +30,7 @@ std::string unknown_option(const std::string& found, const po::options_descripti
                      nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest));
 }
 
-// Parses without guessing: an abbreviation that works today may be ambiguous tomorrow.
+// Parses without abbreviations, which a later option might make ambiguous.
 po::variables_map parse_words(const Arguments& arguments, const po::options_description& known) {
   po::options_description all;
   all.add(known).add_options()(kWords, po::value<std::vector<std::string>>());

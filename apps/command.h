@@ -1,4 +1,4 @@
-// What every command shares: the table's entry, the common options, the exit codes.
+// Common parts of all commands: the table's entry, the common options, the exit codes.
 //
 // A command is one file, apps/cmd_<name>.cpp: it declares its options with a CommandLine, parses,
 // fills a job struct, calls the library and returns an exit code. It is listed in main.cpp.
@@ -23,7 +23,7 @@ enum ExitCode {
   kUsage = 2,          // usage or configuration
   kUnreadable = 3,     // an input cannot be read or does not fit
   kDegraded = 4,       // done, but a quality check failed, or the walker fell or diverged
-  kInterrupted = 130,  // stopped by a signal; what was done is kept
+  kInterrupted = 130,  // stopped by a signal; the part that was done is kept
 };
 
 using Arguments = std::vector<std::string>;  // what follows the command's name
@@ -34,7 +34,7 @@ struct Command {
   int (*run)(const Arguments& arguments);
 };
 
-// Options that every command understands, as given.
+// Options of all commands, as stated.
 struct CommonOptions {
   std::string config_file;
   std::vector<std::string> settings;  // key=value
@@ -46,7 +46,7 @@ struct CommonOptions {
   bool verbose = false;
 };
 
-// What --help prints about a command.
+// The content of --help for a command.
 struct CommandHelp {
   std::string name;
   std::string operands;  // e.g. "SCENE.yaml"
@@ -54,7 +54,7 @@ struct CommandHelp {
   std::string example;   // a command that runs on shipped data
 };
 
-// Those of every command, bound to `common`.
+// The options of all commands, bound to `common`.
 boost::program_options::options_description common_options(CommonOptions& common);
 
 class CommandLine {
@@ -63,27 +63,28 @@ class CommandLine {
 
   // Declare the command's own options here: options().add_options()("model", po::value(&x), "…").
   boost::program_options::options_description& options() { return own_; }
-  // Declares an operand, in order. An operand that stays empty is an error unless optional.
+  // Declares an operand, in order. An operand that is missing is an error unless optional.
   void operand(const std::string& name, std::string* value, bool optional = false);
-  // An operand list that takes all remaining words, at least one.
+  // Declares an operand list that takes all remaining words, at least one.
   void operands(const std::string& name, std::vector<std::string>* values);
 
-  // False when --help was asked for and printed. Throws UsageError naming the nearest option.
+  // Returns false if --help was asked for and printed. Throws a UsageError that names the nearest
+  // option.
   bool parse(const Arguments& arguments);
 
   const CommonOptions& common() const { return common_; }
-  // Whether an option was given on the line.
+  // Whether an option was given on the command line.
   bool given(const std::string& option) const { return given_.contains(option); }
-  // UsageError that names the first of these options that was given: here it would mean nothing.
+  // UsageError that names the first of these options that was given, because it has no effect here.
   void refuse(const std::vector<std::string>& options, const std::string& allowed) const;
-  // The defaults, changed by --config, then --set, then --seed and --threads.
+  // The defaults, changed by --config, then by --set, then by --seed and --threads.
   ConfigWithOrigin config() const;
-  // The same where --config and --set mean a model.
+  // The same for commands whose --config and --set refer to a model.
   ConfigWithOrigin config_of_run() const;
-  // --output, or UsageError when it is missing.
+  // --output; UsageError if it is missing.
   std::string required_output() const;
-  // Writes a result that is one text to --output, or prints it where that is missing. UsageError
-  // where it would overwrite one of the inputs, or --config.
+  // Writes a result that is one text to --output, or prints it without --output. UsageError if it
+  // would overwrite one of the inputs, or --config.
   void write_or_print(const std::string& text,
                       const std::vector<std::filesystem::path>& inputs = {}) const;
 

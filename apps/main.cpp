@@ -1,4 +1,4 @@
-// walktrack: the table of commands, and the one place where errors become exit codes.
+// walktrack: the table of commands, and the conversion of errors to exit codes.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -98,7 +98,7 @@ int run(const Arguments& words) {
   return run_command(words[0], {words.begin() + 1, words.end()});
 }
 
-// Whether these words ask for errors as JSON: also words that are no valid command line.
+// Whether the arguments ask for errors as JSON, also if they are not a valid command line.
 bool has_option(const Arguments& words, std::string_view option, std::string_view value = "") {
   for (size_t i = 0; i < words.size(); ++i) {
     if (value.empty() && words[i] == option) return true;
@@ -110,7 +110,7 @@ bool has_option(const Arguments& words, std::string_view option, std::string_vie
 }
 
 int complain(const Arguments& words, const std::exception& error, ExitCode code) {
-  // Not fmt::print, which throws where stderr is a file on a full disk.
+  // fmt::print would throw if stderr is a file on a full disk.
   std::fputs(has_option(words, "--progress", "json")
                  ? error_json(error.what(), code).c_str()
                  : fmt::format("walktrack: {}\n", error.what()).c_str(),
@@ -126,7 +126,7 @@ int complain(const Arguments& words, const std::exception& error, ExitCode code)
 
 int main(int argc, char** argv) {
   using namespace walktrack;
-  // Decoders write their own complaints to stderr; ours name file and frame.
+  // Decoders write messages of their own to stderr; those of this program name file and frame.
   setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   setenv("OPENCV_LOG_LEVEL", "SILENT", 0);
   const Arguments words(argv + std::min(argc, 1), argv + argc);

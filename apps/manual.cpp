@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kSystemDemo = "/usr/share/walktrack/demo";
 
-// Text as roff prints it: a minus that can be copied, no line taken for a request.
+// Text in roff: hyphens that can be copied, and no line that is taken for a request.
 std::string roff(std::string_view text) {
   std::string safe;
   bool line_start = true;
@@ -32,7 +32,7 @@ std::string roff(std::string_view text) {
   return safe;
 }
 
-// "bold" words of an option: "-o, --output PATH".
+// The names of an option in bold: "-o, --output PATH".
 std::string option_heading(const po::option_description& option) {
   std::string names = option.format_name();  // "-o [ --output ]" or "--set"
   std::string heading;

@@ -28,7 +28,7 @@ ModelSpec ModelOptions::model(const CommandLine& line) const {
 }
 
 SimulationOptions ModelOptions::simulation() const {
-  // Events are located to 1e-12 s: steps have to be longer by far.
+  // Events are located to 1e-12 s, so that steps have to be much longer.
   require("--step", step_, 1e-6, 1);
   SimulationOptions options;
   options.max_step = step_;

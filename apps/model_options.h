@@ -1,4 +1,4 @@
-// The options that simulate and cycle share: which model and how it is integrated.
+// The options that simulate and cycle share: the model and its integration.
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@ namespace walktrack {
 class ModelOptions {
  public:
   void declare(CommandLine& line);
-  // What --model or the model file says.
+  // The name that --model or the model file states.
   std::string name(const CommandLine& line) const;
   // The model that --model, --config and --set describe.
   ModelSpec model(const CommandLine& line) const;
   SimulationOptions simulation() const;
-  // UsageError where the option's number is not in its range.
+  // UsageError if the option's number is not in its range.
   static void require(const std::string& option, double value, double lowest, double highest);
-  // UsageError where a time is divided into more pieces than `most`.
+  // UsageError if a time is divided into more pieces than `most`.
   static void require_few(const std::string& option, double time, double piece, double most,
                           const std::string& pieces);
   static std::vector<std::string> command_line(const std::string& name, const Arguments& arguments);

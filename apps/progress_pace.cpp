@@ -29,7 +29,7 @@ bool ProgressPace::due(const Progress& progress, Clock::time_point now) {
     said_ = false;
   }
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  // What a run that is gone on with had done before took none of this time.
+  // Frames of an earlier run that was resumed took none of this time.
   const auto since = static_cast<double>(progress.done - std::min(progress.done, done_before_));
   per_second_ = seconds > 0 ? since / seconds : 0;
   const size_t left = progress.total - std::min(progress.done, progress.total);

@@ -1,4 +1,4 @@
-// How fast a stage of a job goes on, and when to say so.
+// The speed of a stage of a job, and the times at which it is reported.
 #pragma once
 
 #include <chrono>
@@ -12,20 +12,20 @@ class ProgressPace {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // At most one word every `interval`: the first of a stage at once or, with `patient`, only after
-  // the interval; the last of a stage in any case, of a patient one if it has said something
-  // before.
+  // At most one report every `interval`. The first report of a stage is made at once or, with
+  // `patient`, only after the interval; the last one of a stage is always made, of a patient one
+  // only if there was a report before.
   explicit ProgressPace(Clock::duration interval, bool patient = false)
       : interval_(interval), patient_(patient) {}
 
-  // Takes note; whether it is time to say something.
+  // Records the progress; returns whether it should be reported now.
   bool due(const Progress& progress, Clock::time_point now);
 
-  // Of what was noted last; 0 = not known yet.
+  // Of the last progress; 0 = unknown yet.
   double per_second() const { return per_second_; }
-  // NaN = not known.
+  // NaN = unknown.
   double seconds_left() const { return seconds_left_; }
-  // Whether what was noted last began a new stage.
+  // Whether the last progress began a new stage.
   bool new_stage() const { return new_stage_; }
 
  private:
@@ -44,7 +44,7 @@ std::string duration_text(double seconds);
 std::string progress_text(const Progress& progress, const ProgressPace& pace,
                           const std::string& bar = "");
 
-// {"event": "progress", "what", "done", "total", "per_second", "seconds_left"}; null: not known.
+// {"event": "progress", "what", "done", "total", "per_second", "seconds_left"}; null: unknown.
 std::string progress_json(const Progress& progress, const ProgressPace& pace);
 // {"event": "message", "text"} or {"event": "error", "exit", "text"}.
 std::string message_json(std::string_view text);

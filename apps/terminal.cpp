@@ -14,7 +14,7 @@ namespace walktrack {
 
 namespace {
 
-// A signal handler reaches nothing but static storage.
+// A signal handler may only use static storage.
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
@@ -37,7 +37,8 @@ void watch_signals() {
   struct sigaction action = {};
   action.sa_handler = request_stop;
   sigemptyset(&action.sa_mask);
-  // The handler is for one signal only: the second ends the program. Reads resume after the first.
+  // The handler is for one signal only: the second ends the program. Reads are restarted after the
+  // first.
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);

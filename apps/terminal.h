@@ -1,4 +1,4 @@
-// The terminal's side of a running job: signals that ask it to stop, a progress bar, messages.
+// The terminal's part of a running job: signals that interrupt it, a progress bar, messages.
 #pragma once
 
 #include <atomic>
@@ -11,15 +11,15 @@
 
 namespace walktrack {
 
-// From now on SIGINT and SIGTERM raise the stop request; a second one ends the program at once.
+// From now on SIGINT and SIGTERM set the stop request; a second signal ends the program at once.
 void watch_signals();
 
-// Raised by a signal; jobs look at it between frames.
+// Set by a signal; jobs test it between frames.
 const std::atomic<bool>& stop_request();
 
-// Shows a job on stderr: messages unless --quiet, and how far it is. On a terminal that is one line
-// drawn over itself, "tracking [=====>    ] 41/84  12.3/s  3 s left" (plain with NO_COLOR);
-// elsewhere a line every half minute, so that a log shows a long run at work. With --progress json
+// Shows a job on stderr: messages unless --quiet, and its progress. On a terminal that is one line
+// that is redrawn, "tracking [=====>    ] 41/84  12.3/s  3 s left" (plain with NO_COLOR); otherwise
+// a line every half minute, so that a log shows that a long run continues. With --progress json
 // everything is a line of JSON (progress_pace.h).
 class Terminal {
  public:
@@ -28,7 +28,7 @@ class Terminal {
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
 
-  // What the job is given. Must not outlive this terminal.
+  // The control for the job. It must not outlive this terminal.
   JobControl control();
 
  private:

@@ -1,18 +1,18 @@
-// Plain structs as bytes and back, for files that only the program that wrote them reads again.
-// Numbers are stored as this machine holds them, lists and texts with their length in front.
+// Converts plain structs to bytes and back, for files that are only read by the program that wrote
+// them. Numbers are stored in the machine's representation; lists and texts follow their length.
 //
-// A file may be damaged or made by somebody else, so a reader believes nothing: a flag is 0 or 1,
-// an enum one of its values, a number finite unless its field says any_number(), a number that is
-// used as a count or an index within(its bounds), a list no longer than the bytes that are left can
-// hold. An enum takes part by last_value(E), its largest value; the smallest is 0.
+// A file may be damaged or forged, so the reader checks everything: a flag is 0 or 1, an enum is
+// one of its values, a number is finite unless its field says any_number(), a number that is used
+// as a count or an index is within(its bounds), a list is no longer than the remaining bytes allow.
+// For an enum, last_value(E) states its largest value; the smallest is 0.
 //
-// A struct takes part by a function that names all of its members, for both directions:
+// A struct is archived by a function that names all of its members, for both directions:
 //   template <typename Archive, ArchivedAs<Point> T>
 //   void fields(Archive& archive, T& value) {
 //     auto& [x, y] = value;
 //     archive(x, y);
 //   }
-// The structured binding makes a member that was added and forgotten an error of the compiler.
+// Because of the structured binding, a member that was added and forgotten is a compile error.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ inline namespace io {
 template <typename T, typename Struct>
 concept ArchivedAs = std::same_as<std::remove_const_t<T>, Struct>;
 
-// A field whose numbers may be anything: "unknown" and "impossible" are NaN and infinities.
+// A field whose numbers may have any value: NaN stands for unknown, infinities for impossible.
 template <typename T>
 struct AnyNumber {
   T& value;
@@ -127,7 +127,7 @@ class ArchiveWriter {
   std::string bytes_;
 };
 
-// The bytes that a T takes at least: one whose lists and optional members are empty.
+// The least number of bytes of a T: those of one whose lists and optional members are empty.
 template <typename T>
 size_t least_bytes() {
   static const size_t bytes = [] {
@@ -138,8 +138,8 @@ size_t least_bytes() {
   return bytes;
 }
 
-// Reads what a writer wrote, in the same order. InputError, naming the file, where the bytes end
-// before what they announce or hold what no writer has written.
+// Reads what a writer wrote, in the same order. Throws an InputError that names the file if the
+// bytes end too early or contain something that no writer writes.
 class ArchiveReader {
  public:
   // Both have to outlive the reader.
@@ -150,7 +150,7 @@ class ArchiveReader {
     (get(values), ...);
   }
   bool at_end() const { return rest_.empty(); }
-  // InputError: what was read does not fit together.
+  // Throws an InputError for content that is inconsistent.
   [[noreturn]] void fail(std::string_view what) const {
     throw InputError(std::string(file_) + ": is damaged: " + std::string(what));
   }
@@ -164,7 +164,7 @@ class ArchiveReader {
   [[noreturn]] void ends_early() const {
     throw InputError(std::string(file_) + ": ends before what it announces");
   }
-  // A length of a list whose elements take at least so many bytes each.
+  // Reads the length of a list whose elements take at least so many bytes each.
   size_t length(size_t least) {
     uint64_t count = 0;
     get(count);

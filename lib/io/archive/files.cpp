@@ -33,7 +33,7 @@ std::string complaint(const fs::path& path, std::string_view what, int error) {
   throw std::runtime_error(complaint(path, what, error));
 }
 
-// An open file descriptor, closed at the end of its scope.
+// Closes a file descriptor at the end of its scope.
 class Descriptor {
  public:
   Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
@@ -50,7 +50,7 @@ class Descriptor {
 
 void flush_to_disk(const fs::path& path, int flags) {
   const Descriptor file(path, flags);
-  // Some file systems cannot flush a folder and say EINVAL; then there is nothing more to do.
+  // Some file systems cannot flush a folder and report EINVAL. That is not an error.
   if (::fsync(file.get()) != 0 && errno != EINVAL) fail_writing(path, "cannot be flushed", errno);
 }
 
@@ -63,7 +63,8 @@ std::string read_text_file(const fs::path& path, size_t max_bytes) {
   if (fs::is_directory(status)) {
     throw InputError(fmt::format("{}: found a folder, allowed: a file", path.string()));
   }
-  // Elsewhere than in /dev, where a shell's own pipes are, nobody may ever write to a pipe.
+  // A read from a pipe could block for ever. Pipes are accepted in /dev only, where the shell puts
+  // its own.
   if (!fs::is_regular_file(status) && !path.string().starts_with("/dev/")) {
     throw InputError(fmt::format("{}: found a pipe or a device, allowed: a file", path.string()));
   }
@@ -106,9 +107,8 @@ void publish_file(const fs::path& temporary, const fs::path& path) {
   flush_to_disk(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
 }
 
-// Writers in other threads, and on other machines that share the folder, choose other numbers;
-// where they do not, O_EXCL makes one of them fail rather than mix with the other, or follow a
-// link.
+// Other writers, in other threads or on other machines that share the folder, choose other random
+// numbers. If two numbers are equal, O_EXCL makes one of the writers fail, and it refuses links.
 fs::path new_temporary(const fs::path& path, std::string_view ending) {
   std::random_device random;  // names only: no result depends on it
   fs::path name;

@@ -1,5 +1,5 @@
-// Small things that all readers and writers share: whole text files, numbers as text, and files
-// that appear complete or not at all.
+// Functions that all readers and writers share: whole text files, numbers as text, and files that
+// appear complete or not at all.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,20 @@
 namespace walktrack {
 inline namespace io {
 
-// The whole file. InputError naming the file and the reason, also when it is a folder, a pipe (but
-// /dev/stdin and its like) or larger than `max_bytes`.
+// Reads the whole file. Throws an InputError that names the file and the reason, also for a folder,
+// for a pipe (except /dev/stdin and the like) and for more than `max_bytes`.
 std::string read_text_file(const std::filesystem::path& path, size_t max_bytes);
 
-// The whole text as one finite number in C notation, blanks around it ignored; nullopt if it is
+// The whole text as one finite number in C notation, ignoring white space around it; nullopt for
 // anything else. It does not depend on the locale.
 std::optional<double> number_from_text(std::string_view text);
 
 // The shortest text that reads back as the same double.
 std::string shortest_number(double value);
 
-// The same for what is too long to be held at once: written piece by piece, there after commit().
-// Without it, nothing is left. std::runtime_error naming the file and the reason.
+// The same for content that is too long for memory: it is written piece by piece and appears with
+// commit(). Without commit() nothing remains. Throws a std::runtime_error that names the file and
+// the reason.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& path);
@@ -39,27 +40,30 @@ class AtomicFile {
   int fd_ = -1;
 };
 
-// Writes next to `path`, flushes to the disk and renames: a reader sees the old file or the new
-// one, never half of it. std::runtime_error naming the file and the reason.
+// Writes a file beside `path`, flushes it to the disk and renames it: a reader sees the old file or
+// the new one, never a part of it. Throws a std::runtime_error that names the file and the reason.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
-// A new, empty file beside `path` and for it: "<path>.<number>.tmp<ending>". std::runtime_error.
+// Creates an empty temporary file beside `path`: "<path>.<number>.tmp<ending>". Throws
+// std::runtime_error.
 std::filesystem::path new_temporary(const std::filesystem::path& path,
                                     std::string_view ending = "");
 
-// The name that such a file, ending ".mp4" or none, is made for; "" for any other name.
+// The name for which such a temporary file (with the ending ".mp4" or none) was created; "" for any
+// other name.
 std::string name_of_temporary(std::string_view name);
 
-// A new, empty folder "<stem><six characters>" that nobody else may enter. std::runtime_error.
+// Creates an empty folder "<stem><six characters>" that only its owner may enter. Throws
+// std::runtime_error.
 std::filesystem::path new_folder(const std::filesystem::path& stem);
 
-// UsageError when the file exists and may not be overwritten.
+// Throws a UsageError if the file exists and may not be overwritten.
 void refuse_existing(const std::filesystem::path& path, bool overwrite);
 
-// Flushes a finished file, then renames it over `path`; the folder is flushed too.
+// Flushes a finished file and renames it to `path`; the folder is flushed as well.
 void publish_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
 
-// `base / path`, unless path is absolute; lexically normal.
+// `base / path` unless `path` is absolute; lexically normal.
 std::filesystem::path resolved(const std::filesystem::path& base,
                                const std::filesystem::path& path);
 

@@ -22,7 +22,7 @@ inline namespace io {
 
 namespace {
 
-// In front of each record: its length.
+// The length in front of each record.
 constexpr size_t kLengthBytes = sizeof(uint32_t);
 
 [[noreturn]] void fail(const std::filesystem::path& path, std::string_view what) {
@@ -42,7 +42,8 @@ FrameFile::FrameFile(Opened file) : path_(std::move(file.path)), fd_(file.fd) {
   if (fd_ < 0) fail(path_, "cannot be opened");
 }
 
-// Built by the other one, it is closed again where one of its records is damaged.
+// Delegates to the other constructor, so that the destructor closes the file if this one throws
+// because a record is damaged.
 FrameFile::FrameFile(const std::filesystem::path& path, size_t kept)
     : FrameFile(
           Opened{path, ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666)}) {

@@ -1,6 +1,6 @@
-// The records of a track's frames, kept on the disk: a video may be long, memory does not grow with
-// it. Records are appended as frames are tracked and read back, one at a time, when tables and
-// videos are made of them; the file outlives a process that is killed.
+// The records of a track's frames on the disk, so that memory does not grow with the length of the
+// video. Records are appended while frames are tracked, and read one at a time when tables and
+// videos are made; the file remains if the process is killed.
 #pragma once
 
 #include <cstdint>
@@ -16,22 +16,22 @@ inline namespace io {
 
 class FrameFile {
  public:
-  // An empty file, or the first `kept` records of the one that is there. InputError if it holds
-  // fewer or damaged ones, and where one is read back; std::runtime_error, here and below, if it
-  // cannot be read or written.
+  // Creates an empty file, or keeps the first `kept` records of the existing one. Throws an
+  // InputError if it has fewer records or damaged ones, also when a record is read;
+  // std::runtime_error, here and below, if it cannot be read or written.
   explicit FrameFile(const std::filesystem::path& path, size_t kept = 0);
   ~FrameFile();
   FrameFile(FrameFile&& other) noexcept;
   FrameFile& operator=(FrameFile&&) = delete;
 
   void append(const FrameRecord& record);
-  // All records reach the disk.
+  // Returns when all records are on the disk.
   void flush() const;
 
   size_t size() const { return ends_.size(); }
   uint64_t bytes() const { return end_of(size()); }
   FrameRecord operator[](size_t index) const;
-  // The newest one, without a look at the disk.
+  // The newest record, from memory.
   const FrameRecord& back() const { return back_; }
 
   class Iterator {
@@ -62,14 +62,16 @@ class FrameFile {
 
   std::filesystem::path path_;
   int fd_ = -1;
-  std::vector<uint64_t> ends_;  // of each record, bytes from the beginning
+  std::vector<uint64_t> ends_;  // end of each record, bytes from the beginning of the file
   FrameRecord back_;
 };
 
-// A record of its bytes, without the length in front. InputError, naming `file`, for damaged ones.
+// A record from its bytes, without the length in front. Throws an InputError that names `file` if
+// they are damaged.
 FrameRecord frame_record_from_bytes(std::string_view bytes, std::string_view file);
 
-// Why the file does not hold `records` sound records in its first `bytes` bytes; "": it does.
+// The reason why the first `bytes` bytes of the file are not `records` valid records; "" if they
+// are.
 std::string frame_file_trouble(const std::filesystem::path& path, uint64_t records, uint64_t bytes);
 
 }  // namespace io

@@ -1,5 +1,5 @@
-// What a result depends on: the program, the configuration and the content of what was read, each
-// by name, so that two results can be told apart in words.
+// What a result depends on: the program, the configuration and the content of the inputs, each with
+// a name, so that messages can state how two results differ.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ using Origin = std::vector<std::pair<std::string, std::string>>;
 
 inline constexpr const char* kContentOf = "content of ";
 
-// What is other in `wanted` than in `found`: "filter.particles 120 -> 60, side.mp4 has changed";
-// "" = nothing. Long lists end in "and 12 more".
+// What differs in `wanted` from `found`: "filter.particles 120 -> 60, side.mp4 has changed"; "" if
+// nothing does. Long lists end in "and 12 more".
 std::string differences(const Origin& found, const Origin& wanted);
 
 }  // namespace io

@@ -20,9 +20,11 @@ namespace {
 constexpr const char* kPartialFile = "run.partial.json";
 constexpr const char* kSceneFile = "scene.yaml";
 constexpr const char* kMarker = ".walktrack_";
-// A batch puts the scene that it makes of a template beside the result that is tracked from it.
+// `walktrack batch` writes the scene that it makes of a template into the result folder of the
+// sequence.
 constexpr const char* kSceneMaker = "batch";
-constexpr char kNumber = '\t';  // stands for the number of numbered files: no name holds one
+constexpr char kNumber = '\t';  // stands for the number in the names of numbered files; no name
+                                // contains a tab
 constexpr size_t kMaxFolderMarkerBytes = size_t{1} << 24;
 constexpr size_t kLongestName = 200;
 
@@ -56,7 +58,7 @@ std::string marker_name(const std::string& command) {
   return fmt::format("{}{}", kMarker, command);
 }
 
-// What the marker of an earlier run lists; nothing where there is none.
+// Names that the marker of an earlier run lists; empty if there is no marker.
 Names marked(const fs::path& folder, const std::string& command) {
   const fs::path file = folder / marker_name(command);
   std::error_code none;
@@ -64,7 +66,7 @@ Names marked(const fs::path& folder, const std::string& command) {
   std::istringstream lines(read_text_file(file, kMaxFolderMarkerBytes));
   Names names;
   std::string line;
-  std::getline(lines, line);  // which says what the file is
+  std::getline(lines, line);  // the heading of the marker
   while (std::getline(lines, line)) names.insert(line);
   return names;
 }
@@ -76,7 +78,7 @@ void write_marker(const Outputs& outputs, const Names& names) {
   write_file_atomically(outputs.folder / marker_name(outputs.command), text);
 }
 
-// Of one file or folder.
+// Throws if the name of a file or folder is not allowed.
 void check_name(const std::string& name) {
   const auto unfit = [](char c) {
     const auto byte = static_cast<unsigned char>(c);
@@ -100,7 +102,7 @@ void check_file(const std::string& file) {
   check_name(numbered);
 }
 
-// With those that every result has.
+// Names of the command's own outputs and of the files that every result has.
 Names names_of(const Outputs& outputs) {
   Names names;
   for (const std::string& file : outputs.files) {
@@ -118,7 +120,7 @@ struct Entry {
   bool folder;
 };
 
-// What is in the folder and in those folders of it that names lead into.
+// Lists the entries of the folder and of those of its subfolders that appear in `names`.
 void list_entries(const fs::path& folder, const std::string& below, const Names& names,
                   std::vector<Entry>& out) {
   std::error_code none;
@@ -146,7 +148,7 @@ bool is_ours(const Entry& entry, const Names& ours, const std::string& command) 
   return lists(ours, made_for) || made_for == marker_name(command);
 }
 
-// Whether work that writes `names` would meet this.
+// Whether a command that writes `names` would overwrite this entry.
 bool is_in_the_way(const Entry& entry, const Names& names) {
   const size_t slash = entry.name.rfind('/');
   return lists(names, entry.name) || lists_below(names, entry.name) ||
@@ -214,12 +216,13 @@ void refuse_what_is_not_ours(const Outputs& outputs) {
     throw UsageError(
         fmt::format("{} is a file, allowed: a folder for the results", outputs.folder.string()));
   }
-  // Looked at before the markers are: another worker marks its files before it writes them.
+  // The entries are listed before the markers are read, because another worker marks its files
+  // before it writes them.
   std::vector<Entry> found = entries(outputs.folder, names);
   const Names ours = marked(outputs.folder, outputs.command);
   const Names made_for_it = marked(outputs.folder, kSceneMaker);
   refuse_inputs(outputs, made_for_it);
-  // A scene says most about whose folder it is.
+  // A scene file comes first, because it shows best to whom the folder belongs.
   std::stable_partition(found.begin(), found.end(),
                         [](const Entry& e) { return e.name == kSceneFile; });
   for (const Entry& entry : found) {

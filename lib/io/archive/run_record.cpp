@@ -14,13 +14,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Numbers, flags and lists as such, words as text.
+// Converts numbers, flags and lists to their JSON types; words stay text.
 Json typed(const std::string& text) {
   const Json value = Json::parse(text, nullptr, false);
   return value.is_discarded() ? Json(text) : value;
 }
 
-// "filter.flow.sd" becomes {"filter": {"flow": {"sd": …}}}. `threads` changes no result.
+// Converts "filter.flow.sd" to {"filter": {"flow": {"sd": …}}}. `threads` is left out, because it
+// changes no result.
 Json nested_config(const ConfigWithOrigin& config) {
   Json root = Json::object();
   for (const auto& [key, text] : config_values(config.values)) {
@@ -73,7 +74,7 @@ std::string plain(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// {"filter": {"particles": 120}} becomes {"filter.particles", "120"}.
+// Converts {"filter": {"particles": 120}} to {"filter.particles", "120"}.
 void append_settings(const Json& config, const std::string& before, Origin& out) {
   for (const auto& [key, value] : config.items()) {
     if (value.is_object()) {
@@ -125,7 +126,7 @@ std::string run_json(const RunRecord& record) {
     root["timing"]["frames_per_second"] = *record.frames_per_second;
     root["timing"]["stride_frames_per_second"] = stride ? Json(*stride) : Json();
   }
-  // Names come from outside and may be no UTF-8.
+  // Names come from outside and may contain invalid UTF-8.
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

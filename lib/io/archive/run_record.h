@@ -1,8 +1,8 @@
-// run.json: how a result came about and what happened on the way.
+// run.json: how a result was computed, and statistics of the computation.
 //
-// Everything but the "timing" block follows from the inputs, the configuration and the seed alone,
-// so it is the same for any number of threads; threads, command line and clock times are in that
-// block.
+// Everything except the "timing" block follows from the inputs, the configuration and the seed
+// alone, and is the same for any number of threads. The number of threads, the command line and
+// times are in that block.
 #pragma once
 
 #include <filesystem>
@@ -17,15 +17,15 @@
 namespace walktrack {
 inline namespace io {
 
-// One measure of a result's quality, with the limit that it has to keep, if any.
+// A measure of a result's quality, with its limit if there is one.
 struct QualityMeasure {
   std::string name;     // e.g. "foot_slide_mm"
-  std::string what;     // the same in words
-  std::string meaning;  // what it says, a sentence
-  std::string advice;   // what to do when it misses its limit
+  std::string what;     // its description
+  std::string meaning;  // what it measures, a sentence
+  std::string advice;   // advice if it violates its limit
   double value = 0;
   std::string unit;  // "" = a number
-  int digits = 0;    // after the point, where people read it
+  int digits = 0;    // decimals in text
   std::optional<double> limit;
   bool at_most = true;  // or at least
   bool passed() const { return !limit || (at_most ? value <= *limit : value >= *limit); }
@@ -37,11 +37,11 @@ using RunSeries = std::vector<std::pair<std::string, std::vector<double>>>;
 struct RunRecord {
   std::string command;             // e.g. "track"
   std::string scene;               // name of the scene file
-  std::string scene_digest;        // SHA-256 of it
-  Origin inputs;                   // the files that a track has read, by name, with their digests
-  ConfigWithOrigin config;         // effective
+  std::string scene_digest;        // SHA-256 of that file
+  Origin inputs;                   // input files of a track by name, with their digests
+  ConfigWithOrigin config;         // effective configuration
   std::string status;              // e.g. "tracked", "lost", "interrupted"
-  std::vector<std::string> notes;  // what the user should know
+  std::vector<std::string> notes;  // notes for the user
   RunNumbers numbers;              // e.g. "fallen_particles"
   std::vector<QualityMeasure> quality;
   RunSeries by_frame;  // e.g. "ess"; NaN -> null
@@ -49,26 +49,26 @@ struct RunRecord {
 
   // The timing block.
   std::vector<std::string> command_line;
-  int threads = 1;  // in fact used
-  // In order of the stages: passed on the clock, and worked by all threads together.
+  int threads = 1;  // the number that was used
+  // In the order of the stages: elapsed time, and CPU time of all threads together.
   std::vector<std::pair<std::string, double>> stage_seconds, stage_cpu_seconds;
   double seconds = 0;                 // altogether
   std::optional<double> cpu_seconds;  // of all threads, user and system
-  // Of the whole command; and of the frames in which somebody who was found is followed, without
-  // start and output. Only where there are frames to follow.
+  // Speed of the whole command, and of the frames in which the subject is followed, without start
+  // and output. Only if frames are tracked.
   std::optional<double> frames_per_second, stride_frames_per_second;
-  int resumed_at_frame = 0;  // that these times begin with
+  int resumed_at_frame = 0;  // the first frame that these times include
 };
 
 std::string run_json(const RunRecord& record);
 
-// What such a text says that the result depends on; of what is no such text, nothing.
+// The origin that such a text states; empty for any other text.
 Origin origin_in(const std::string& run_json);
 
-// The command that wrote the result folder ("track", …); nullopt where there is none.
+// The command that wrote the result folder ("track", …); nullopt if there is none.
 std::optional<std::string> command_of_result(const std::filesystem::path& folder);
 
-// SHA-256 of joints.csv and uncertainty.csv, one after the other.
+// SHA-256 of joints.csv followed by uncertainty.csv.
 std::string result_digest(const std::string& joints_csv, const std::string& uncertainty_csv);
 
 }  // namespace io

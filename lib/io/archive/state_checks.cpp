@@ -11,7 +11,7 @@ inline namespace io {
 
 namespace {
 
-// Walks over the numbers of a struct by its fields() and sees whether all are finite.
+// Visits all numbers of a struct through its fields() and checks that they are finite.
 class FiniteNumbers {
  public:
   template <typename... T>

@@ -1,6 +1,6 @@
-// What the numbers of a checkpoint or a frame's record have to be for the tracker to go on from
-// them, beyond what io/archive/archive.h sees in each field by itself: lists of one length, images
-// of their stated size, living particles made of finite numbers.
+// Checks of a checkpoint or of a frame's record beyond those that io/archive/archive.h makes for
+// each field: lists of equal length, images of their stated size, living particles with finite
+// numbers.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,7 @@
 namespace walktrack {
 inline namespace io {
 
-// What is wrong, in words; "" = nothing.
+// The error in words; "" if there is none.
 std::string_view trouble_of(const ObserverState& state);
 std::string_view trouble_of(const TrackerState& state);
 std::string_view trouble_of(const FrameRecord& record);

@@ -45,7 +45,7 @@ constexpr std::array<std::string_view, kJointCount> kDescriptions{
     "right elbow joint centre",
     "right wrist joint centre"};
 
-// Three angles that are shown as one point; kJointAngleCount: none, 0.
+// Three angles that are written as one point. kJointAngleCount stands for no angle; 0 is written.
 struct AngleTriple {
   std::string_view label, description;
   std::array<JointAngle, 3> of;
@@ -85,12 +85,12 @@ constexpr std::array kFeet{Side::kLeft, Side::kRight};
 constexpr std::array<std::string_view, 6> kChannels{"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
 constexpr size_t kChannelCount = kFeet.size() * kChannels.size();
 
-// World axes to those of a plate, whose z points down; its own inverse.
+// The transform from the world's axes to the plate's, whose z points down. It is its own inverse.
 Eigen::Vector3d in_plate(const Eigen::Vector3d& world) {
   return {world.x(), -world.y(), -world.z()};
 }
 
-// A level rectangle on the ground, m.
+// A horizontal rectangle on the ground, m.
 struct Plate {
   Eigen::Vector2d low, high;
   Eigen::Vector3d centre() const {
@@ -98,7 +98,7 @@ struct Plate {
   }
 };
 
-// As large as the walk, in whole metres, so that feet are on it.
+// The plate covers the walk, in whole metres, so that all contacts are on it.
 Plate plate_under(const Motion& motion) {
   Plate plate{{0, 0}, {0, 0}};
   bool any = false;
@@ -160,7 +160,7 @@ C3dGroup point_group(const C3dContent& content, const C3dShape& shape, int data_
   group.whole("FRAMES", static_cast<int>(std::min<size_t>(shape.frames, kMostInHeader)));
   group.real("LONG_FRAMES", static_cast<double>(shape.frames));
   group.whole("DATA_START", data_start);
-  group.real("SCALE", -1);  // below 0: floats
+  group.real("SCALE", -1);  // negative: the data are floats
   group.real("RATE", content.rate);
   group.text("X_SCREEN", "+X");
   group.text("Y_SCREEN", "+Z");
@@ -209,7 +209,8 @@ C3dGroup plate_group(const C3dContent& content, const C3dShape& shape) {
   std::vector<double> corners;
   std::vector<int> channels;
   for (int k = 0; k < static_cast<int>(kChannelCount); ++k) channels.push_back(k + 1);
-  // In the quadrants of the plate's axes +x+y, -x+y, -x-y, +x-y; its y is the world's -y.
+  // The corners in the quadrants +x+y, -x+y, -x-y, +x-y of the plate's axes, whose y is the world's
+  // -y.
   for (int p = 0; p < plates; ++p)
     for (const double each : {x1, y0, 0., x0, y0, 0., x0, y1, 0., x1, y1, 0.})
       corners.push_back(each);
@@ -289,15 +290,15 @@ std::string parameters_of(const C3dContent& content, const C3dShape& shape, int 
 
 std::string header(const C3dContent& content, const C3dShape& shape, int data_start) {
   const int frames = static_cast<int>(std::min<size_t>(shape.frames, kMostInHeader));
-  std::string bytes{2, 0x50};  // the block of the parameters, the format's mark
+  std::string bytes{2, 0x50};  // the block number of the parameters, then the format's key 0x50
   append_c3d_whole(bytes, static_cast<int>(shape.points()));
-  append_c3d_whole(bytes, static_cast<int>(shape.channels));  // in all, a frame
+  append_c3d_whole(bytes, static_cast<int>(shape.channels));  // analog values in each frame
   append_c3d_whole(bytes, 1);
   append_c3d_whole(bytes, frames);
-  append_c3d_whole(bytes, 0);  // gaps that were filled
+  append_c3d_whole(bytes, 0);  // longest gap that was interpolated
   append_c3d_real(bytes, -1);  // scale
   append_c3d_whole(bytes, data_start);
-  append_c3d_whole(bytes, shape.channels > 0 ? 1 : 0);  // samples a frame
+  append_c3d_whole(bytes, shape.channels > 0 ? 1 : 0);  // analog samples in each frame
   append_c3d_real(bytes, content.rate);
   bytes.resize(kC3dBlock, '\0');
   return bytes;

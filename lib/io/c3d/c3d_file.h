@@ -39,8 +39,8 @@ struct C3dContent {
   const Kinetics* kinetics = nullptr;  // of the same rows; nullptr: no forces
 };
 
-// The file's bytes. Of so many events that their list is longer than the format's parameters can
-// be (127 kB, about 3,500), the later ones are left out.
+// The bytes of the file. If there are more events than the parameter section can hold (127 kB,
+// about 3,500), the later ones are left out.
 std::string c3d_from_motion(const C3dContent& content);
 
 }  // namespace io

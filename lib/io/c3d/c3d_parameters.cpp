@@ -22,13 +22,14 @@ uint8_t byte_of(size_t count) {
 
 void append_byte(std::string& bytes, int value) { bytes += static_cast<char>(value); }
 
-// `head` bytes of name and group, then the way to the next entry (0: there is none), then the rest.
+// Appends `head` (lengths, name and group), the offset of the next entry (0 for the last one), and
+// the rest.
 void append_entry(std::string& bytes, std::string_view name, int id, const std::string& rest,
                   bool last) {
   append_byte(bytes, byte_of(name.size()));
   append_byte(bytes, id);
   bytes += name;
-  const size_t way = rest.size() + 2;  // from the pointer itself
+  const size_t way = rest.size() + 2;  // offset, counted from its own position
   if (way > 0x7fff) throw std::length_error(fmt::format("C3D parameter {}", name));
   append_c3d_whole(bytes, last ? 0 : static_cast<int>(way));
   bytes += rest;

@@ -28,21 +28,21 @@ struct C3dGroup {
   std::vector<C3dParameter> parameters{};
 
   void text(std::string_view key, std::string_view value);
-  // Lists of more than kC3dMostInList go on under the same name with 2, 3, … behind it, as the
-  // guide has it for POINT:LABELS2.
+  // A list of more than kC3dMostInList texts is continued under the same name with 2, 3, …
+  // appended, as the guide describes for POINT:LABELS2.
   void texts(const std::string& key, std::span<const std::string> values);
-  // Unsigned where a reader takes it so: 0 to 65535.
+  // Stored unsigned, 0 to 65535, as readers expect it for these keys.
   void whole(std::string_view key, int value);
   void wholes(const std::string& key, std::span<const int> values);
   void real(std::string_view key, double value);
-  // `shape`: the dimensions before the last one, which may be as long as wanted.
+  // `shape`: the dimensions before the last one, which may have any length.
   void reals(const std::string& key, std::span<const double> values,
              const std::vector<uint8_t>& shape = {});
   void wholes(const std::string& key, std::span<const int> values,
               const std::vector<uint8_t>& shape);
 };
 
-// Whole blocks. std::length_error where they are more than the format can count (255).
+// Whole blocks. Throws std::length_error if there are more than the format can count (255).
 std::string c3d_parameter_section(std::span<const C3dGroup> groups);
 
 // Little-endian bytes of numbers.

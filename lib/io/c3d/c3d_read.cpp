@@ -51,9 +51,9 @@ class C3dBytes {
 struct StoredParameter {
   int type = 0;
   std::vector<size_t> dimensions;
-  size_t data = 0;  // where it begins
+  size_t data = 0;  // offset of the data
 };
-using StoredParameters = std::map<std::string, StoredParameter>;  // "POINT:LABELS"
+using StoredParameters = std::map<std::string, StoredParameter>;  // by names such as "POINT:LABELS"
 
 std::string upper(std::string_view text) {
   std::string out(text);
@@ -62,7 +62,7 @@ std::string upper(std::string_view text) {
   return out;
 }
 
-// Groups and parameters come in any order; each says how far the next one is.
+// Groups and parameters may come in any order; each states the offset of the next one.
 StoredParameters parameters_of(const C3dBytes& bytes) {
   size_t at = kC3dBlock * static_cast<size_t>(std::max(1, bytes.byte(0)) - 1);
   if (bytes.byte(1) != kAnyParameters) bytes.fail("another kind of file", "a C3D file");
@@ -104,7 +104,7 @@ std::string without_padding(std::string_view text) {
   return std::string(text.substr(0, last == std::string_view::npos ? 0 : last + 1));
 }
 
-// The texts of a parameter; none where it is missing.
+// The texts of a parameter; empty if it is missing.
 std::vector<std::string> texts(const C3dBytes& bytes, const StoredParameters& all,
                                const std::string& key) {
   const auto found = all.find(key);
@@ -136,7 +136,7 @@ double metres_per(const C3dBytes& bytes, const StoredParameters& all) {
   bytes.fail(fmt::format("points in '{}'", units[0]), "m, cm or mm");
 }
 
-// What the header says of the data.
+// The layout of the data according to the header.
 struct C3dLayout {
   size_t points, start, frame_bytes, frames;
   bool floats;
@@ -146,7 +146,7 @@ struct C3dLayout {
 C3dLayout layout_of(const C3dBytes& bytes) {
   C3dLayout out{};
   out.points = static_cast<size_t>(bytes.word(2));
-  const auto analog = static_cast<size_t>(bytes.word(4));  // values a frame
+  const auto analog = static_cast<size_t>(bytes.word(4));  // analog values in each frame
   const int first = bytes.word(6), last = bytes.word(8);
   out.scale = bytes.real(12);
   out.floats = out.scale < 0;
@@ -157,7 +157,7 @@ C3dLayout layout_of(const C3dBytes& bytes) {
   if (!(out.rate > 0 && out.rate < 1e5))
     bytes.fail(fmt::format("a frame rate of {:g} Hz", out.rate), "one above 0");
   if (out.start >= bytes.size()) bytes.fail("no data", "a whole C3D file");
-  // The header's counter ends at 65,535; longer recordings go on to the end of the file.
+  // The header's frame counter ends at 65,535. Longer recordings extend to the end of the file.
   const size_t there = (bytes.size() - out.start) / out.frame_bytes;
   out.frames = last >= 65535 ? there : static_cast<size_t>(std::max(0, last - first + 1));
   if (out.frames > there)

@@ -1,4 +1,4 @@
-// The points of a C3D file (C3D User Guide, c3d.org): little-endian, numbers or floats.
+// Reads the points of a C3D file (C3D User Guide, c3d.org) with little-endian integers or floats.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace walktrack {
 inline namespace io {
 
-// InputError with place, found and allowed; `file` is what messages call it.
+// Throws an InputError with place, found and allowed; `file` is its name in messages.
 MarkerTable markers_from_c3d(std::string_view bytes, const std::string& file);
 
 }  // namespace io

@@ -36,15 +36,15 @@ struct ImageSize {
   int width_px, height_px;
 };
 
-// Reads the camera called `name` (which matters for files that hold several). `size`: of the
-// images, for files that do not say.
+// Reads the camera called `name`, which selects one in files with several cameras. `size`: of the
+// images, for files that do not state it.
 Camera read_calibration(const std::filesystem::path& path, const std::string& name,
                         const std::optional<ImageSize>& size = std::nullopt);
 
-// The cameras of a file that holds several, in its order; empty for a file of one.
+// The cameras of a file with several, in its order; empty for a file with one camera.
 std::vector<std::string> calibration_names(const std::filesystem::path& path);
 
-// One format each; `file` is what messages call it.
+// One function for each format; `file` is its name in messages.
 Camera camera_from_opencv(const std::string& text, const std::string& file);
 
 Camera camera_from_toml(const std::string& text, const std::string& file, const std::string& name);
@@ -76,7 +76,7 @@ std::string opencv_from_camera(const Camera& camera);
 // rotation vector.
 std::string toml_from_cameras(const std::vector<std::pair<std::string, Camera>>& cameras);
 
-// How far R'R may be from the identity (largest entry) in a file with rounded digits.
+// Allowed deviation of R'R from the identity (largest entry), for rounded digits.
 inline constexpr double kRotationTolerance = 1e-3;
 
 }  // namespace io

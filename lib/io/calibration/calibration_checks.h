@@ -1,4 +1,4 @@
-// What every calibration reader checks before it believes a file.
+// Checks that all calibration readers share.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 namespace walktrack {
 inline namespace io {
 
-// Throws the reader's InputError: for a key, what was found and what is allowed.
+// Throws the reader's InputError for a key: what was found and what is allowed.
 using Complain =
     std::function<void(std::string_view key, std::string_view found, std::string_view allowed)>;
 
@@ -19,7 +19,7 @@ using Complain =
 // last row 0 0 1, free of skew, and with positive focal lengths.
 void set_camera_matrix(Camera& camera, const Eigen::Matrix3d& matrix, const Complain& complain);
 
-// The rotation nearest to the matrix, if it is one but for rounding: neither scaled nor mirrored.
+// The rotation nearest to a matrix that is a rotation up to rounding, neither scaled nor mirrored.
 Eigen::Matrix3d checked_rotation(const Eigen::Matrix3d& matrix, const Complain& complain);
 
 // The rotation by |vector| radians about it (Rodrigues).

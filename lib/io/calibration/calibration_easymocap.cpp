@@ -75,7 +75,7 @@ Camera camera_from_easymocap(const FileText& intrinsic, const FileText& extrinsi
   set_size(camera, intrinsics, name, size);
   set_camera_matrix(camera, matrix3(matrix_numbers(matrix, {9})), complain);
   set_distortion(camera, matrix_numbers(bent, {4, 5, 8, 12, 14}));
-  // EasyMocap itself takes the vector where there are both.
+  // EasyMocap itself uses the rotation vector if both are present.
   if (extrinsics.has("R_" + name)) {
     camera.rotation = rotation_from_rodrigues(
         Eigen::Vector3d(matrix_numbers(extrinsics.at("R_" + name), {3}).data()));

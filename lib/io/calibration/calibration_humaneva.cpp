@@ -1,7 +1,7 @@
-// HumanEva's .cal: 22 numbers, as its toolbox reads them (Sigal, ReadSpicaCalib.m, 2006): focal
-// length (2, px), principal point (2, px), skew, distortion (5: k1 k2 p1 p2 k3, as OpenCV's),
-// rotation (9, row by row) and translation (3, mm) with x_camera = R x_world + T. The size of the
-// images is not in it.
+// HumanEva's .cal file has 22 numbers, in the order of its toolbox (Sigal, ReadSpicaCalib.m, 2006):
+// focal length (2, px), principal point (2, px), skew, distortion (5: k1 k2 p1 p2 k3, as in
+// OpenCV), rotation (9, row by row) and translation (3, mm) with x_camera = R x_world + T. It does
+// not contain the size of the images.
 #include <sstream>
 #include <vector>
 

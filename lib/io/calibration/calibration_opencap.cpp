@@ -1,8 +1,7 @@
-// OpenCap's cameraIntrinsicsExtrinsics.pickle (opencap-core, utils.py, saveCameraParameters): a
+// OpenCap's cameraIntrinsicsExtrinsics.pickle (opencap-core, utils.py, saveCameraParameters) is a
 // dictionary with imageSize (height, width), intrinsicMat, distortion, rotation and translation
-// (mm), x_camera = R x + t. Its axes are those of the board that the session was calibrated with:
-// x along its rows, y along its columns; where the board lay on the floor z points down, where it
-// stood against a wall y does.
+// (mm), x_camera = R x + t. Its axes are those of the calibration board: x along its rows, y along
+// its columns. If the board lay on the floor, z points down; if it stood against a wall, y does.
 #include <cmath>
 
 #include <fmt/format.h>

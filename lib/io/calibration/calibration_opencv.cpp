@@ -28,7 +28,7 @@ std::string matrix_text(std::string_view key, int rows, int cols, std::span<cons
   std::string text = fmt::format(
       "{}: !!opencv-matrix\n   rows: {}\n   cols: {}\n   dt: d\n   data: [ ", key, rows, cols);
   for (size_t i = 0; i < data.size(); ++i) {
-    // OpenCV tells reals from whole numbers by the point.
+    // OpenCV distinguishes reals from integers by the decimal point.
     const std::string number = shortest_number(data[i]);
     const bool whole = number.find_first_of(".e") == std::string::npos;
     text += (i > 0 ? ", " : "") + number + (whole ? "." : "");

@@ -1,8 +1,8 @@
-// Qualisys Track Manager's calibration as text (.qca.txt): XML in spite of its name.
+// Qualisys Track Manager's text calibration (.qca.txt), which is XML in spite of its name.
 //
-// focalLength, centerPoint and distortions are in 64ths, as Pose2Sim reads them; lengths are in mm.
-// transform holds the camera's place x, y, z and the rotation from the world to the camera's axes
-// (x right, y up, z backwards), row by row.
+// focalLength, centerPoint and distortions are in 64ths of a pixel, as Pose2Sim reads them; lengths
+// are in mm. transform contains the camera's position x, y, z and the rotation from the world to
+// the camera's axes (x right, y up, z backwards), row by row.
 #include <vector>
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ constexpr size_t kMostCameras = 256;
 
 struct CameraEntry {
   std::string name;
-  size_t from, to;  // in the text
+  size_t from, to;  // offsets in the text
 };
 
 std::vector<CameraEntry> entries_of(const std::string& text, const std::string& file) {
@@ -71,7 +71,7 @@ Eigen::Matrix3d rotation_of(const XmlElement& transform) {
     transform.fail("r11", found, allowed);
   };
   const Eigen::Matrix3d up = checked_rotation(out, complain);
-  return Eigen::Vector3d(1, -1, -1).asDiagonal() * up;  // to x right, y down, z ahead
+  return Eigen::Vector3d(1, -1, -1).asDiagonal() * up;  // axes x right, y down, z forward
 }
 
 }  // namespace

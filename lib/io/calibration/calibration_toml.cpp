@@ -17,7 +17,7 @@ namespace {
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
-// One camera's table; errors know their place.
+// The table of one camera, which reports errors with their place.
 class CameraTable {
  public:
   CameraTable(const toml::table& table, std::string file, std::string name)
@@ -78,7 +78,7 @@ toml::table parse(const std::string& text, const std::string& file) {
   }
 }
 
-// The table called `name`, or whose "name" entry says so.
+// The table with the key `name`, or the one whose "name" entry has that value.
 const toml::table& find_camera(const toml::table& root, const std::string& file,
                                const std::string& name) {
   std::vector<std::string> names;
@@ -122,7 +122,7 @@ std::string list_text(const double* values, size_t count) {
   return fmt::format("[ {}]", text);
 }
 
-// TOML strings take no control characters, quotes or backslashes as they are.
+// A TOML string with control characters, quotes and backslashes escaped.
 std::string quoted(const std::string& name) {
   std::ostringstream stream;
   stream << toml::value<std::string>(name);

@@ -15,8 +15,9 @@ namespace {
 
 constexpr const char* kTsai = "a Tsai calibration with Geometry, Intrinsic and Extrinsic";
 
-// Tsai undistorts, r_u = r_d (1 + kappa r_d^2); OpenCV distorts, r_d = r_u (1 + k1 r_u^2 + k2 r_u^4
-// + k3 r_u^6). Least squares of r_d / r_u - 1 over the radii of the image (normalised).
+// Tsai's model undistorts, r_u = r_d (1 + kappa r_d^2); OpenCV's distorts, r_d = r_u (1 + k1 r_u^2
+// + k2 r_u^4 + k3 r_u^6). The coefficients minimise the squares of r_d / r_u - 1 over the
+// normalised radii of the image.
 std::vector<double> inverse_distortion(double kappa, double largest_radius) {
   constexpr int kSamples = 200;
   Eigen::MatrixX3d powers(kSamples, 3);
@@ -32,7 +33,7 @@ std::vector<double> inverse_distortion(double kappa, double largest_radius) {
   return {k[0], k[1], 0, 0, k[2]};
 }
 
-// Normalised distance of the image corner furthest from the principal point.
+// Normalised distance between the principal point and the image corner that is furthest from it.
 double corner_radius(const Camera& camera) {
   const Eigen::Vector2d far(
       std::max(camera.centre_px.x(), camera.width_px - camera.centre_px.x()),
@@ -62,7 +63,7 @@ Camera camera_from_tsai(const std::string& text, const std::string& file) {
   camera.focal_px = {f * intrinsic.positive("sx") / geometry.positive("dpx"),
                      f / geometry.positive("dpy")};
   camera.centre_px = {intrinsic.number("cx"), intrinsic.number("cy")};
-  const double kappa = intrinsic.number("kappa1") * f * f;  // of normalised radii
+  const double kappa = intrinsic.number("kappa1") * f * f;  // for normalised radii
   if (kappa != 0) set_distortion(camera, inverse_distortion(kappa, corner_radius(camera)));
   camera.rotation = tsai_rotation(extrinsic);
   camera.translation =

@@ -1,19 +1,22 @@
-// Vicon's camera calibration (.xcp): XML with a <Camera> for each one. What is known of it: Vicon's
-// own "About calibration data (XCP) files" (CaraPost reference: the attributes, quaternions with
-// the real part last, lens distortion to be corrected), and four readers that agree (MAMMA's
-// xcp_loader, avialsync's vicon_c3d_loader, which found other cameras' ring lights in the picture
-// where the file has them, the Imaginarium's ViconReader, OpenCap's but for the principal point):
-//   DEVICEID               the name: Nexus has it in the names of videos
+// Vicon's camera calibration (.xcp): XML with one <Camera> element for each camera. Sources:
+// Vicon's "About calibration data (XCP) files" (CaraPost reference: the attributes, quaternions
+// with the real part last, the correction of lens distortion), and four readers that agree (MAMMA's
+// xcp_loader; avialsync's vicon_c3d_loader, whose author verified the positions by the ring lights
+// of other cameras in the images; the Imaginarium's ViconReader; OpenCap's, except for the
+// principal point):
+//   DEVICEID               the name, which Nexus uses in the names of videos
 //   SENSOR_SIZE            width height, px
-//   PIXEL_ASPECT_RATIO     width by height of a pixel; SKEW: 0
+//   PIXEL_ASPECT_RATIO     width / height of a pixel; SKEW: 0
 //   <KeyFrame> FOCAL_LENGTH, PRINCIPAL_POINT   px
-//   ORIENTATION, POSITION  x y z w, from the world to the camera's axes (x right, y down, z ahead);
-//                          place, mm
-//   VICON_RADIAL "k1 k2", VICON_RADIAL2 "Vicon3Parameter x y k1 k2 k3"   a pixel d away from the
-//                          principal point (from x, y) belongs 1 + k1 d^2 + k2 d^4 + k3 d^6 times
-//                          as far out
-// Marker cameras stand beside video cameras in one file: the names are those of the latter if there
-// are any. A camera without a KeyFrame has not been calibrated.
+//   ORIENTATION            x y z w, from the world to the camera's axes (x right, y down,
+//                          z forward)
+//   POSITION               mm
+//   VICON_RADIAL "k1 k2", VICON_RADIAL2 "Vicon3Parameter x y k1 k2 k3"
+//                          the undistorted position of a pixel at the distance d from the
+//                          principal point (or from x, y) is 1 + k1 d^2 + k2 d^4 + k3 d^6
+//                          times as far away from it
+// A file may list marker cameras beside video cameras; if there are any video cameras, only those
+// are read. A camera without a KeyFrame has not been calibrated.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -44,7 +47,7 @@ constexpr double kUnitTolerance = 1e-3;  // of a quaternion with rounded digits
 
 struct ViconCamera {
   XmlElement camera;
-  size_t from, to;  // in the text
+  size_t from, to;  // offsets in the text
 };
 
 std::vector<ViconCamera> vicon_cameras(const std::string& text, const std::string& file) {
@@ -95,8 +98,8 @@ std::vector<double> numbers(const XmlElement& element, const char* key, size_t c
   return numbers(element, key, count, element.text(key));
 }
 
-// The one key frame, or several with the same place: a camera that moves has none that we could
-// use.
+// The only key frame, or the first of several with the same pose. A camera that moves is not
+// supported.
 XmlElement key_frame(const std::string& text, const std::string& file, const ViconCamera& camera,
                      const std::string& name) {
   const XmlElement first(text, file, "KeyFrame",

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kAcross = 24;  // samples along a side of the picture
+constexpr int kAcross = 24;  // samples along each side of the image
 
 }  // namespace
 

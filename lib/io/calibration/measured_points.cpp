@@ -12,9 +12,10 @@ inline namespace io {
 namespace {
 
 constexpr size_t kFewestPoints = 4;
-constexpr double kLeastBreadth = 0.02;  // of points across their longest line, share of its length
+constexpr double kLeastBreadth = 0.02;  // extent of the points across their longest line, as a
+                                        // share of its length
 
-// Whether the points lie on one line, or nearly so: their second singular value is tiny.
+// Whether the points lie nearly on one line, so that their second singular value is tiny.
 bool on_one_line(const std::vector<Eigen::Vector3d>& points) {
   Eigen::MatrixX3d rows(points.size(), 3);
   for (size_t i = 0; i < points.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = points[i];

@@ -1,5 +1,5 @@
-// Points whose place in the room was measured and whose pixel was clicked: what puts a camera in
-// its place.
+// Points whose position in the room was measured and whose pixel was marked by hand, from which the
+// pose of a camera is estimated.
 //   u,v,x,y,z          px; metres, z up, ground z = 0; z may be left out for points on the ground
 //   412.5,310,0,0,0
 #pragma once
@@ -15,10 +15,11 @@ inline namespace io {
 struct MeasuredPoints {
   std::vector<Eigen::Vector2d> pixels;
   std::vector<Eigen::Vector3d> world;
-  std::vector<int> lines;  // of the file, for messages
+  std::vector<int> lines;  // line numbers in the file, for messages
 };
 
-// InputError naming line and column; fewer than four points, or all on one line in the room, too.
+// Throws an InputError that names line and column; also for fewer than four points, and for points
+// that all lie on one line in the room.
 MeasuredPoints read_measured_points(const std::filesystem::path& path);
 
 }  // namespace io

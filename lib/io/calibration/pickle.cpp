@@ -18,18 +18,18 @@ namespace {
 
 enum class Kind { kNone, kNumber, kText, kBytes, kList, kTuple, kDict, kGlobal, kObject, kMark };
 
-// Values refer to each other by their place in one list, so that loops do no harm.
+// Values refer to each other by their index in one list, so that cycles do no harm.
 struct Value {
   Kind kind = Kind::kNone;
   double number = 0;
-  std::string text{};           // of texts and bytes; of a global "module name"
-  std::vector<size_t> items{};  // of containers; of a dict keys and values in turn; of an object
+  std::string text{};           // of texts and bytes; for a global, "module name"
+  std::vector<size_t> items{};  // of containers; of a dict, keys and values in turn; of an object,
                                 // the global and its arguments, then the state if there is one
 };
 
 constexpr const char* kAllowed = "a dictionary of numpy arrays, as OpenCap writes it";
 
-// What numpy's arrays are made with.
+// Whether numpy's arrays are constructed by this global.
 bool is_numpy(const std::string& global) {
   constexpr std::string_view kNames[] = {"numpy.core.multiarray _reconstruct",
                                          "numpy._core.multiarray _reconstruct",
@@ -47,7 +47,7 @@ class Machine {
  public:
   Machine(const std::string& bytes, const std::string& file) : bytes_(bytes), file_(file) {}
 
-  // The value that the program leaves.
+  // Runs the program and returns the index of the resulting value.
   size_t run();
   const Value& at(size_t index) const { return values_[index]; }
 
@@ -60,7 +60,7 @@ class Machine {
     if (next_ >= bytes_.size()) fail("the end of the file inside of a value");
     return static_cast<uint8_t>(bytes_[next_++]);
   }
-  // Little-endian, of up to eight bytes.
+  // A little-endian integer of up to eight bytes.
   uint64_t whole(int size) {
     uint64_t out = 0;
     for (int i = 0; i < size; ++i) out |= uint64_t{byte()} << (8 * i);
@@ -128,7 +128,7 @@ class Machine {
     if (found == memo_.end()) fail("a value that was never remembered");
     stack_.push_back(found->second);
   }
-  // Notes the call of a global with its arguments; nothing is called.
+  // Records the call of a global with its arguments; nothing is called.
   void note_call() {
     const size_t arguments = pop(), callable = pop();
     if (values_[callable].kind != Kind::kGlobal || values_[arguments].kind != Kind::kTuple)
@@ -154,7 +154,7 @@ class Machine {
     const uint64_t all = negative && size < 8 ? bits | ~uint64_t{0} << (8 * size) : bits;
     push_number(static_cast<double>(static_cast<int64_t>(all)));
   }
-  // False at the program's end.
+  // Returns false at the end of the program.
   bool step(uint8_t op);
   bool step_container(uint8_t op);
   bool step_memory(uint8_t op);
@@ -167,7 +167,7 @@ class Machine {
   std::map<uint64_t, size_t> memo_;
 };
 
-// Values; hands containers on.
+// Opcodes of values. Opcodes of containers are passed on.
 bool Machine::step(uint8_t op) {
   switch (op) {
     case 0x80:
@@ -230,7 +230,7 @@ bool Machine::step(uint8_t op) {
   }
 }
 
-// Containers, and what is put into them.
+// Opcodes of containers and their items.
 bool Machine::step_container(uint8_t op) {
   switch (op) {
     case '}':
@@ -274,8 +274,8 @@ bool Machine::step_container(uint8_t op) {
   }
 }
 
-// What was there before: remembered values, classes and calls of the program that wrote the file,
-// of which none is ever done.
+// Opcodes that refer to earlier values: the memo, and classes and calls of the program that wrote
+// the file, none of which is executed.
 bool Machine::step_memory(uint8_t op) {
   switch (op) {
     case 'q':
@@ -323,7 +323,7 @@ size_t Machine::run() {
   return pop();
 }
 
-// One kind of numbers in an array.
+// The number type of an array.
 struct Layout {
   char kind;  // f, i, u or b
   size_t size;
@@ -333,11 +333,11 @@ struct Layout {
 class Arrays {
  public:
   explicit Arrays(const Machine& machine) : machine_(machine) {}
-  // nullopt for what is no array.
+  // nullopt if the value is not an array.
   std::optional<PickledArray> array(size_t index);
 
  private:
-  // The items of a tuple or object that has at least so many.
+  // The items of a tuple or object that has at least so many of them.
   const std::vector<size_t>& items(size_t index, Kind kind, size_t least) const {
     const Value& value = machine_.at(index);
     if (value.kind != kind || value.items.size() < least) machine_.fail("an incomplete array");
@@ -352,10 +352,10 @@ class Arrays {
   double number(const std::string& bytes, size_t at, const Layout& layout) const;
 
   const Machine& machine_;
-  size_t total_ = 0;  // numbers handed out: one array may be named many times
+  size_t total_ = 0;  // numbers returned so far: a file may refer to one array many times
 };
 
-// The bytes themselves, or in protocol 2 _codecs.encode(text, "latin1").
+// The bytes themselves; in protocol 2 they are written as _codecs.encode(text, "latin1").
 std::string Arrays::raw(size_t index) const {
   const Value& value = machine_.at(index);
   if (value.kind == Kind::kBytes) return value.text;
@@ -435,7 +435,7 @@ std::optional<PickledArray> Arrays::array(size_t index) {
   const Value& value = machine_.at(index);
   if (value.kind != Kind::kObject) return std::nullopt;
   const std::string& maker = text(value.items[0]);
-  if (maker.ends_with("_reconstruct")) {  // state: version, shape, type, by columns, bytes
+  if (maker.ends_with("_reconstruct")) {  // state: version, shape, type, column order, bytes
     const auto& state = items(items(index, Kind::kObject, 3)[2], Kind::kTuple, 5);
     return made(shape(state[1]), layout(state[2]), raw(state[4]),
                 machine_.at(state[3]).number != 0);

@@ -1,5 +1,5 @@
-// The attributes of one XML element, found by its name: enough of XML for calibration files, which
-// hold numbers in attributes.
+// The attributes of one XML element. This is as much of XML as calibration files need, which store
+// numbers in attributes.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ inline namespace io {
 
 class XmlElement {
  public:
-  // The first <name …> within text[from, to). InputError where there is none: `allowed` says what
-  // the file should be.
+  // Finds the first <name …> within text[from, to). Throws an InputError if there is none;
+  // `allowed` describes the expected file.
   XmlElement(const std::string& text, std::string file, std::string name, std::string_view allowed,
              size_t from = 0, size_t to = std::string::npos);
 
@@ -19,12 +19,12 @@ class XmlElement {
                          std::string_view allowed) const;
 
   bool has(const std::string& key) const;
-  std::string text(const std::string& key) const;  // what stands between the quotes
+  std::string text(const std::string& key) const;  // the text between the quotes
   double number(const std::string& key) const;     // finite
   double positive(const std::string& key) const;
   int pixels(const std::string& key) const;  // 1 to kMostPixels
 
-  // Where in the text it begins.
+  // Its offset in the text.
   size_t start() const { return start_; }
 
  private:

@@ -31,7 +31,7 @@ bool is_group(const std::string& prefix) {
          std::ranges::any_of(renamed_keys(), begins, &RenamedKey::before);
 }
 
-// The key's name of today; says so where it was given as the one of the last release.
+// The present name of the key. Notes it if the key was given by its name in the last release.
 std::string current_key(ConfigWithOrigin& config, const InputPlace& place) {
   const auto renamed = std::ranges::find(renamed_keys(), place.key, &RenamedKey::before);
   if (renamed == renamed_keys().end()) return place.key;
@@ -43,7 +43,7 @@ std::string current_key(ConfigWithOrigin& config, const InputPlace& place) {
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-// Names the nearest key, or one of another group whose own name is the same.
+// The message names the nearest key, or one of another group whose last part is the same.
 std::string unknown_key(const std::string& key) {
   std::vector<std::string> names;
   for (const Parameter& parameter : config_table().parameters) names.push_back(parameter.key);
@@ -68,7 +68,7 @@ void assign(ConfigWithOrigin& config, const InputPlace& place, const std::string
   config.origin[key] = origin;
 }
 
-// A scalar as it stands, a list as "[a, b]".
+// A scalar as it is written, a list as "[a, b]".
 std::string value_text(const YamlValue& value) {
   if (value.is_scalar()) return value.text();
   if (!value.is_list()) return value.describe_found();
@@ -84,7 +84,7 @@ void apply_map(ConfigWithOrigin& config, const YamlValue& map) {
   map.only_keys(keys);  // refuses a key that is written twice
   for (const std::string& name : keys) {
     const std::string key = map.key().empty() ? name : map.key() + "." + name;
-    if (!map.has(name)) continue;  // "filter:" with nothing under it
+    if (!map.has(name)) continue;  // "filter:" without any entry
     const YamlValue value = map.at(name);
     if (value.is_map() && is_group(key)) {
       apply_map(config, value);
@@ -96,9 +96,10 @@ void apply_map(ConfigWithOrigin& config, const YamlValue& map) {
   }
 }
 
-// A file, or without one the preset of that name. A bare word that is neither gets both named.
+// Reads a file, or the preset of that name if there is no such file. If a bare word is neither, the
+// message names both.
 YamlValue file_or_preset(const std::string& path) {
-  // A folder may have a preset's name: that of results, say.
+  // A folder, for example one of results, may have the name of a preset.
   const bool there = std::filesystem::exists(path);
   if (there && !std::filesystem::is_directory(path)) return YamlValue::from_file(path);
   std::vector<std::string_view> names;
@@ -116,7 +117,7 @@ size_t depth(const std::string& key) {
   return static_cast<size_t>(std::count(key.begin(), key.end(), '.'));
 }
 
-// "filter.flow.sd" opens "filter:" and "  flow:" where they are not open yet.
+// For "filter.flow.sd", opens "filter:" and "  flow:" unless they are open already.
 void open_groups(std::string& text, std::string& open, const std::string& key) {
   const size_t last_dot = key.rfind('.');
   const std::string group = last_dot == std::string::npos ? "" : key.substr(0, last_dot);
@@ -141,7 +142,7 @@ void apply_config_file(ConfigWithOrigin& config, const std::string& path) {
   try {
     apply_map(config, file_or_preset(path));
   } catch (const InputError& error) {
-    throw UsageError(error.what());  // a broken configuration is a usage error
+    throw UsageError(error.what());  // a wrong configuration is a usage error
   }
 }
 

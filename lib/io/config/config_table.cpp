@@ -22,7 +22,7 @@ void add_run(ParameterTable& table) {
               "threads, 0 = all that the process may use");
 }
 
-// Where likelihood terms write down the keys of their configuration.
+// Collects the configuration keys that the likelihood terms describe.
 struct TermGroups {
   ParameterTable& table;
 

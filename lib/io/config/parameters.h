@@ -1,6 +1,6 @@
-// Parameters by name: one table says, for every parameter of the program, its key, where it lives,
-// what is allowed and what it means. The configuration file, --set, error messages and
-// `walktrack config` are all served by this table; defaults are those of the structs themselves.
+// A table that states, for every parameter of the program, its key, its member, what is allowed and
+// what it means. The configuration file, --set, error messages and `walktrack config` all use this
+// table; defaults are those of the structs.
 //
 //   ParameterGroup<FilterConfig> f(table, "filter", "the particle filter", &Config::tracker,
 //                                  &TrackerConfig::filter);
@@ -25,30 +25,31 @@ struct Parameter {
   std::string key;      // dotted, e.g. "filter.particles"
   std::string allowed;  // for messages, e.g. "a whole number from 1 to 10000000"
   std::string comment;  // one line, with the unit
-  // Writes the value that the text means; false if it means none that is allowed.
+  // Sets the value from text; returns false if the text is not allowed.
   std::function<bool(Config&, const std::string& text)> set;
   std::function<std::string(const Config&)> get;
 };
 
 struct ParameterTable {
   std::vector<Parameter> parameters;
-  std::vector<std::pair<std::string, std::string>> groups;  // prefix, what it is about
+  std::vector<std::pair<std::string, std::string>> groups;  // prefix, description
 };
 
-// Text to value and back, with a range; the allowed text goes into messages.
+// Converts text to a value and back, with a range; the description of what is allowed is used in
+// messages.
 bool number_in_range(const std::string& text, double lowest, double highest, double& value);
 bool integer_in_range(const std::string& text, int64_t lowest, int64_t highest, int64_t& value);
 bool flag_from_text(const std::string& text, bool& value);
 std::string number_allowed(double lowest, double highest);
 std::string integer_allowed(int64_t lowest, int64_t highest);
 std::string number_text(double value);
-// "[a, b, c]" of `count` numbers, whole ones if asked for.
+// A list "[a, b, c]" of `count` numbers, which must be integers if `whole` is set.
 bool list_in_range(const std::string& text, size_t count, bool whole, double lowest, double highest,
                    std::vector<double>& values);
 std::string list_allowed(size_t count, bool whole, double lowest, double highest);
 std::string list_text(const std::vector<double>& values);
 
-// Adds the parameters of one struct, which sits in Config under a chain of members.
+// Adds the parameters of one struct, which is a member of Config through a chain of members.
 template <typename Group>
 class ParameterGroup {
  public:

@@ -1,4 +1,4 @@
-// Configurations that come with the program, by name: configs/*.yaml of the source tree.
+// The named configurations that come with the program: configs/*.yaml of the source tree.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// Keys of the configuration as they were called in the release before this one. They are still
-// read; ConfigWithOrigin::renamed says so.
+// Keys of the configuration that have been renamed since the last release. The old names are still
+// read, and are listed in ConfigWithOrigin::renamed.
 #pragma once
 
 #include <span>

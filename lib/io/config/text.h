@@ -1,4 +1,4 @@
-// Text from outside (names, reasons), made safe for the files that it is printed into.
+// Makes text from outside (names, reasons) safe for the files into which it is written.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 namespace walktrack {
 inline namespace io {
 
-// A cell of a CSV table: quoted where it holds a comma, a quote or a line end (RFC 4180).
+// A cell of a CSV table, quoted if it contains a comma, a quote or a line end (RFC 4180).
 std::string csv_cell(std::string_view text);
 // Text inside an HTML element or a quoted attribute.
 std::string html_text(std::string_view text);
-// A relative path as a link: percent-encoded but for what may stand there (RFC 3986).
+// A relative path as a link: percent-encoded except for the characters that are allowed (RFC 3986).
 std::string url_path(std::string_view path);
-// Control characters become blanks.
+// Replaces control characters by spaces.
 std::string one_line(std::string_view text);
 
 }  // namespace io

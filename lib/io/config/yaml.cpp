@@ -18,8 +18,8 @@ inline namespace io {
 
 namespace {
 
-// Refuses keys that a map holds twice, of which the parser would silently take one. Works on the
-// parser's events, so that what anchors repeat is seen once.
+// Refuses keys that appear twice in a map, of which the parser would silently take one. It works on
+// the parser's events, so that the content of anchors is seen once.
 class KeysOnce : public YAML::EventHandler {
  public:
   explicit KeysOnce(std::string file) : file_(std::move(file)) {}
@@ -45,15 +45,15 @@ class KeysOnce : public YAML::EventHandler {
 
  private:
   struct Open {
-    std::string path;  // dotted, of the map or list
+    std::string path;  // dotted path of the map or list
     bool map;
     bool at_key = true;
-    size_t items = 0;  // of a list
+    size_t items = 0;  // number of items of a list
     std::set<std::string> keys;
-    std::string key;  // the one whose value comes next
+    std::string key;  // key of the next value
   };
 
-  // The place of the value that comes next.
+  // The dotted path of the next value.
   std::string path() const {
     if (open_.empty()) return "";
     const Open& in = open_.back();
@@ -87,7 +87,7 @@ class KeysOnce : public YAML::EventHandler {
   std::vector<Open> open_;
 };
 
-// One document, in which no key stands twice.
+// Refuses a second document and duplicate keys.
 void refuse_silent_losses(const std::string& text, const std::string& name) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);

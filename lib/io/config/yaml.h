@@ -1,6 +1,6 @@
-// Strict reading of YAML: every value is asked for by key, type and range, and whatever nobody
-// asked for is an error. All errors are InputErrors of the form "file:line: key: found X, allowed
-// Y", an unknown key names the nearest valid one.
+// Strict reading of YAML: every value is asked for by key, type and range, and keys that nobody
+// asked for are an error. All errors are InputErrors of the form "file:line: key: found X, allowed
+// Y"; for an unknown key they name the nearest valid one.
 #pragma once
 
 #include <functional>
@@ -13,11 +13,11 @@
 namespace walktrack {
 inline namespace io {
 
-// A place in a YAML file. Copies are cheap (yaml-cpp nodes are handles).
+// A value in a YAML file with its place. Copies are cheap (yaml-cpp nodes are handles).
 class YamlValue {
  public:
-  // Reads a file of at most kMaxYamlBytes. An empty file is an empty map. A key that a map holds
-  // twice is an error, and so is a second document.
+  // Reads a file of at most kMaxYamlBytes. An empty file is an empty map. Duplicate keys in a map
+  // and a second document are errors.
   static YamlValue from_file(const std::string& path);
   static YamlValue from_text(const std::string& text, const std::string& name);
 
@@ -28,23 +28,23 @@ class YamlValue {
   bool is_list() const { return node_.IsSequence(); }
   bool is_scalar() const { return node_.IsScalar(); }
 
-  // Of a map. A key that is not in `allowed` is an error.
+  // For a map: a key that is not in `allowed` is an error.
   void only_keys(const std::vector<std::string>& allowed) const;
   std::vector<std::string> keys() const;
   bool has(const std::string& key) const;      // present and not null
   YamlValue at(const std::string& key) const;  // an error when missing
-  // Of a list.
+  // For a list: its items.
   std::vector<YamlValue> items() const;
 
   std::string text() const;  // a scalar that is not empty
-  std::string name() const;  // a text that is fit for file names and pages
+  std::string name() const;  // a text that is valid in file names and pages
   double number(double lowest, double highest) const;
   double number() const;  // any finite number
   int integer(int lowest, int highest) const;
   std::vector<double> numbers() const;              // a list of finite numbers
   std::vector<double> numbers(size_t count) const;  // exactly that many
 
-  // Throws the InputError for this place.
+  // Throws the InputError for this value.
   [[noreturn]] void fail(std::string_view found, std::string_view allowed) const;
   std::string describe_found() const;  // "'text'", "a list", "a map", "nothing"
 

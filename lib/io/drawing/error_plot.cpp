@@ -13,18 +13,19 @@ inline namespace io {
 
 namespace {
 
-// Pixels. Two panels above each other, names of the estimates between title and curves.
+// In pixels. The two panels are one above the other; the names of the estimates are between the
+// title and the curves.
 constexpr double kWidth = 900, kLeft = 60, kRight = 880, kLegendLine = 18, kTop = 44;
 constexpr double kPanel = 220, kBetween = 64, kBottom = 76;
-constexpr double kBarShare = 0.8;  // of the width for a joint
+constexpr double kBarShare = 0.8;  // share of the width for a joint
 
-// From zero to the first round error at or above `most`.
+// An axis from zero to the first round error at or above `most`.
 SvgAxis error_axis(double most, double top) {
   const double high = most > 0 ? most : 1, step = tick_step(high);
   return {0, std::ceil(high / step) * step, top + kPanel, top};
 }
 
-// Lines across the panel at round errors, from zero up.
+// Horizontal lines at round errors, from zero up.
 std::string error_grid(const SvgAxis& error, const std::string& label) {
   std::string out;
   const double step = tick_step(error.high);
@@ -46,7 +47,7 @@ std::string time_ticks(const SvgAxis& time, double y) {
   return out;
 }
 
-// One stroke for each unbroken run of known errors.
+// One stroke for each run of known errors without a gap.
 std::string curve(const ErrorSeries& series, const SvgAxis& time, const SvgAxis& error,
                   std::string_view stroke) {
   std::string path;

@@ -1,5 +1,5 @@
-// The errors of estimates against one truth as a picture: over time, of each joint, and how often
-// stated intervals hold the truth.
+// A plot of the errors of several estimates against one truth: over time, for each joint, and how
+// often stated intervals contain the truth.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ inline namespace io {
 struct ErrorSeries {
   std::string name;                          // of the estimate
   std::vector<double> time;                  // s
-  std::vector<double> error_mm;              // at these times; NaN = the walker was not there
+  std::vector<double> error_mm;              // at these times; NaN = the subject was not tracked
   std::array<double, kJointCount> joint_mm;  // mean; NaN = never known
   std::optional<Coverage> coverage;          // of its intervals, if it has some
 };

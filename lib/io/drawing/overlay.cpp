@@ -21,8 +21,9 @@ using Eigen::Vector3d;
 const cv::Scalar kLeftBgr(178, 114, 0), kRightBgr(0, 94, 213), kTrunkBgr(255, 255, 255),
     kGridBgr(150, 150, 150);
 
-constexpr int kMostPieces = 12;         // that a bent line is drawn in
-constexpr double kPiece = 32;           // px; no lens bends so little by as much as a pixel
+constexpr int kMostPieces = 12;         // number of segments that a distorted line is drawn with,
+                                        // at most
+constexpr double kPiece = 32;           // px; shorter segments need no subdivision for any lens
 constexpr double kFarOutside = 10'000;  // px; beyond it OpenCV's coordinates overflow
 
 bool far_outside(const Vector2d& px) { return px.cwiseAbs().maxCoeff() > kFarOutside; }
@@ -34,8 +35,8 @@ void draw_piece(cv::Mat& image, const Vector2d& from, const Vector2d& to, const 
            kFractionBits);
 }
 
-// Those that a line between these pixels is drawn in; one that comes from behind the camera or from
-// far outside is cut into many, some of which may be in the picture.
+// Number of segments for a line between these pixels. A line from behind the camera or from far
+// outside is always subdivided, because some of its segments may be in the image.
 int pieces_between(const std::optional<Vector2d>& from, const std::optional<Vector2d>& to) {
   if (!from || !to || far_outside(*from) || far_outside(*to)) return kMostPieces;
   return static_cast<int>(
@@ -75,8 +76,8 @@ void draw_bones(cv::Mat& image, const Camera& camera, const JointPositions& join
   }
 }
 
-// The part of the image in which skeletons lie. Lenses bend bones beyond their joints by less than
-// its margin.
+// The part of the image that contains the skeletons. Lenses bend bones beyond their joints by less
+// than its margin.
 cv::Rect place_of(std::span<const JointPositions> skeletons, const Camera& camera,
                   const cv::Mat& image) {
   Eigen::AlignedBox2d box;

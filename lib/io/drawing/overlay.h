@@ -1,6 +1,6 @@
-// Drawing into video frames: what the world holds, seen through a calibrated camera. Lines follow
-// the lens's distortion. Left limbs are blue, right ones vermilion, the trunk white (colours that
-// colour-blind people tell apart; Okabe & Ito 2008).
+// Draws objects of the world into video frames of a calibrated camera. Lines follow the lens
+// distortion. Left limbs are blue, right ones vermilion, the trunk white (colours that colour-blind
+// people can distinguish; Okabe & Ito 2008).
 //
 // Images are 8-bit BGR of the camera's size. Nothing outside the image is drawn.
 #pragma once
@@ -26,22 +26,25 @@ void draw_line(cv::Mat& image, const Camera& camera, const Eigen::Vector3d& from
 void draw_ground_grid(cv::Mat& image, const Camera& camera, const Eigen::Vector2d& centre,
                       double half_side);
 
-// World axes at a point: x red, y green, z blue, `length` metres each, with their names.
+// Draws the world's axes at a point: x red, y green, z blue, each `length` metres long, with their
+// names.
 void draw_axes(cv::Mat& image, const Camera& camera, const Eigen::Vector3d& origin, double length);
 
-// Bones between known joints; arms where they are known. `arms` says whether the body has any.
+// Draws bones between known joints, with arms if they are known. `arms` states whether the body has
+// any.
 void draw_skeleton(cv::Mat& image, const Camera& camera, const JointPositions& joints, bool arms,
                    int thickness_px);
 
-// Many skeletons at once, blended over the image with this opacity: the spread of a particle set.
+// Draws many skeletons, blended over the image with this opacity, which shows the spread of a
+// particle set.
 void draw_spread(cv::Mat& image, const Camera& camera, std::span<const JointPositions> skeletons,
                  bool arms, double opacity);
 
-// A thin cross at a point of the image, `arm_px` long to all sides: what a detector saw there.
+// Draws a thin cross at a point of the image, `arm_px` long to all sides, for a detected keypoint.
 void draw_cross(cv::Mat& image, const Eigen::Vector2d& px, const cv::Scalar& bgr, double arm_px);
 
-// A ring about a point of the image, and a straight line between two of them; as thick as suits the
-// image unless told otherwise.
+// Draws a ring around a point of the image, or a straight line between two of them. The default
+// thickness suits the size of the image.
 void draw_ring(cv::Mat& image, const Eigen::Vector2d& px, int radius_px, const cv::Scalar& bgr);
 void draw_stroke(cv::Mat& image, const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px,
                  const cv::Scalar& bgr, int thickness_px = 0);
@@ -51,10 +54,10 @@ cv::Scalar left_colour();
 cv::Scalar right_colour();
 cv::Scalar trunk_colour();
 
-// A line of text in the upper left corner, readable on any ground.
+// Draws a line of text in the upper left corner that is readable on any background.
 void draw_caption(cv::Mat& image, const std::string& text);
 
-// Thickness that suits the image: 1 px at 480 lines, 2 at 960, …
+// Thickness that suits the size of the image: 1 px for 480 rows, 2 for 960, …
 int line_thickness(const cv::Mat& image);
 
 }  // namespace io

@@ -16,9 +16,10 @@ namespace {
 using Eigen::Array2d;
 using Eigen::Vector2d;
 
-constexpr int kLeastSide = 32;     // px, that encoders take
-constexpr int kLeastHeight = 480;  // px, that a window is enlarged to
-constexpr double kMargin = 0.15;   // of a window's sides, around the joints: head, hands and feet
+constexpr int kLeastSide = 32;     // px; the smallest side that encoders accept
+constexpr int kLeastHeight = 480;  // px; windows are enlarged to at least this height
+constexpr double kMargin = 0.15;   // share of a window's sides, added around the joints for head,
+                                   // hands and feet
 
 int even(double length) { return std::max(kLeastSide, 2 * static_cast<int>(length / 2)); }
 
@@ -30,13 +31,14 @@ double shrinking_to(int width_px, double wide) {
   return width_px > 0 ? std::min(1.0, width_px / wide) : 1.0;
 }
 
-// How far joints reach from the pelvis, px: to the upper left, and to the lower right.
+// Distances from the pelvis to the bounding box of the joints, px: to its upper left and to its
+// lower right corner.
 struct PixelReach {
   Vector2d pelvis;
   Array2d before{0, 0}, after{0, 0};
 };
 
-// Of the joints that have a place near the picture: lenses do not tell where others are.
+// Only joints near the image are counted; lens models are not valid far outside.
 std::optional<PixelReach> reach_of(const Camera& camera, const JointPositions& joints) {
   const Array2d size(camera.width_px, camera.height_px);
   const auto pixel = [&](const Eigen::Vector3d& joint) -> std::optional<Vector2d> {
@@ -59,7 +61,7 @@ std::optional<PixelReach> reach_of(const Camera& camera, const JointPositions& j
   return in_picture ? std::optional(out) : std::nullopt;
 }
 
-// The pelvis in every frame: straight lines between those that are known.
+// The pelvis in every frame, interpolated linearly between frames in which it is known.
 std::vector<Vector2d> filled(const std::vector<std::optional<PixelReach>>& reaches) {
   std::vector<Vector2d> out(reaches.size());
   std::optional<size_t> before;
@@ -88,8 +90,8 @@ Array2d ratio_of(const OverlayView& view) {
   return Array2d(view.size.width, view.size.height) / Array2d(view.area.width, view.area.height);
 }
 
-// What is more than twice too large is halved first, each pixel the mean of four: area averages of
-// other factors cost several times as much. What is left loses nothing by interpolation.
+// An image that is more than twice too large is halved first by 2 x 2 means: area averages with
+// other factors cost several times as much. The rest is interpolated without loss.
 void shrink(const cv::Mat& picture, const cv::Size& size, cv::Mat& out) {
   cv::Mat from = picture;
   const auto halves = [](int length, int wanted) {

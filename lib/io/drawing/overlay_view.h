@@ -1,8 +1,8 @@
-// What of a camera's picture is shown in a video of it, and how large: the whole picture, or a
-// window of constant size that follows the walker, shrunk so far that nothing is wider than wanted.
+// The part of a camera's image that an overlay video shows, and its scale: the whole image, or a
+// window of constant size that follows the subject, shrunk to the width that is wanted.
 //
-// Pixel centres are at integers; those of a shrunk picture lie between those of the picture it is
-// made of (camera/camera.h, scaled_down).
+// Pixel centres are at integers; those of a shrunk image lie between those of the original
+// (camera/camera.h, scaled_down).
 #pragma once
 
 #include <span>
@@ -18,26 +18,27 @@ namespace walktrack {
 inline namespace io {
 
 struct OverlayView {
-  cv::Rect area;  // of the camera's picture, px
-  cv::Size size;  // of what is shown of it, px; even, as encoders want it
+  cv::Rect area;  // of the camera's image, px
+  cv::Size size;  // of the view, px; even, as encoders require
 };
 
-// The whole picture, at most `width_px` wide; 0 = as it is.
+// The whole image, at most `width_px` wide; 0 = unchanged.
 OverlayView whole_view(const Camera& camera, int width_px);
 
-// Windows that hold every known joint as far as it is in the picture, one a frame and all of one
-// size. Where no joint is known they move from the window before to the one after. Small ones are
-// enlarged to a height at which the figure can be looked at. The whole picture where no frame has a
-// joint in it.
+// Windows that contain all known joints as far as they are in the image, one for each frame and all
+// of one size. In frames without known joints the window is interpolated. Small windows are
+// enlarged to a height at which the figure is visible. If no frame has a joint in the image, the
+// view is the whole image.
 std::vector<OverlayView> views_around(const Camera& camera, std::span<const JointPositions> frames,
                                       int width_px);
 
-// The camera whose picture the view is.
+// The camera for which the view is the whole image.
 Camera camera_of(const OverlayView& view, const Camera& camera);
-// Where a pixel of the camera's picture is in the view.
+// The position of a pixel of the camera's image in the view.
 Eigen::Vector2d in_view(const OverlayView& view, const Eigen::Vector2d& px);
 
-// 8-bit BGR of the view's size; `out` keeps its memory and never shares the picture's.
+// Extracts the view: 8-bit BGR of its size. `out` keeps its memory and never shares that of the
+// image.
 void look_through(const OverlayView& view, const cv::Mat& picture, cv::Mat& out);
 
 }  // namespace io

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kTitlePlace = "<!--TITLE-->", kDataPlace = "<!--DATA-->";
-constexpr size_t kBlockBytes = 3 << 14;  // a multiple of three, so that blocks join without padding
+constexpr size_t kBlockBytes = 3 << 14;  // a multiple of three, so that encoded blocks join without
+                                         // padding
 
 void write_clip(const ReportClip& clip, AtomicFile& out) {
   out.write(fmt::format("<script type=\"text/plain\" class=\"clip\" data-name=\"{}\">",

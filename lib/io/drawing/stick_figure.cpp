@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kFigurePx = 220;  // height of the tallest figure
-constexpr double kPitchPx = 150;   // from one figure of a strip to the next
+constexpr double kPitchPx = 150;   // distance between the figures of a strip
 constexpr double kMarginPx = 50;
 
 struct LineColour {
@@ -36,7 +36,8 @@ struct Drawn {
   double width;
 };
 
-// Metres to pixels about the point (x, 0), the slope turned downhill to the right.
+// Converts metres to pixels around the point (x, 0). The ground falls to the right if the slope is
+// positive.
 class View {
  public:
   View(double x, double slope, double scale, Vector2d origin_px)
@@ -61,8 +62,8 @@ double tallest(const std::vector<StickFigure>& figures) {
   return height;
 }
 
-// Metres between marks on the ground: the half metre, or the first of 5, 50, 500 ... that keeps
-// them 20 pixels apart.
+// Distance between marks on the ground, m: 0.5, or the first of 5, 50, 500 ... for which they are
+// at least 20 pixels apart.
 double mark_spacing(double scale) {
   double spacing = 0.5;
   while (spacing * scale < 20) spacing *= 10;

@@ -1,5 +1,5 @@
-// Pictures of planar stick figures: a strip of postures as SVG and as an image, and an animation.
-// Points are in metres, x forward, z up, the ground at z = 0; a slope turns the picture.
+// Images of planar stick figures: a strip of postures as SVG and as an image, and an animation.
+// Points are in metres, x forward, z up, the ground at z = 0; for a slope the image is rotated.
 #pragma once
 
 #include <filesystem>
@@ -19,16 +19,16 @@ struct StickLine {
 
 struct StickFigure {
   double time = 0;  // s
-  double x = 0;     // m, where the picture is centred
+  double x = 0;     // m, centre of the image
   std::vector<StickLine> lines;
 };
 
-// Figures side by side, each centred, with its time below.
+// Figures side by side, each centred, with its time below it.
 std::string strip_as_svg(const std::vector<StickFigure>& figures, double slope);
 cv::Mat strip_as_image(const std::vector<StickFigure>& figures, double slope);
 
-// One frame a figure, the view moving with it over a ground with marks every half metre (giants: 5,
-// 50, ... m).
+// One frame for each figure. The view moves with it over a ground with marks every half metre (for
+// very large figures 5, 50, ... m).
 void write_animation(const std::filesystem::path& path, const std::vector<StickFigure>& figures,
                      double slope, double frame_rate);
 

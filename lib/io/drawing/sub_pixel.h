@@ -1,4 +1,4 @@
-// Places between pixels, for OpenCV's drawing functions and their argument `shift`.
+// Positions between pixels, for OpenCV's drawing functions with their argument `shift`.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@ inline namespace io {
 
 inline constexpr int kFractionBits = 4;
 
-// In units of 2^-kFractionBits px. Places far outside any picture are moved nearer, so that
-// OpenCV's coordinates do not overflow.
+// In units of 2^-kFractionBits px. Positions far outside any image are clamped, because OpenCV's
+// coordinates would overflow.
 inline cv::Point fixed_point(const Eigen::Vector2d& place_px) {
   const auto fixed = [](double v) {
     return static_cast<int>(std::lround(std::clamp(v, -1e5, 1e5) * (1 << kFractionBits)));

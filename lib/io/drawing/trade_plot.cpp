@@ -15,7 +15,7 @@ namespace {
 // Pixels.
 constexpr double kPlotWidth = 760, kPlotLeft = 64, kPlotRight = 740, kPlotTop = 72, kFloor = 432;
 constexpr double kLegendTop = 492, kPlotLegendLine = 19, kRadius = 5;
-constexpr double kRoom = 1.15;  // beyond the outermost points, a factor of speed
+constexpr double kRoom = 1.15;  // margin beyond the outermost points, as a factor of speed
 constexpr std::string_view kGrid = "#ccc", kOther = "#888";
 
 std::string line(double x1, double y1, double x2, double y2, std::string_view colour,

@@ -1,4 +1,4 @@
-// Error against speed as a picture: what is measured of each setting, and those that nothing beats.
+// A plot of error against speed: the settings of a sweep, and those that no other setting beats.
 #pragma once
 
 #include <string>

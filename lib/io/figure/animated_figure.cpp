@@ -15,14 +15,15 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kNoDirection = 1e-6;     // m; two places nearer than this point nowhere
-constexpr double kNearlyParallel = 1e-3;  // a hint of a direction that says nothing
+constexpr double kNoDirection = 1e-6;     // m; two points nearer than this define no direction
+constexpr double kNearlyParallel = 1e-3;  // a reference direction that is too nearly parallel to be
+                                          // used
 
 enum Node : size_t { kPelvisNode, kTrunkNode, kNeckNode };
 
-// What a node's offset is in the rest pose.
+// How a node's offset in the rest pose is defined.
 enum class Rest {
-  kFixed,  // a place in the parent's body, wherever it is
+  kFixed,  // a position in the parent's axes
   kUp,     // along the parent's bone
   kDown,
   kToe,
@@ -31,7 +32,7 @@ enum class Rest {
 struct Plan {
   FigureNode node;
   Rest rest;
-  Vector3d usual;  // offset where the motion says nothing, m
+  Vector3d usual;  // offset if the motion does not determine it, m
 };
 
 Vector3d toe_of(const BodyLengths& l) {
@@ -84,14 +85,14 @@ bool points_somewhere(const Vector3d& direction) {
   return known(direction) && direction.norm() > kNoDirection;
 }
 
-// z along `up`, y as near to `left` as that allows, to anything where they are parallel.
+// Axes with z along `up` and y as near to `left` as possible; y is arbitrary if they are parallel.
 Matrix3d axes_along(const Vector3d& up, const Vector3d& left) {
   const Vector3d along = up.normalized();
   const bool says = known(left) && along.cross(left.normalized()).norm() > kNearlyParallel;
   return axes_with_z(along, says ? left : along.unitOrthogonal());
 }
 
-// y along `left`, z as near to `up` as that allows.
+// Axes with y along `left` and z as near to `up` as possible.
 Matrix3d axes_across(const Vector3d& left, const Vector3d& up) {
   const Vector3d across = left.normalized();
   const bool says = across.cross(up.normalized()).norm() > kNearlyParallel;
@@ -103,7 +104,7 @@ Matrix3d axes_across(const Vector3d& left, const Vector3d& up) {
   return out;
 }
 
-// World axes of every node of one frame.
+// Computes the world axes of every node in one frame.
 class FrameAxes {
  public:
   FrameAxes(const JointPositions& joints, const BodyLengths& lengths, bool arms)
@@ -144,7 +145,8 @@ class FrameAxes {
     axes.push_back(axes.back());
   }
 
-  // The elbow's hinge counts by the sine of its flexion, the trunk's left by a little.
+  // The elbow's hinge axis is weighted by the sine of its flexion, and the trunk's left axis
+  // slightly.
   void add_arm(Side side, const Matrix3d& trunk) {
     const bool left = side == Side::kLeft;
     const Vector3d& shoulder = joints_[left ? Joint::kLeftShoulder : Joint::kRightShoulder];
@@ -160,7 +162,7 @@ class FrameAxes {
   }
 
   const JointPositions& joints_;
-  Matrix3d foot_;  // the way to the toe at rest
+  Matrix3d foot_;  // direction of the toe at rest
 };
 
 bool legs_are_known(const JointPositions& joints) {
@@ -171,7 +173,7 @@ bool legs_are_known(const JointPositions& joints) {
   return points_somewhere(joints[Joint::kLeftHip] - joints[Joint::kRightHip]);
 }
 
-// With offsets as they were, NaN where a joint is unknown.
+// Offsets are kept; a joint that is unknown is NaN.
 FigureFrame frame_of(const JointPositions& joints, const FrameAxes& seen,
                      const std::vector<Plan>& plan) {
   FigureFrame out{seen.root, {}, {}};

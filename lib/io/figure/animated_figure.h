@@ -1,12 +1,13 @@
-// A motion as a tree of joints that turn, as files of animated figures hold it (BVH, glTF).
+// A motion as a tree of rotating joints, as files of animated figures store it (BVH, glTF).
 //
-// The tree has the joints of joints.csv, and a trunk that turns against the pelvis at the pelvis's
-// own place:
+// The tree has the joints of joints.csv, and a trunk that rotates against the pelvis at the
+// pelvis's position:
 //   pelvis -> trunk -> neck -> head;  pelvis -> lhip -> lknee -> lankle -> ltoe, and right;
 //   with arms  trunk -> lshoulder -> lelbow -> lwrist, and right
-// In the rest pose the figure stands upright and looks along x, every joint's axes are those of the
-// world (x forward, y left, z up), and offsets are means over the motion. Joint places are those of
-// the motion but for what a length differs from its mean: `offset` of a frame keeps that.
+// In the rest pose the figure stands upright and faces along x, every joint's axes are those of the
+// world (x forward, y left, z up), and offsets are means over the motion. A frame's `offset`
+// contains the difference between a length and its mean, so that joint positions are those of the
+// motion.
 #pragma once
 
 #include <array>
@@ -25,15 +26,15 @@ inline namespace io {
 struct FigureNode {
   std::string_view name;
   int parent;                       // its index, smaller than the node's own; -1: none
-  std::optional<Joint> joint;       // whose place it has; the trunk has none
-  bool turns;                       // ends do not: head, toes, wrists
+  std::optional<Joint> joint;       // at its position; the trunk has none
+  bool turns;                       // false for ends: head, toes, wrists
   Eigen::Vector3d offset{0, 0, 0};  // from the parent in the rest pose, m
 };
 
 struct FigureFrame {
-  Eigen::Vector3d root;  // place of the pelvis, world, m
-  // By node: parent_from_node, and the place in the parent's axes, m; the rest pose's where a joint
-  // is not known.
+  Eigen::Vector3d root;  // position of the pelvis, world, m
+  // By node: parent_from_node, and the position in the parent's axes, m; those of the rest pose if
+  // a joint is not known.
   std::vector<Eigen::Quaterniond> turn;
   std::vector<Eigen::Vector3d> offset;
 };
@@ -41,17 +42,18 @@ struct FigureFrame {
 struct AnimatedFigure {
   std::vector<FigureNode> nodes;  // the pelvis first
   std::vector<double> time;       // s
-  // nullopt where a hip, knee or ankle is unknown, or two that a bone joins coincide.
+  // nullopt if a hip, knee or ankle is unknown, or if the two ends of a bone coincide.
   std::vector<std::optional<FigureFrame>> frames;
 
   bool any_frame() const;
 };
 
-// `lengths` stand in for joints that are never known. Arms are there if one of their joints ever
-// is.
+// `lengths` replace those of joints that are never known. The figure has arms if one of their
+// joints is ever known.
 AnimatedFigure animated_figure(const Motion& motion, const BodyLengths& lengths);
 
-// Where a node is in the rest pose, feet on the ground, the pelvis above the origin, m.
+// Positions of the nodes in the rest pose, with the feet on the ground and the pelvis above the
+// origin, m.
 std::vector<Eigen::Vector3d> rest_places(const AnimatedFigure& figure, double ankle_height);
 
 }  // namespace io

@@ -20,9 +20,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kLocked = 1 - 1e-12;    // of the sine of the middle angle
+constexpr double kLocked = 1 - 1e-12;    // sine of the middle angle beyond which the other two are
+                                         // not separable
 constexpr double kShortest = 1e-6;       // m
-constexpr double kHyperextended = 0.01;  // m, a knee behind the line of its leg on purpose
+constexpr double kHyperextended = 0.01;  // m; a knee this far behind the line of its leg is
+                                         // hyperextended and not noisy
 
 Matrix3d rotation_in_file(const Eigen::Quaterniond& turn) {
   Matrix3d file_from_world;
@@ -31,7 +33,7 @@ Matrix3d rotation_in_file(const Eigen::Quaterniond& turn) {
   return file_from_world * turn.toRotationMatrix() * file_from_world.transpose();
 }
 
-// z, x and y of R = Rz Rx Ry, rad.
+// The angles about z, x and y with R = Rz Rx Ry, rad.
 Vector3d angles_of(const Matrix3d& r) {
   const double sine = r(2, 1);
   if (std::abs(sine) > kLocked)
@@ -39,13 +41,14 @@ Vector3d angles_of(const Matrix3d& r) {
   return {std::atan2(-r(0, 1), r(1, 1)), std::asin(sine), std::atan2(-r(2, 0), r(2, 2))};
 }
 
-// Without jumps of a whole turn, which editors of curves would interpolate.
+// Removes jumps of a whole turn, which editors would interpolate.
 double unwound(double angle, double before) {
   return before + std::remainder(angle - before, 2 * kPi);
 }
 
-// The knee of a leg of these lengths between hip and ankle: bent about `hinge` (any length)
-// forwards, or backwards if it clearly was; straight where they are too far apart.
+// The knee of a leg with these segment lengths between hip and ankle. It is bent about `hinge` (of
+// any length), backwards only if it clearly was hyperextended, and straight if hip and ankle are
+// too far apart.
 Vector3d bent_knee(const Vector3d& hip, const Vector3d& knee, const Vector3d& ankle,
                    const Vector3d& hinge, double thigh, double shank) {
   const Vector3d way = ankle - hip;
@@ -60,8 +63,8 @@ Vector3d bent_knee(const Vector3d& hip, const Vector3d& knee, const Vector3d& an
   return hip + thigh * (cosine * down + sine * ahead);
 }
 
-// Bends one leg, whose hip is the node `h`, so that with the rest pose's lengths the ankle is where
-// the frame has it; the foot keeps its attitude.
+// Bends the leg whose hip is the node `h`, so that with the segment lengths of the rest pose the
+// ankle stays where the frame has it. The foot keeps its orientation.
 void keep_ankle(const AnimatedFigure& figure, size_t h, FigureFrame& frame) {
   const size_t k = h + 1, a = h + 2;
   const Matrix3d thigh(frame.turn[h]), shank = thigh * frame.turn[k].toRotationMatrix(),
@@ -119,7 +122,7 @@ struct Tree {
   }
 };
 
-// Nodes in the order in which the tree names them.
+// Lists nodes in the order of the tree.
 void list_nodes(const AnimatedFigure& figure, size_t index, std::vector<size_t>& out) {
   if (figure.nodes[index].turns) out.push_back(index);
   for (size_t child = index + 1; child < figure.nodes.size(); ++child)

@@ -1,4 +1,4 @@
-// figure.bvh: the moving figure for Blender, MotionBuilder and whatever else reads Biovision
+// figure.bvh: the moving figure for Blender, MotionBuilder and other programs that read Biovision
 // Hierarchy (Meredith & Maddock, "Motion Capture File Formats Explained", Univ. of Sheffield
 // CS-01-11, 2001).
 //
@@ -6,10 +6,10 @@
 // Blender's importer turns them into the world's again. The pelvis has six channels, every other
 // joint the three of its rotation, R = Rz Rx Ry in degrees; toes, head and wrists are end sites.
 //
-// What BVH cannot say: a length that changes, and that nobody was seen. Tracked and measured bones
-// change theirs by centimetres; here they have their mean ones, and a knee bends a little more or
-// less so that the ankle is where it was, if the leg is long enough. A frame without a pose repeats
-// the one before it, the first ones the first that is known.
+// BVH cannot represent changing lengths or missing frames. Tracked and measured bones change their
+// lengths by centimetres; here they have their mean lengths, and the knee is flexed slightly more
+// or less so that the ankle keeps its position if the leg is long enough. A frame without a pose
+// repeats the one before it; the first frames repeat the first known one.
 #pragma once
 
 #include <string>

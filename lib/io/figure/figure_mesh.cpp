@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kAround = 16;   // vertices of a ring
-constexpr int kCapRings = 3;  // of an end, beside the one where it begins
+constexpr int kAround = 16;   // vertices in a ring
+constexpr int kCapRings = 3;  // rings of a cap, in addition to the one at its border
 
 size_t node_at(const AnimatedFigure& figure, Joint joint) {
   const auto at = std::find_if(figure.nodes.begin(), figure.nodes.end(),
@@ -23,7 +23,7 @@ size_t node_at(const AnimatedFigure& figure, Joint joint) {
 
 size_t node_of(const AnimatedFigure& figure, const Part& part) {
   if (part.appearance == Appearance::kHead) return node_at(figure, Joint::kNeck);
-  // The trunk turns at the pelvis's place, just behind it in the list.
+  // The trunk turns at the position of the pelvis, which is the previous part of the list.
   if (part.segment == Segment::kTrunk) return node_at(figure, Joint::kPelvis) + 1;
   return node_at(figure, part.origin);
 }
@@ -49,7 +49,7 @@ MeshGroup group_of(Segment segment) {
   return MeshGroup::kRight;
 }
 
-// A part's axis and the two directions of its sections, right-handed in this order.
+// The axis of a part and the two directions of its cross-sections, right-handed in this order.
 struct PartAxes {
   Vector3d first, second, along;
 };
@@ -59,8 +59,8 @@ struct Ring {
   double first, second;  // half widths
 };
 
-// Of one end, `out` = -1 the lower one: rings of half an ellipsoid, from its border to near its
-// tip.
+// Adds the cap of one end (`out` = -1: the lower one): rings of half an ellipsoid from its border
+// to near its tip.
 void add_cap(const Vector3d& centre, const PartAxes& axes, const Ring& border, double out,
              std::vector<Ring>& rings) {
   const double depth = 0.5 * (border.first + border.second);
@@ -78,7 +78,7 @@ void add_triangle(FigureMesh& mesh, std::vector<uint16_t>& triangles, size_t a, 
   for (const size_t each : {a, b, c}) mesh.normals[each] += normal;
 }
 
-// A closed surface through rings from the lower tip to the upper one.
+// Adds a closed surface through the rings from the lower tip to the upper one.
 void add_surface(const std::vector<Ring>& rings, const std::array<Vector3d, 2>& tips,
                  const PartAxes& axes, size_t node, std::vector<uint16_t>& triangles,
                  FigureMesh& mesh) {

@@ -33,7 +33,7 @@ std::vector<double> list_of(const Vector3d& world) {
   return {at.x(), at.y(), at.z()};
 }
 
-// Two keys with the same sign, so that what lies between them is the short way.
+// Consecutive quaternions get the same sign, so that interpolation takes the shorter rotation.
 void append(std::vector<float>& out, const Quaterniond& turn, Quaterniond& before) {
   const double sign = turn.dot(before) < 0 ? -1 : 1;
   before = Quaterniond(sign * turn.coeffs());
@@ -81,7 +81,7 @@ class Animation {
                 "LINEAR");
   }
 
-  // Seen where a frame has a pose.
+  // A node is visible in frames that have a pose.
   void add_presence(size_t node, const AnimatedFigure& figure) {
     std::vector<float> times, scales;
     std::optional<bool> before;
@@ -152,7 +152,8 @@ Json nodes_of(const AnimatedFigure& figure, const std::vector<Vector3d>& rest) {
   return out;
 }
 
-// At rest a joint's axes are the world's: its matrix takes its place away, column by column.
+// At rest a joint's axes are the world's: the inverse bind matrix subtracts its position, column by
+// column.
 Json skin_of(const std::vector<Vector3d>& rest, GltfBuffer& buffer) {
   std::vector<float> matrices;
   Json joints = Json::array();
@@ -189,7 +190,7 @@ Json mesh_json(const FigureMesh& mesh, GltfBuffer& buffer) {
   return {{"name", "figure"}, {"primitives", std::move(primitives)}};
 }
 
-// sRGB, 0 to 255, as the overlay draws them; glTF counts in linear light.
+// Colours are sRGB from 0 to 255, as the overlay draws them; glTF uses linear colours.
 Json material(const char* name, const std::array<int, 3>& colour) {
   const auto linear = [](int value) { return std::pow(value / 255.0, 2.2); };
   const std::array factor{linear(colour[0]), linear(colour[1]), linear(colour[2]), 1.0};

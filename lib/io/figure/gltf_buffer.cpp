@@ -32,7 +32,7 @@ void append_float(std::string& bytes, float value) {
 
 void pad(std::string& bytes, char with) { bytes.resize((bytes.size() + 3) / 4 * 4, with); }
 
-// One list of least and one of greatest numbers, by component.
+// Adds the smallest and the largest value of each component.
 void add_bounds(std::span<const float> numbers, int components, Json& accessor) {
   const auto width = static_cast<size_t>(components);
   std::vector<float> low(numbers.begin(), numbers.begin() + components), high = low;

@@ -15,7 +15,7 @@ using AnyJson = nlohmann::json;
 
 namespace {
 
-// Inside a name it would be replaced too: names are only looked at for their digits.
+// This also replaces words inside names, which does no harm: only the digits of names are used.
 void replace_all(std::string& text, std::string_view word, std::string_view by) {
   for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + by.size()))
     text.replace(at, word.size(), by);

@@ -1,5 +1,5 @@
-// A place in a JSON file: what is there is asked for by key and type, and whatever does not fit is
-// an InputError "file: key: found X, allowed Y". Copies are cheap; the file's content has to
+// A value in a JSON file with its place. Values are asked for by key and type; a wrong one is an
+// InputError "file: key: found X, allowed Y". Copies are cheap; the content of the file has to
 // outlive them.
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace walktrack {
 inline namespace io {
 
-// "NaN" and "Infinity", which are no JSON but which Python writes, become null.
+// "NaN" and "Infinity", which Python writes although they are not valid JSON, become null.
 nlohmann::json json_from_text(std::string text, const std::string& file);
 
 class JsonValue {

@@ -1,5 +1,5 @@
-// DeepLabCut's tables: two or three rows of names above the columns, which are put together into
-// one here.
+// DeepLabCut's tables have two or three rows of names above the columns, which are joined into one
+// row here.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 struct Header {
   std::vector<std::string> individuals, parts, coordinates;  // of each column
-  size_t end = 0;                                            // in the text
+  size_t end = 0;                                            // offset in the text
   int rows = 0;
 };
 
@@ -53,7 +53,7 @@ std::string column_name(std::string_view individual, std::string_view part,
   return fmt::format("{}/{}/{}", individual, part, coordinate);
 }
 
-// The table with one row of names; the lines keep their numbers.
+// The table with one header row; the lines keep their numbers.
 CsvTable one_header(const std::string& text, const Header& header, const KeypointSource& source) {
   std::string joined(static_cast<size_t>(header.rows) - 1, '\n');
   joined += "frame";
@@ -76,7 +76,7 @@ std::string file_name_of(size_t point, const KeypointSource& source) {
   return found == source.names.end() ? "" : found->second;
 }
 
-// A name of the map that the file does not have is an error, a point without a name is not.
+// A name of the map that is not in the file is an error; a point without a name is not.
 std::vector<Column> columns_of(const CsvTable& table, const std::string& individual,
                                const Header& header, const KeypointSource& source) {
   std::vector<Column> out;
@@ -91,7 +91,7 @@ std::vector<Column> columns_of(const CsvTable& table, const std::string& individ
            fmt::format("no body part '{}' for {}", part, kKeypointNames[point]),
            fmt::format("the names in the file, such as '{}'", header.parts[1]));
     const auto x = table.find_column(column_name(individual, part, "x"));
-    if (!x) continue;  // of another individual
+    if (!x) continue;  // a column of another individual
     out.push_back({static_cast<KeypointName>(point), *x,
                    table.column(column_name(individual, part, "y")),
                    table.column(column_name(individual, part, "likelihood"))});

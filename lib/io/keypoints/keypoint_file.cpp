@@ -42,10 +42,10 @@ KeypointFrames from_text(std::string text, const KeypointSource& source) {
   fail(source, "a file of another kind", kFormats);
 }
 
-// How far the points reach; most of them, for a detector's points may lie outside the picture.
+// The extent of most points. A detector may place some points outside the image.
 struct Reach {
   size_t points = 0;
-  float x_px = 0, y_px = 0;  // that one point in fifty exceeds
+  float x_px = 0, y_px = 0;  // 98 % of the points are below
   float largest = 0;
 };
 
@@ -73,7 +73,7 @@ Reach reach_of(const KeypointFrames& frames) {
 }
 
 bool fits(const Reach& reach, int width_px, int height_px) {
-  constexpr double kBeyond = 1.1;  // detectors guess a little beyond the edge
+  constexpr double kBeyond = 1.1;  // detectors extrapolate slightly beyond the border
   return reach.x_px <= kBeyond * width_px && reach.y_px <= kBeyond * height_px;
 }
 

@@ -1,4 +1,4 @@
-// The readers behind keypoint_file.h, one for each format, and what they share.
+// The readers of keypoint_file.h, one for each format, and functions that they share.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@
 namespace walktrack {
 inline namespace io {
 
-// A point as a file has it. Missing: no confidence, no number, one that no picture reaches, or
-// exactly the corner (0, 0).
+// A point as a file states it. It counts as missing if it has no confidence, is not finite, is
+// outside of any image, or is exactly at the corner (0, 0).
 Keypoint keypoint_from(double x, double y, double confidence);
 
-// One person from as many x, y, confidence as a skeleton has points. `points` is what the people
-// before had (0 = none yet): all of a file have the same.
+// One person from x, y, confidence of each point of a skeleton. `points` is the number of points of
+// the earlier people in the file (0 = none yet), which must be the same.
 DetectedPerson person_from(const std::vector<double>& triples, int& points, const JsonValue& place);
 
 KeypointFrames openpose_folder(const std::filesystem::path& folder);
@@ -25,7 +25,7 @@ KeypointFrames coco_results(const JsonValue& list);
 KeypointFrames mmpose_inferences(const JsonValue& root);
 KeypointFrames deeplabcut_table(const std::string& text, const KeypointSource& source);
 
-// Names of a folder's OpenPose files, by frame. InputError if two are the same frame's.
+// The OpenPose files of a folder, by frame. Throws an InputError if two are for the same frame.
 std::map<int, std::filesystem::path> openpose_files(const std::filesystem::path& folder);
 
 }  // namespace io

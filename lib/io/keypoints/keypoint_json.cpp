@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kFarthest_px = 1e6;  // of any picture
+constexpr double kFarthest_px = 1e6;  // limit of coordinates in any image
 constexpr size_t kMaxFrameBytes = size_t{16} << 20;
 
 bool is_json(const fs::path& path) { return path.extension() == ".json"; }
@@ -50,7 +50,7 @@ DetectedPeople openpose_people(const fs::path& file, int& points) {
   DetectedPeople people;
   for (const JsonValue& person : JsonValue(content, name).at("people").items()) {
     const JsonValue body = person.at("pose_keypoints_2d");
-    if (body.is_list() && body.size() == 0) continue;  // a face or a hand by itself
+    if (body.is_list() && body.size() == 0) continue;  // a face or a hand without a body
     people.push_back(person_from(body.numbers(), points, body));
   }
   return people;

@@ -29,7 +29,7 @@ constexpr std::array<Point, 18> kCoco18{
     kLeftElbow, kLeftWrist, kRightHip,      kRightKnee,  kRightAnkle, kLeftHip,
     kLeftKnee,  kLeftAnkle, kRightEye,      kLeftEye,    kRightEar,   kLeftEar};
 
-constexpr size_t kCoco = 17;  // the first of HALPE_26
+constexpr size_t kCoco = 17;  // the first points of HALPE_26
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Which of a detector's points is which of ours, by how many it has.
+// The correspondence between a detector's points and KeypointName, by the number of points.
 #pragma once
 
 #include <optional>
@@ -10,12 +10,13 @@
 namespace walktrack {
 inline namespace io {
 
-// For each of the detector's points ours, or nothing for one that we have no name for: 25 BODY_25
+// The keypoint for each of the detector's points, or nullopt for one that is not used: 25 BODY_25
 // (Cao et al. 2019, OpenPose), 26 HALPE_26 (Fang et al. 2022), 18 COCO with a neck (OpenPose), 17
 // COCO. Empty for any other number.
 std::span<const std::optional<KeypointName>> skeleton_of(size_t points);
 
-// What an error says is allowed: "17 (COCO), 18, 25 (BODY_25) or 26 (HALPE_26) points".
+// The list of allowed skeletons for messages: "17 (COCO), 18, 25 (BODY_25) or 26 (HALPE_26)
+// points".
 std::string skeletons_allowed();
 
 }  // namespace io

@@ -15,7 +15,8 @@ inline namespace io {
 namespace {
 
 constexpr const char* kParameters = "parameters.";
-constexpr const char* kArticulated = "articulated";  // simulate's body in 3-D, no planar walker
+constexpr const char* kArticulated = "articulated";  // the three-dimensional body of `simulate`,
+                                                     // not a planar walker
 
 void collect(const YamlValue& value, std::vector<ModelSetting>& settings) {
   if (value.is_map()) {
@@ -32,7 +33,7 @@ void collect(const YamlValue& value, std::vector<ModelSetting>& settings) {
                       value.is_list() ? list_text(value.numbers()) : value.text()});
 }
 
-// Numbers between commas, brackets around them allowed.
+// Numbers separated by commas, with or without brackets.
 bool list_from_text(std::string text, const ModelEntry& entry) {
   if (text.size() >= 2 && text.front() == '[' && text.back() == ']') {
     text = text.substr(1, text.size() - 2);
@@ -91,7 +92,7 @@ bool is_model(const std::string& name) {
   return name == kArticulated || std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// A start has as many numbers as the walker has coordinates.
+// A start must have as many numbers as the walker has coordinates.
 void check_start(const ModelSpec& spec, size_t count, const ModelSetting& setting) {
   const auto check = [&](const char* key, const std::vector<double>& values) {
     if (setting.key != key || values.size() == count) return;
@@ -168,9 +169,9 @@ ModelSpec read_model(const std::string& name, const std::string& file,
 }
 
 std::string model_as_yaml(const ModelSpec& spec) {
-  ModelSpec copy = spec;  // entries() points into what it is given
+  ModelSpec copy = spec;  // entries() refers to its argument
   std::string text = fmt::format("model: {}\n", spec.model);
-  std::vector<std::string> open;  // maps that are open
+  std::vector<std::string> open;  // groups that are open
   for (const ModelEntry& entry : entries(copy)) {
     std::vector<std::string> path;
     std::istringstream words(entry.key);

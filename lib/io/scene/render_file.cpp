@@ -26,7 +26,7 @@ constexpr double kWalkMargin = 0.25;                     // s
 constexpr double kLargestKey = 9'007'199'254'740'991.0;  // of seeds and persons; exact as a double
 constexpr double kLargestFocal = 1e6;                    // px
 
-// Reads `key` into `target` if it is there.
+// Reads `key` into `target` if it is present.
 void take(const YamlValue& map, const std::string& key, double low, double high, double& target) {
   if (map.has(key)) target = map.at(key).number(low, high);
 }
@@ -155,7 +155,7 @@ Shape read_shape(const YamlValue& value) {
   return shape;
 }
 
-// What subject and others share.
+// Reads the keys that the subject and other people have in common.
 void read_looks(const YamlValue& value, FilmedWalker& walker) {
   if (value.has("shape")) walker.shape = read_shape(value.at("shape"));
   take(value, "height", 0.5, 2.5, walker.height);
@@ -167,8 +167,9 @@ void read_looks(const YamlValue& value, FilmedWalker& walker) {
   if (value.has("shift")) walker.shift = Eigen::Vector2d(value.at("shift").numbers(2).data());
 }
 
-// Whose walk is made: of the walker's height, with lengths that the tracker is not told.
-Subject who_walks(const YamlValue& looks, const FilmedWalker& walker) {
+// The subject for whom the walk is generated: with the walker's height, and with segment lengths
+// that are not given to the tracker.
+Subject walking_subject(const YamlValue& looks, const FilmedWalker& walker) {
   Subject subject;
   subject.height = walker.height.value_or(subject.height);
   if (!looks.has("lengths")) return subject;
@@ -184,8 +185,8 @@ Subject who_walks(const YamlValue& looks, const FilmedWalker& walker) {
   return subject;
 }
 
-// A walk over the scene's duration and a little more, for shutters that open before a frame's time.
-// `person` walks, unless the walk names another one.
+// A walk over the duration of the scene and slightly more, because shutters open before a frame's
+// time. `person` walks unless the walk names another person.
 Motion read_walk(const YamlValue& value, const Subject& subject, double duration, uint64_t person) {
   value.only_keys({"speed", "step_length", "start", "heading_deg", "turn_deg_s", "phase",
                    "arm_swing", "limp", "step_width", "lean_deg", "straightest", "person"});
@@ -235,7 +236,7 @@ FilmedWalker read_other(const YamlValue& value, const fs::path& folder, double d
   walker.clothes = 1;
   read_looks(value, walker);
   if (value.has("walk")) {
-    walker.motion = read_walk(value.at("walk"), who_walks(value, walker), duration, person);
+    walker.motion = read_walk(value.at("walk"), walking_subject(value, walker), duration, person);
   } else {
     motions.push_back(resolved(folder, value.at("motion").text()));
     walker.motion = read_motion(motions.back());
@@ -273,7 +274,7 @@ RenderFile read_render_file(const fs::path& path) {
     file.at("subject").only_keys(
         {"height", "mass", "clothes", "arms", "turn_deg", "delay", "shift", "shape", "lengths"});
     read_looks(file.at("subject"), out.subject);
-    who = who_walks(file.at("subject"), out.subject);
+    who = walking_subject(file.at("subject"), out.subject);
   }
   const double duration = options.duration.value_or(kDefaultWalkDuration);
   if (file.has("walk")) {

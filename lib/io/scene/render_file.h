@@ -41,10 +41,10 @@
 namespace walktrack {
 inline namespace io {
 
-// A walk that obeys mechanics.
+// A walk that is simulated by the kneed walker.
 struct GaitWalk {
   WalkPlan plan;
-  Eigen::Vector2d start{0, 0};  // m, under the hips at time 0
+  Eigen::Vector2d start{0, 0};  // m, below the hips at time 0
   double heading = 0;           // rad, from world x towards y
 };
 
@@ -54,11 +54,11 @@ struct RenderFile {
   RenderOptions options;
   FilmedWalker subject;  // its motion is empty if there is no `walk`
   std::optional<GaitWalk> gait;
-  std::vector<std::filesystem::path> motions;  // files of others', read
+  std::vector<std::filesystem::path> motions;  // files of other people's motions that were read
 };
 
-// Paths in it are relative to the file; motions of others are read. InputErrors name file, line and
-// key.
+// Paths in it are relative to the file; the motions of other people are read. InputErrors name
+// file, line and key.
 RenderFile read_render_file(const std::filesystem::path& path);
 
 }  // namespace io

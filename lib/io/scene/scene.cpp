@@ -27,7 +27,7 @@ constexpr int kMostFrames = std::numeric_limits<int>::max() / 2;
 
 Eigen::Vector3d vector3(const YamlValue& value) { return Eigen::Vector3d(value.numbers(3).data()); }
 
-// A path that must exist, unless it is a pattern.
+// Returns a path, which must exist unless it is a pattern.
 fs::path existing_path(const YamlValue& value, const fs::path& folder) {
   fs::path path = resolved(folder, value.text());
   std::error_code ignored;
@@ -38,7 +38,7 @@ fs::path existing_path(const YamlValue& value, const fs::path& folder) {
   return path;
 }
 
-// Which of our points each name of a map stands for; its values are the file's own names.
+// The file's own name of each keypoint; the map's values are those names.
 std::map<std::string, std::string> read_point_names(const YamlValue& map) {
   const std::vector<std::string> ours(kKeypointNames.begin(), kKeypointNames.end());
   map.only_keys(ours);
@@ -48,7 +48,7 @@ std::map<std::string, std::string> read_point_names(const YamlValue& map) {
   return names;
 }
 
-// A path, or a map with one.
+// Reads a path, or a map that contains a path.
 KeypointSource read_keypoint_source(const YamlValue& value, const fs::path& folder) {
   if (!value.is_map()) return {.path = existing_path(value, folder)};
   value.only_keys({"file", "map"});
@@ -159,10 +159,11 @@ Subject read_subject(const YamlValue& root) {
   return subject;
 }
 
-// Calibration z is up enough for (x, y) and an angle to mean a place and a direction.
+// Whether z of the calibration points up so nearly that (x, y) and an angle define a place and a
+// direction.
 bool z_is_up(const WorldFrame& world) { return world.rotation(2, 2) > std::sqrt(0.5); }
 
-// A place on the ground: [x, y] in calibration axes where z is up, else (or also) a 3-vector.
+// A place on the ground: [x, y] in calibration axes if z points up; a 3-vector is always accepted.
 Eigen::Vector2d ground_position(const YamlValue& value, const WorldFrame& world) {
   const std::vector<double> numbers = value.numbers();
   if (numbers.size() == 3) {
@@ -172,7 +173,7 @@ Eigen::Vector2d ground_position(const YamlValue& value, const WorldFrame& world)
     value.fail(fmt::format("{} numbers", numbers.size()),
                z_is_up(world) ? "[x, y] or [x, y, z]" : "[x, y, z], for z is not up");
   }
-  // The height at which (x, y, z) lies on the ground: row 2 of R p + t is zero.
+  // The z for which (x, y, z) lies on the ground: row 2 of R p + t is zero.
   const Eigen::RowVector3d row = world.rotation.row(2);
   const double z = -(row.x() * numbers[0] + row.y() * numbers[1] + world.translation.z()) / row.z();
   return world_from_calibration(world, {numbers[0], numbers[1], z}).head<2>();
@@ -219,7 +220,7 @@ Polygon read_polygon(const YamlValue& value) {
   return polygon;
 }
 
-// A polygon, or one with the times between which it is there.
+// Reads a polygon, or a polygon with the times between which it is present.
 Occluder read_occluder(const YamlValue& value) {
   if (!value.is_map()) return {.outline = read_polygon(value)};
   value.only_keys({"polygon", "from", "to"});
@@ -295,7 +296,7 @@ std::vector<Polygon> occluders_at(const SceneCamera& camera, double time) {
 }
 
 bool is_frame_pattern(const fs::path& path) {
-  std::error_code ignored;  // a name that is too long exists no more than others
+  std::error_code ignored;  // a name that is too long is treated as missing
   return path.filename().string().find('%') != std::string::npos && !fs::exists(path, ignored);
 }
 

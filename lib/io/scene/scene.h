@@ -1,8 +1,8 @@
-// What was recorded: scene.yaml, the cameras' calibrations, the subject - as plain structs in the
+// A recording: scene.yaml, the calibrations of the cameras and the subject, as plain structs in the
 // library's world (z up, ground z = 0), whatever axes the calibration has.
 //
-// Paths are relative to the file and absolute here. Every key, type and range is checked, files
-// that must exist too; errors are InputErrors "file:line: key: found X, allowed Y".
+// Paths in the file are relative to it; here they are absolute. Every key, type and range is
+// checked, and files must exist. Errors are InputErrors "file:line: key: found X, allowed Y".
 #pragma once
 
 #include <filesystem>
@@ -25,7 +25,8 @@ inline constexpr double kSlowestRate = 0.1, kFastestRate = 1000;  // of frames, 
 
 using Polygon = std::vector<Eigen::Vector2d>;  // corners, px
 
-// Something in front of the walker, always or for a while: a van that stops, a door that opens.
+// An object in front of the subject, always or for a while, for example a parked van or an open
+// door.
 struct Occluder {
   Polygon outline;
   double from = -std::numeric_limits<double>::infinity();  // s after first_frame
@@ -37,15 +38,15 @@ struct SceneCamera {
   std::filesystem::path video;        // file, folder of frames or printf pattern; empty = none
   std::filesystem::path calibration;  // the file that `camera` was read from
   std::filesystem::path background;   // frames of the empty scene; empty = none
-  KeypointSource keypoints;           // there where there is no video
+  KeypointSource keypoints;           // may replace a video
   Camera camera;                      // in the world
-  int start_frame = 0;                // frame numbers count from here
-  bool start_given = false;           // otherwise `track` may find it from the walk
-  std::optional<double> frame_rate;   // Hz, where it differs from the scene's
+  int start_frame = 0;                // the first frame of the scene in its video
+  bool start_given = false;           // otherwise `track` may estimate it from the walk
+  std::optional<double> frame_rate;   // Hz, if it differs from the scene's
   std::vector<Occluder> occluders;
 };
 
-// Where the walker is to begin with, as far as is known.
+// The subject's state at the beginning, as far as it is known.
 struct InitialState {
   double time = 0;              // s after first_frame
   Eigen::Vector2d position;     // on the ground, world axes, m
@@ -61,22 +62,23 @@ struct Scene {
   WorldFrame world;                         // world_from_calibration
   Eigen::Vector3d gravity{0, 0, -9.80665};  // world axes, m/s^2; a slope tilts it
   Subject subject;
-  bool height_given = true, mass_given = true;  // otherwise the subject's are usual ones
+  bool height_given = true, mass_given = true;  // otherwise usual values are used
   std::optional<InitialState> initial;
   std::filesystem::path truth;    // empty = none
   int first_frame = 0;            // time 0
   std::optional<int> last_frame;  // inclusive; otherwise the end of the shortest video
 };
 
-// Those that are there at a time, s after first_frame.
+// The occluders that are present at a time, s after first_frame.
 std::vector<Polygon> occluders_at(const SceneCamera& camera, double time);
 
 Scene read_scene(const std::filesystem::path& path);
 
-// The scene's own file and all that it names: videos, calibrations, backgrounds, keypoints, truth.
+// The scene's own file and all files that it names: videos, calibrations, backgrounds, keypoints,
+// truth.
 std::vector<std::filesystem::path> files_of(const Scene& scene);
 
-// Whether a path stands for many files, e.g. frames/%05d.png.
+// Whether a path denotes many files, e.g. frames/%05d.png.
 bool is_frame_pattern(const std::filesystem::path& path);
 
 }  // namespace io

@@ -1,4 +1,4 @@
-// One scene for many videos: the same room, camera and subject, another video.
+// Scenes for many videos with the same room, camera and subject.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,13 @@
 namespace walktrack {
 inline namespace io {
 
-// The text of a scene file that is the template with another video. The template must have one
-// camera; its paths become absolute, so that the text may be written anywhere; its truth, which is
-// of its own video, is left out. InputError for a template that is no such scene.
+// The text of the template's scene file with another video. The template must have one camera. Its
+// paths become absolute, so that the text may be stored anywhere; its truth, which belongs to its
+// own video, is left out. InputError if the template is not such a scene.
 std::string scene_for_video(const std::filesystem::path& scene_template,
                             const std::filesystem::path& video);
 
-// By the name's ending alone.
+// Decided by the name's ending alone.
 bool is_video_file(const std::filesystem::path& path);
 
 }  // namespace io

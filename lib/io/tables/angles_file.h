@@ -1,7 +1,7 @@
 // angles.csv: the joint angles of body/joint_angles.h in degrees, one row a frame.
 //
-// t,<angle>_deg,<angle>_deg_p05,<angle>_deg_p95,… A frame without a pose has empty cells; so has a
-// band that nobody knows. Zero and signs are in tables.json.
+// t,<angle>_deg,<angle>_deg_p05,<angle>_deg_p95,… Cells are empty in a frame without a pose, and
+// for unknown bands. Zero positions and signs are described in tables.json.
 #pragma once
 
 #include <optional>
@@ -22,12 +22,12 @@ struct AngleRow {
   std::optional<JointAngles> p05, p95;  // rad
 };
 
-// The poses that follow from joints alone (body/pose_from_joints.h), without bands.
+// The poses that follow from the joints alone (body/pose_from_joints.h), without bands.
 std::vector<AngleRow> angle_rows(const Motion& motion, const BodyLengths& lengths);
 
 std::string joint_angles_csv(const std::vector<AngleRow>& rows);
 
-// Of "angles.csv"; `rate` in Hz.
+// The notes on "angles.csv"; `rate` in Hz.
 TableNotes joint_angles_notes(double rate);
 
 }  // namespace io

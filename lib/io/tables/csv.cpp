@@ -86,7 +86,7 @@ std::vector<std::vector<double>> read_csv_columns(const std::filesystem::path& p
                                                   const std::vector<std::string>& names) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(fmt::format("{}: cannot be opened", path.string()));
-  CsvTable table;  // header, and one row at a time
+  CsvTable table;  // the header, and one row at a time
   table.file = path.string();
   std::vector<size_t> wanted;
   std::vector<std::vector<double>> columns(names.size());

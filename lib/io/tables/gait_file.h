@@ -27,7 +27,7 @@ inline namespace io {
 std::string gait_json(const GaitTable& table);
 std::string gait_csv(const GaitTable& table);
 
-// Of "gait.csv".
+// The notes on "gait.csv".
 TableNotes gait_notes();
 
 }  // namespace io

@@ -117,7 +117,7 @@ void KineticsBands::add(const Kinetics& member) {
   }
 }
 
-// The part of the vertical load's error in a column, N; columns are those of values_of().
+// The share of the error of the vertical load in a column, N; columns are those of values_of().
 double KineticsBands::model_error(size_t column, const KineticsFrame& frame) const {
   constexpr size_t kFirstFoot = 3, kColumnsOfFoot = 7, kAxes = 3;
   if (column < kFirstFoot || column >= kFirstFoot + 2 * kColumnsOfFoot) return 0;

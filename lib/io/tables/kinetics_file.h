@@ -24,17 +24,17 @@
 namespace walktrack {
 inline namespace io {
 
-// How much the columns of each row differ over members: mean and sum of squared differences as
-// members come (Welford 1962), so that none has to be kept.
+// Spread of every column of each row over members: mean and sum of squared differences are updated
+// with each member (Welford 1962), so that no member is stored.
 class KineticsBands {
  public:
-  // `load_error`: of a foot's vertical load beyond what members differ, N.
+  // `load_error`: error of a foot's vertical load in addition to the spread of the members, N.
   explicit KineticsBands(const WorldFrame& world, double load_error = 0)
       : world_(world), load_error_(load_error) {}
-  // The kinetics of another motion over the same times.
+  // Adds the kinetics of another motion at the same times.
   void add(const Kinetics& member);
-  // Half the band's width in a column of a row, whose frame is `frame`; NaN unless two members, and
-  // half of those that know the row's body, know it.
+  // Half the band's width in a column of a row, whose frame is `frame`; NaN unless at least two
+  // members, and half of those that know the row's body, have a value.
   double half_width(size_t row, size_t column, const KineticsFrame& frame) const;
 
  private:
@@ -56,10 +56,10 @@ class KineticsBands {
 std::string kinetics_csv(const Kinetics& kinetics, const KineticsBands& bands,
                          const WorldFrame& world);
 
-// The same table for forces that are known, of a walk in calibration axes.
+// The same table for simulated forces, of a walk in calibration axes.
 std::string simulated_kinetics_csv(const Kinetics& kinetics);
 
-// Of "kinetics.csv".
+// The notes on "kinetics.csv".
 TableNotes kinetics_notes(const Kinetics& kinetics, const Subject& subject,
                           const KineticsConfig& config);
 TableNotes simulated_kinetics_notes(const Kinetics& kinetics, const Subject& subject);

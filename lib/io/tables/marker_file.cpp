@@ -32,11 +32,11 @@ std::string plain_name(std::string name) {
   return out;
 }
 
-// Names of a point of one side; * is its letter. The joint's centre itself, else the middle of a
-// point on its outer and one on its inner side.
+// Names of a point of one side, in which * stands for the letter of the side: the joint's centre
+// itself, otherwise the midpoint between a lateral and a medial marker.
 struct SideNames {
   Joint left, right;
-  std::string_view called;  // in messages
+  std::string_view called;  // name in messages
   std::vector<std::string_view> centre, outer, inner;
 };
 
@@ -83,7 +83,7 @@ class Finder {
       if (names_[i] == name) return i;
     return std::nullopt;
   }
-  // Of one side; also with "left" and "right" spelt out.
+  // Finds the column of one side, also with "left" and "right" in full.
   std::optional<size_t> find(const std::vector<std::string_view>& patterns, Side side) const {
     const bool left = side == Side::kLeft;
     for (const std::string_view pattern : patterns) {
@@ -117,14 +117,14 @@ Path middle_of(const Path& a, const Path& b) {
 std::optional<Path> joint_path(const MarkerTable& markers, const Finder& finder,
                                const SideNames& names, Side side) {
   const auto inner = finder.find(names.inner, side), outer = finder.find(names.outer, side);
-  // Some sets call the outer marker of a pair by the joint's name.
+  // Some marker sets name the lateral marker of a pair after the joint.
   if (inner && outer) return middle_of(path_of(markers, *outer), path_of(markers, *inner));
   const auto centre = finder.find(names.centre, side);
   return centre ? std::optional(path_of(markers, *centre)) : std::nullopt;
 }
 
-// Harrington et al. 2007, table 4: from the middle of the anterior spines, in the pelvis's axes, by
-// its width and depth (mm there).
+// Harrington et al. 2007, table 4: offsets from the midpoint of the anterior superior iliac spines
+// in the pelvis's axes, by its width and depth (in mm there).
 std::optional<std::array<Path, 2>> hips_of_pelvis(const MarkerTable& markers,
                                                   const Finder& finder) {
   const auto la = finder.find("lasi") ? finder.find("lasi") : finder.find("lasis");
@@ -151,7 +151,7 @@ std::optional<std::array<Path, 2>> hips_of_pelvis(const MarkerTable& markers,
   return out;
 }
 
-// Mean over the rows that have it.
+// The mean over the rows in which the point is known.
 Vector3d mean_of(const Path& path) {
   Vector3d sum = Vector3d::Zero();
   double count = 0;
@@ -163,7 +163,7 @@ Vector3d mean_of(const Path& path) {
   return sum / count;
 }
 
-// world_from_file: z up, right-handed.
+// world_from_file, with z up and right-handed.
 Eigen::Matrix3d upright(const MarkerTable& markers, const Vector3d& up) {
   Eigen::Index axis = 0;
   if (!(up.cwiseAbs().maxCoeff(&axis) > 0.1) || up[axis] < 0)

@@ -1,4 +1,4 @@
-// Points of motion capture over time, as a file of another program has them.
+// Trajectories of points from motion capture, as a file of another program states them.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@ namespace walktrack {
 inline namespace io {
 
 struct MarkerTable {
-  std::string file;  // what messages call it
+  std::string file;  // name in messages
   std::vector<std::string> names;
   std::vector<double> time;                          // s, increasing
-  std::vector<std::vector<Eigen::Vector3d>> points;  // [row][name], m; NaN where it was not seen
+  std::vector<std::vector<Eigen::Vector3d>> points;  // [row][name], m; NaN if unknown
 };
 
 }  // namespace io

@@ -26,7 +26,7 @@ std::string column_name(size_t joint, size_t axis, std::string_view statistic = 
   return fmt::format("{}{}{}", kJointNames[joint], kAxes[axis], statistic);
 }
 
-// Columns of a joint's three axes; nullopt if it is not in the table.
+// The columns of a joint's three coordinates.
 using Triple = std::array<size_t, 3>;
 
 std::optional<Triple> find_triple(const CsvTable& table, size_t joint, std::string_view statistic) {
@@ -53,7 +53,7 @@ std::string joint_of_column(const std::string& column) {
   return "";
 }
 
-// Foreign triples are fine, misspelt ones are not.
+// Unknown groups of three columns are ignored; misspelt names are an error.
 void check_columns(const CsvTable& table) {
   const std::vector<std::string> known(kJointNames.begin(), kJointNames.end());
   for (const std::string& column : table.columns) {
@@ -79,7 +79,7 @@ std::vector<double> read_times(const CsvTable& table) {
   return times;
 }
 
-// The joints of all rows as they stand; those without columns are unknown.
+// The joints of all rows in the file's axes; joints without columns are unknown.
 std::vector<JointPositions> read_joints(const CsvTable& table, std::string_view statistic) {
   std::vector<JointPositions> rows(table.rows.size(), unknown_joints());
   for (size_t joint = 0; joint < kJointCount; ++joint) {
@@ -103,8 +103,8 @@ struct AxisSpread {
   double sd, p05, p95;
 };
 
-// Spread along calibration axis `axis` of a point that spreads along the world's axes by `sd`,
-// between `below` and `above` (distances of the percentiles from the mean).
+// The spread along the calibration axis `axis` of a point that has the standard deviations `sd`
+// along the world's axes, and percentiles at the distances `below` and `above` from the mean.
 AxisSpread turned_spread(const WorldFrame& world, Eigen::Index axis, double mean,
                          const Vector3d& sd, const Vector3d& below, const Vector3d& above) {
   const Vector3d share = world.rotation.col(axis);  // of each world axis in this calibration axis

@@ -17,22 +17,23 @@
 namespace walktrack {
 inline namespace io {
 
-// Into the library's world; a TRC or C3D file (marker_file.h) is upright by itself. InputError
-// naming line and column for what is no such table: a missing or misspelt column, times that do not
-// increase, text for a number.
+// Reads a motion in the library's world; a TRC or C3D file (marker_file.h) is made upright. Throws
+// an InputError that names line and column for a missing or misspelt column, times that do not
+// increase, or text instead of a number.
 Motion read_motion(const std::filesystem::path& path, const WorldFrame& world = {});
 std::string motion_csv(const Motion& motion, const WorldFrame& world = {});
 
-// Standard deviations and percentiles about the motion's rows (equal times). Exact where
-// calibration axes are world axes up to order and sign; for tilted ones, as if the world's axes
-// were independent.
+// Standard deviations and percentiles of the motion's rows (at the same times). They are exact if
+// calibration axes are world axes up to order and sign; for other rotations the errors along the
+// world's axes are taken to be independent.
 std::string uncertainty_csv(const Motion& motion, const JointUncertainty& uncertainty,
                             const WorldFrame& world = {});
 
-// In calibration axes, as written.
+// In calibration axes, as they are written.
 JointUncertainty read_uncertainty(const std::filesystem::path& path);
 
-// How many joints a table of this motion lists: with arms only where an arm joint is known.
+// Number of joints in a table of this motion: arms are included only if one of their joints is
+// known.
 int listed_joint_count(const Motion& motion);
 
 }  // namespace io

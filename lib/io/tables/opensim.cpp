@@ -39,14 +39,14 @@ constexpr const char* kMomentColumns =
 constexpr int kMomentColumnCount = 9;
 constexpr std::array kRightThenLeft{Side::kRight, Side::kLeft};
 
-// Rows per second, from the closest two: spans may be left out.
+// Rows per second, from the smallest step: the table may have gaps.
 double rate_of(std::span<const double> times) {
   double period = std::numeric_limits<double>::infinity();
   for (size_t i = 1; i < times.size(); ++i) period = std::min(period, times[i] - times[i - 1]);
   return 1 / period;
 }
 
-// Lines of `notes` must not hold '=': OpenSim would take them for keys.
+// Lines of `notes` must not contain '=', which OpenSim would take for a key.
 std::string storage_header(std::string_view name, std::span<const double> times, int columns,
                            bool degrees, std::string_view notes, std::string_view names) {
   return fmt::format(
@@ -62,7 +62,8 @@ std::vector<double> known_times(const Kinetics& kinetics) {
   return out;
 }
 
-// A foot's centre of pressure at every row; where nothing presses, the next one, else the last.
+// A foot's centre of pressure in every row. Without contact it is the next known one, otherwise the
+// last.
 std::vector<Eigen::Vector2d> centres_of(const Kinetics& kinetics, Side side) {
   const auto at = [&](size_t i) {
     return kinetics.frames[i].feet[static_cast<size_t>(side)].centre;

@@ -1,5 +1,5 @@
-// tables.json: what stands in the tables beside it. The tables themselves begin with their header
-// line, so that any program reads them as they are.
+// tables.json: a description of the tables beside it. The tables themselves begin with their header
+// line, so that any program can read them.
 //   format   "walktrack tables 1"
 //   <table>  {units, bands, ... in words; rate_hz, subject, totals, ... as numbers}
 #pragma once
@@ -19,7 +19,7 @@ struct TableNotes {
 
 std::string tables_json(std::span<const TableNotes> tables);
 
-// With six decimals, as tables have them; null for what is not finite.
+// With six decimals, as in tables; null if not finite.
 nlohmann::ordered_json json_number(double value);
 
 }  // namespace io

@@ -1,6 +1,6 @@
-// A TRC file (Motion Analysis; OpenSim): two lines of names and values, the points' names over
-// three columns each, their axes, then a row a frame; tabs between cells. Empty cells and "nan" are
-// unknown.
+// Reads a TRC file (Motion Analysis; OpenSim): two lines of names and values, the points' names
+// over three columns each, their axes, then one row for each frame; cells are separated by tabs.
+// Empty cells and "nan" are unknown.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace walktrack {
 inline namespace io {
 
-// InputError with place, found and allowed; `file` is what messages call it.
+// Throws an InputError with place, found and allowed; `file` is its name in messages.
 MarkerTable markers_from_trc(std::string_view text, const std::string& file);
 
 }  // namespace io

@@ -1,4 +1,4 @@
-// How much time the H.264 encoder takes for a smaller file, by x264's names.
+// The trade-off between time and file size of the H.264 encoder, by x264's names.
 #pragma once
 
 #include <string>

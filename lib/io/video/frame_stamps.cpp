@@ -15,8 +15,8 @@ inline namespace io {
 
 namespace {
 
-constexpr double kUneven = 0.25;       // of the usual step
-constexpr double kRoundedRate = 1e-3;  // what containers round their rates to
+constexpr double kUneven = 0.25;       // share of the usual step
+constexpr double kRoundedRate = 1e-3;  // relative; containers round their rates by as much
 
 struct CloseFile {
   void operator()(AVFormatContext* file) const { avformat_close_input(&file); }
@@ -24,13 +24,13 @@ struct CloseFile {
 struct FreePacket {
   void operator()(AVPacket* packet) const { av_packet_free(&packet); }
 };
-// The library speaks of broken files on the terminal; their reader does that in its own words.
-class Hushed {
+// Silences FFmpeg's messages about broken files: the caller reports them.
+class SilentFfmpeg {
  public:
-  Hushed() { av_log_set_level(AV_LOG_QUIET); }
-  ~Hushed() { av_log_set_level(before_); }
-  Hushed(const Hushed&) = delete;
-  Hushed& operator=(const Hushed&) = delete;
+  SilentFfmpeg() { av_log_set_level(AV_LOG_QUIET); }
+  ~SilentFfmpeg() { av_log_set_level(before_); }
+  SilentFfmpeg(const SilentFfmpeg&) = delete;
+  SilentFfmpeg& operator=(const SilentFfmpeg&) = delete;
 
  private:
   int before_ = av_log_get_level();
@@ -44,7 +44,7 @@ File opened(const std::filesystem::path& video) {
   return File(file);
 }
 
-// The stream that OpenCV decodes: the best video. The others' packets are passed over.
+// The best video stream, which OpenCV decodes, too. Packets of other streams are discarded.
 const AVStream* video_stream(AVFormatContext& file) {
   const int best = av_find_best_stream(&file, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   for (unsigned i = 0; i < file.nb_streams; ++i)
@@ -59,8 +59,8 @@ int64_t stamp_of(const AVPacket& packet) {
 }  // namespace
 
 std::vector<double> frame_stamps(const std::filesystem::path& video) {
-  if (is_frame_pattern(video)) return {};  // to which the library would give a rate of its own
-  const Hushed hushed;
+  if (is_frame_pattern(video)) return {};  // FFmpeg would make up a rate for them
+  const SilentFfmpeg hushed;
   std::vector<double> stamps;
   const File file = opened(video);
   const AVStream* stream = file ? video_stream(*file) : nullptr;

@@ -17,7 +17,7 @@ inline namespace io {
 
 namespace {
 
-constexpr int kMostTicks = 1'000'000;  // of a second; rates are rounded to fractions of such
+constexpr int kMostTicks = 1'000'000;  // ticks of a second; rates are rounded to fractions of them
 
 std::string name_of(EncoderPreset preset) {
   for (const auto& [name, each] : encoder_presets())
@@ -55,8 +55,8 @@ struct H264File::State {
   std::unique_ptr<AVCodecContext, FreeCodec> codec;
   std::unique_ptr<AVFrame, FreeFrame> frame{av_frame_alloc()};
   std::unique_ptr<AVPacket, FreePacket> packet{av_packet_alloc()};
-  AVStream* stream = nullptr;  // of `file`
-  cv::Mat planes;              // of a frame: Y, then U and V of half the size
+  AVStream* stream = nullptr;  // stream of `file`
+  cv::Mat planes;              // of a frame: Y, then U and V at half the size
   int64_t frames = 0;
 
   bool open_codec(cv::Size size, double rate, EncoderPreset preset) {
@@ -66,13 +66,13 @@ struct H264File::State {
     codec->width = size.width;
     codec->height = size.height;
     codec->pix_fmt = AV_PIX_FMT_YUV420P;
-    codec->color_range = AVCOL_RANGE_MPEG;  // what cv::cvtColor makes
+    codec->color_range = AVCOL_RANGE_MPEG;  // the range of cv::cvtColor
     codec->colorspace = AVCOL_SPC_SMPTE170M;
     codec->framerate = av_d2q(rate, kMostTicks);
     codec->time_base = av_inv_q(codec->framerate);
     codec->thread_count = 1;
-    codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;             // as MP4 wants it
-    codec->log_level_offset = AV_LOG_VERBOSE - AV_LOG_INFO;  // settings and statistics
+    codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;             // MP4 requires it
+    codec->log_level_offset = AV_LOG_VERBOSE - AV_LOG_INFO;  // hides settings and statistics
     av_opt_set(codec->priv_data, "preset", name_of(preset).c_str(), 0);
     // x264 164 reads memory that it has not written when it spreads bits over frames with AVX-512.
     av_opt_set(codec->priv_data, "mbtree", "0", 0);
@@ -91,7 +91,7 @@ struct H264File::State {
            avformat_write_header(made, nullptr) >= 0;
   }
 
-  // Hands the encoder a frame, or its end, and the file what comes out.
+  // Passes a frame, or the end of the video, to the encoder, and writes what it returns.
   void push(const AVFrame* next) const {
     require(avcodec_send_frame(codec.get(), next));
     for (;;) {

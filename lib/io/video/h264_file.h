@@ -1,6 +1,6 @@
-// An MP4 file of H.264 by an encoder whose effort can be chosen, which OpenCV 4.6 does not allow.
-// It works in the thread that writes, so that a file's bytes depend on no number of threads, and
-// looks ahead over a few frames only: what it holds does not grow with the video.
+// Writes an MP4 file of H.264 with a chosen encoder preset, which OpenCV 4.6 does not allow. The
+// encoder runs in the thread that writes, so that a file's bytes do not depend on the number of
+// threads, and looks ahead by a few frames only, so that memory does not grow with the video.
 #pragma once
 
 #include <filesystem>
@@ -15,18 +15,17 @@ inline namespace io {
 
 class H264File {
  public:
-  // Nothing where FFmpeg has no such encoder or it does not take this size and rate. Sizes are
-  // even.
+  // nullptr if FFmpeg has no such encoder or it does not accept this size and rate. Sizes are even.
   static std::unique_ptr<H264File> open(const std::filesystem::path& path, cv::Size size_px,
                                         double frame_rate, EncoderPreset preset);
   ~H264File();
   H264File(const H264File&) = delete;
   H264File& operator=(const H264File&) = delete;
 
-  // 8-bit BGR, at least of that size. std::runtime_error, without the file's name, if it cannot be
-  // written.
+  // 8-bit BGR, at least of that size. Throws a std::runtime_error, without the file's name, if it
+  // cannot be written.
   void write(const cv::Mat& frame);
-  // After the last frame; the same error.
+  // To be called after the last frame; throws the same error.
   void finish();
 
  private:

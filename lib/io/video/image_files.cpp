@@ -35,7 +35,7 @@ bool is_image(const fs::path& path) {
   return false;
 }
 
-// The run of digits at `at`, without leading zeros.
+// The digits at `at`, without leading zeros.
 std::string digits_at(const std::string& text, size_t at) {
   size_t end = at;
   while (end < text.size() && is_digit(text[end])) ++end;
@@ -57,10 +57,10 @@ std::vector<fs::path> images_of_folder(const fs::path& folder) {
 
 struct FramePattern {
   std::string before, after;
-  size_t width = 0;  // digits at least
+  size_t width = 0;  // least number of digits
 };
 
-// "%d" or "%05d", once. The pattern is taken apart here and never handed to printf.
+// Parses "%d" or "%05d", which must appear once. The pattern is never passed to printf.
 FramePattern parse_pattern(const fs::path& path) {
   const std::string name = path.filename().string();
   const size_t percent = name.find('%');
@@ -76,7 +76,7 @@ FramePattern parse_pattern(const fs::path& path) {
           width.empty() ? 1 : static_cast<size_t>(std::stoi(width))};
 }
 
-// The number that the pattern gives this name; nullopt if it does not fit.
+// The number of a file name according to the pattern; nullopt if the name does not match.
 std::optional<long> number_in(const std::string& name, const FramePattern& pattern) {
   if (name.size() < pattern.before.size() + pattern.after.size() + pattern.width ||
       !name.starts_with(pattern.before) || !name.ends_with(pattern.after)) {
@@ -116,7 +116,7 @@ std::vector<fs::path> images_of_pattern(const fs::path& path) {
   return files;
 }
 
-// A JPEG whose last scan has no end: the rest of the image would be grey.
+// Whether the last scan of a JPEG has no end, so that the rest of the image would be grey.
 bool breaks_off(std::string_view content) {
   constexpr std::string_view kStart = "\xff\xd8", kScan = "\xff\xda", kEnd = "\xff\xd9";
   if (!content.starts_with(kStart)) return false;
@@ -167,12 +167,12 @@ std::string read_image_file(const fs::path& path, cv::Mat& image) {
   }
   if (breaks_off(content)) return "a JPEG that breaks off before its end";
   const cv::Mat encoded(1, static_cast<int>(content.size()), CV_8U,
-                        const_cast<unsigned char*>(bytes));  // only read
+                        const_cast<unsigned char*>(bytes));  // it is only read
   try {
     const QuietDecoders quiet;
     image = cv::imdecode(encoded, cv::IMREAD_COLOR);
   } catch (const cv::Exception&) {
-    image.release();  // how some decoders say that the content is broken
+    image.release();  // some decoders report a broken file in this way
   }
   return image.empty() ? "an image that cannot be decoded" : "";
 }

@@ -37,7 +37,7 @@ Size size_of(std::optional<int64_t> width, std::optional<int64_t> height) {
   return StatedSize{*width, *height};
 }
 
-// Two numbers of `count` bytes, one `step` bytes after the other.
+// Two numbers of `count` bytes, `step` bytes apart.
 Size size_at(Bytes bytes, size_t at, size_t count, Order order) {
   return size_of(number_at(bytes, at, count, order), number_at(bytes, at + count, count, order));
 }
@@ -47,8 +47,8 @@ Size png_size(Bytes bytes) {
   return begins_with(bytes, "IHDR", 12) ? size_at(bytes, 16, 4, Order::kBig) : std::nullopt;
 }
 
-// BITMAPCOREHEADER has 12 bytes and 16-bit numbers; later ones have signed 32-bit numbers, a
-// negative height for rows from the top.
+// BITMAPCOREHEADER has 12 bytes and 16-bit numbers; later headers have signed 32-bit numbers, and a
+// negative height for rows that are stored from the top.
 Size bmp_size(Bytes bytes) {
   if (number_at(bytes, 14, 4, Order::kLittle) == 12) return size_at(bytes, 18, 2, Order::kLittle);
   const Size size = size_at(bytes, 18, 4, Order::kLittle);
@@ -57,7 +57,7 @@ Size bmp_size(Bytes bytes) {
   return StatedSize{size->width, height > INT32_MAX ? (int64_t{1} << 32) - height : height};
 }
 
-// "P5 640 480 255", blanks and comments between the words.
+// "P5 640 480 255", with white space and comments between the words.
 Size pnm_size(Bytes bytes) {
   size_t at = 2;
   const auto number = [&]() -> std::optional<int64_t> {
@@ -119,7 +119,7 @@ Size jpeg_size(Bytes bytes) {
   size_t at = 2;
   while (at + 1 < bytes.size()) {
     if (bytes[at] != 0xff || bytes[at + 1] == 0xff || bytes[at + 1] == 0) {
-      ++at;  // fill bytes, and rubbish that decoders pass over
+      ++at;  // fill bytes and data that decoders skip
       continue;
     }
     const unsigned char marker = bytes[at + 1];

@@ -1,6 +1,6 @@
-// Size of an image as its file's header states it, before anything is decoded: a few bytes can ask
-// for gigabytes. Knows PNG, JPEG, TIFF, BMP, PNM and WebP by their content, whatever the file is
-// called, and no other format.
+// The size of an image according to its file's header, which is checked before anything is decoded,
+// because a few bytes can demand gigabytes. PNG, JPEG, TIFF, BMP, PNM and WebP are recognised by
+// content.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct StatedSize {
   int64_t width = 0, height = 0;  // px
 };
 
-// Of the whole file's bytes (for JPEG and TIFF the header may stand anywhere); nullopt for other
-// formats, cut-off headers and sizes below one pixel.
+// `bytes`: the whole file (for JPEG and TIFF the header may be anywhere). nullopt for other
+// formats, truncated headers and sizes below one pixel.
 std::optional<StatedSize> image_size_from_header(std::span<const unsigned char> bytes);
 
 }  // namespace io

@@ -26,8 +26,8 @@ constexpr size_t kExifBytes = 1 << 17;  // EXIF has at most 64 KiB and comes fir
 constexpr unsigned kModel = 0x0110, kExifPointer = 0x8769, kFocalLength35mm = 0xA405;
 constexpr size_t kFieldBytes = 12, kInPlaceBytes = 4;
 
-// Main cameras by how names in recordings begin, the longer name first; mm of 35 mm film, of the
-// makers' data sheets.
+// Focal lengths of main cameras by the beginning of the telephone's name, longer names first; mm in
+// equivalents of 35 mm film, from the makers' data sheets.
 struct Telephone {
   std::string_view name;
   double focal_mm;
@@ -48,7 +48,7 @@ std::optional<double> lens(double focal_mm) {
   return focal_mm >= 4 && focal_mm <= 2000 ? std::optional(focal_mm) : std::nullopt;
 }
 
-// A block of numbers in either byte order; 0 beyond its end.
+// A block of numbers in either byte order; reads 0 beyond its end.
 struct Tiff {
   std::string_view bytes;
   bool big = false;
@@ -62,7 +62,7 @@ struct Tiff {
     }
     return value;
   }
-  // Where the value of a field of the directory at `at` stands; nothing without the field.
+  // The offset of the value of a field in the directory at `at`; nullopt if there is no such field.
   std::optional<size_t> field(size_t at, unsigned tag) const {
     const size_t count = number(at, 2);
     for (size_t i = 0; i < count && at + 2 + (i + 1) * kFieldBytes <= bytes.size(); ++i) {
@@ -80,7 +80,7 @@ std::optional<double> focal_length(const Tiff& tiff) {
   return field ? lens(tiff.number(*field, 2)) : std::nullopt;
 }
 
-// Text of a name: without what ends it.
+// The text of a name, without its terminator.
 std::string name_of(std::string_view text) {
   const auto end = text.find_first_of(std::string_view("\0\n", 2));
   text = text.substr(0, std::min(end, text.size()));
@@ -96,11 +96,12 @@ std::string model(const Tiff& tiff) {
   return at < tiff.bytes.size() ? name_of(tiff.bytes.substr(at, bytes)) : std::string();
 }
 
-// The EXIF block of a JPEG; empty without.
+// The EXIF block of a JPEG; empty if there is none.
 Tiff exif_of(std::string_view jpeg) {
   const Tiff whole{jpeg, true};
   if (whole.number(0, 2) != 0xFFD8) return {};
-  // Segments: FF, kind, length with its own two bytes. The picture begins with FFDA.
+  // Segments are FF, kind and a length that includes its own two bytes. The image data begin with
+  // FFDA.
   for (size_t at = 2; whole.number(at, 1) == 0xFF && whole.number(at, 2) != 0xFFDA;) {
     const size_t length = whole.number(at + 2, 2);
     if (length < 2 || at + 2 + length > jpeg.size()) return {};
@@ -112,7 +113,7 @@ Tiff exif_of(std::string_view jpeg) {
   return {};
 }
 
-// What a video's file or one of its streams says under the key.
+// The value of the key in the metadata of a video file or of one of its streams.
 template <size_t count>
 std::string said_of(const std::filesystem::path& video,
                     const std::array<const char*, count>& keys) {
@@ -129,7 +130,7 @@ std::string said_of(const std::filesystem::path& video,
   return said;
 }
 
-// The beginning of the first image's file; "" of a video.
+// The beginning of the first image file; "" for a video.
 std::string first_image(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> images;
   try {

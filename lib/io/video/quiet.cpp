@@ -22,7 +22,7 @@ inline namespace io {
 
 namespace {
 
-// The process has one stderr; the first that comes takes it away, the last that goes puts it back.
+// The process has one stderr: the first instance replaces it and the last one restores it.
 std::mutex guard;
 int users = 0;
 int kept = -1;

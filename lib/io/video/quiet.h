@@ -1,6 +1,6 @@
-// Decoders of images (libpng, libjpeg) complain straight to the terminal, of profiles that nobody
-// asked for and without a file's name. While a QuietDecoders lives, in any thread, what is written
-// to stderr goes nowhere; what a decoder makes of a file is said by who called it.
+// Image decoders (libpng, libjpeg) print warnings to stderr, without the file's name and about
+// profiles that do not matter. While an instance of QuietDecoders exists in any thread, everything
+// that is written to stderr is discarded; the caller of the decoder reports errors.
 #pragma once
 
 namespace walktrack {

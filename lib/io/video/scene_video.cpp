@@ -16,13 +16,13 @@ inline namespace io {
 
 namespace {
 
-// Rates that differ by less drift by less than half a frame in an hour at 60 Hz.
+// Rates that differ by less than this drift by less than half a frame in an hour at 60 Hz.
 constexpr double kSameRate = 2e-6;
-// Stamps of a file whose usual rate differs by more from the stated one are a guess.
+// Time stamps are not used if their usual rate differs by more than this share from the stated one.
 constexpr double kStampsBelieved = 0.1;
-constexpr double kRounding = 1e-3, kHalf = 0.5 + kRounding;  // of a frame; stamps are rounded
+constexpr double kRounding = 1e-3, kHalf = 0.5 + kRounding;  // frames; time stamps are rounded
 
-// Stamps, or the numbers of images, in frames; empty if neither says anything.
+// Positions in frames from time stamps or from the numbers of images; empty if there are neither.
 std::vector<double> places_from(const std::vector<double>& stamps, double usual) {
   std::vector<double> places;
   for (const double stamp : stamps) places.push_back(stamp / usual);
@@ -64,7 +64,7 @@ SceneVideo::SceneVideo(const Scene& scene)
   }
 }
 
-// The camera's rate and when its frames were taken.
+// Determines the camera's rate and when its frames were taken.
 void SceneVideo::place_frames(size_t camera, const Scene& scene) {
   const std::vector<double> stamps = frame_stamps(scene.cameras[camera].video);
   const StampSteps steps = steps_of(stamps);
@@ -74,14 +74,14 @@ void SceneVideo::place_frames(size_t camera, const Scene& scene) {
     throw InputError(describe({scene.file.string(), 0, "frame_rate"}, "nothing",
                               "a rate in Hz, for the frames are images without one"));
   }
-  // A rate given for the whole scene wins over the container's, which is often a guess.
+  // A rate that the scene states takes precedence over the container's, which is often wrong.
   const double usual = scene.frame_rate || own == 0 ? rate_ : own;
   rates_.push_back(scene.cameras[camera].frame_rate.value_or(usual));
   const bool believed = steps.usual > 0 && std::abs(own / rates_[camera] - 1) <= kStampsBelieved;
   places_.push_back(believed ? places_from(stamps, steps.usual) : places_from(sources_[camera]));
 }
 
-// Where the frame would lie that is to be shown next.
+// The position of the next scene frame, in frames of the camera.
 double SceneVideo::wanted(size_t camera) const {
   return start_frames_[camera] + next_frame_ * (rates_[camera] / rate_);
 }
@@ -93,8 +93,8 @@ double SceneVideo::place_of(size_t camera, int frame) const {
                         : places.back() + static_cast<double>(frame + 1 - std::ssize(places));
 }
 
-// The frame nearest to a place, but none that lies more than half a frame ahead of it; of two that
-// are as near the later one.
+// The frame nearest to a position, but none that is more than half a frame after it; of two equally
+// near frames, the later one.
 int SceneVideo::nearest(size_t camera, double place) const {
   const auto ahead = [&](int frame) { return place_of(camera, frame) - place; };
   int frame = std::max(0, shown_[camera]);
@@ -129,7 +129,8 @@ bool SceneVideo::advance(size_t camera, SceneFrames& frames) {
   }
   shown_[camera] = frame;
   frames.source[camera] = source.number();
-  // After dropped frames the one before them may be the nearest that was not shown: it is too old.
+  // After dropped frames the nearest frame that has not been shown yet may be the one before them,
+  // which is too old.
   const double reach = kHalf * std::max(1.0, rates_[camera] / rate_);
   frames.fresh[camera] = place - place_of(camera, frame) <= reach;
   return true;

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Containers count frames by duration, or keep a last one that no decoder returns.
+// Containers estimate the number of frames from the duration, or count a last frame that no decoder
+// returns.
 int smallest_believable_count(int announced) { return announced - 2 - announced / 100; }
 
 [[noreturn]] void fail(const fs::path& path, std::string_view found, std::string_view allowed) {
@@ -36,8 +37,8 @@ cv::Size frame_size(cv::VideoCapture& capture) {
           whole_property(capture, cv::CAP_PROP_FRAME_HEIGHT)};
 }
 
-// The clockwise turn that shows the video upright. OpenCV 4.6.0 alone has its sign reversed (opencv
-// issue 22088), which is also why frames are turned here and not by it.
+// The clockwise rotation that shows the video upright. Only OpenCV 4.6.0 has its sign reversed
+// (opencv issue 22088), which is also why frames are rotated here and not by OpenCV.
 int rotation_deg(cv::VideoCapture& capture) {
   const int turn = whole_property(capture, cv::CAP_PROP_ORIENTATION_META) % 360;
   const bool reversed = cv::getVersionString() == "4.6.0";

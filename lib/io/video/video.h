@@ -1,12 +1,12 @@
-// Frames one after another, one in memory at a time: from a video file (FFmpeg), a folder of images
-// in natural order (frame2 before frame10; a number that is left out is a dropped frame), a printf
-// pattern (frames/%05d.png, numbered without gaps) or a single image.
+// Reads frames one after another, with one in memory at a time: from a video file (FFmpeg), a
+// folder of images in natural order (frame2 before frame10; a missing number is a dropped frame), a
+// printf pattern (frames/%05d.png, without gaps) or a single image.
 //
-// A frame number counts from 0 at the first frame of the source. Nothing is ever seeked: seeking in
-// compressed video is inexact, so frames before the wanted one are decoded and dropped.
+// Frame numbers count from 0 at the first frame of the source. There is no seeking, which is
+// inexact in compressed video: frames before the wanted one are decoded and dropped.
 //
-// Images that change their size are trouble of that frame. Of a video that does so in mid-stream
-// OpenCV 4.6 passes frames on in the first one's size, cut off or filled up, and does not tell.
+// An image of another size than the first is an error of that frame. If a video changes its size,
+// OpenCV 4.6 silently crops or pads its frames to the first size.
 #pragma once
 
 #include <filesystem>
@@ -28,12 +28,12 @@ inline namespace io {
 
 class FrameSource {
  public:
-  // Opens the source; InputError naming file and reason if it cannot be read or has no frame.
-  // With `expected_px` (the calibration's image size) a video that asks to be turned is turned
-  // unless only the raw size fits; if neither fits, that is an InputError.
+  // Opens the source. Throws an InputError that names the file and the reason if it cannot be read
+  // or has no frame. `expected_px` is the image size of the calibration: a video with a rotation
+  // flag is rotated unless only the raw size matches; if neither matches, that is an InputError.
   explicit FrameSource(const std::filesystem::path& path,
                        std::optional<cv::Size> expected_px = std::nullopt);
-  // Plain pictures where there is no video: what is drawn on them can be looked at.
+  // Plain images if there is no video, on which results can still be drawn.
   FrameSource(cv::Size size_px, int frames);
   ~FrameSource();
   FrameSource(FrameSource&&) noexcept;
@@ -41,20 +41,21 @@ class FrameSource {
 
   const VideoFacts& facts() const { return facts_; }
   int next_frame() const { return next_frame_; }
-  // What the last frame read is called: the number in its image's name where that has one,
-  // otherwise its place in the source, from 0.
+  // Number of the last frame that was read: the number in its image's name if there is one,
+  // otherwise its position in the source, from 0.
   int number() const;
   // How many images are missing before each; empty for a video.
   const std::vector<int>& missing_images() const { return missing_before_; }
 
-  // The next frame, 8-bit BGR; overwritten by the next call, so clone it to keep it. False at the
-  // end and when a frame cannot be read: then trouble() says which and why.
+  // Reads the next frame, 8-bit BGR, into memory that the next call overwrites: clone it to keep
+  // it. Returns false at the end and if a frame cannot be read; trouble() then states which and
+  // why.
   bool read(cv::Mat& frame);
-  // Passes over frames; false if the source ends before.
+  // Skips frames; returns false if the source ends before.
   bool skip(int frames);
-  // Why the source ended before its announced end; empty if it did not.
+  // The reason why the source ended before its stated end; empty if it did not.
   const std::string& trouble() const { return trouble_; }
-  // Gives back what decoding holds: tens of pictures. No frame can be read any more.
+  // Frees the decoder, which holds tens of images. No frame can be read afterwards.
   void close();
 
  private:
@@ -65,11 +66,11 @@ class FrameSource {
   void note_end();
 
   std::filesystem::path path_;
-  std::unique_ptr<cv::VideoCapture> capture_;  // a video file, or
+  std::unique_ptr<cv::VideoCapture> capture_;  // of a video file, or
   std::vector<std::filesystem::path> images_;  // image files in order, or
-  std::vector<int> missing_before_;            // each of them
-  cv::Mat plain_;                              // a plain picture
-  cv::Mat unturned_;                           // the decoded frame where frames are turned
+  std::vector<int> missing_before_;            // before each of them
+  cv::Mat plain_;                              // a plain image
+  cv::Mat unturned_;                           // the decoded frame if frames are rotated
   VideoFacts facts_;
   int next_frame_ = 0;
   bool closed_ = false;
@@ -77,21 +78,22 @@ class FrameSource {
 };
 
 // The image files of a folder in natural order, of a pattern in the order of its numbers, or the
-// one image. InputError if there is none, or if a number of a pattern is missing.
+// single image. Throws an InputError if there is none, or if a number of a pattern is missing.
 std::vector<std::filesystem::path> image_files(const std::filesystem::path& path);
 
-// How many are missing before each image, where names differ in one number alone and its smallest
-// step is the usual one; zeros where names say nothing, or where more were missing than are there.
+// Number of images that are missing before each one, if the names differ in one number only and its
+// smallest step is the most frequent one; zeros if names have no such number, or if more images
+// would be missing than present.
 std::vector<int> missing_before(const std::vector<std::filesystem::path>& images);
 
-// Decodes one image file into 8-bit BGR, turned as its EXIF data asks. Says why it cannot be; empty
-// if it was. A header that asks for more than kMostPixelsAlongASide is refused before decoding.
+// Decodes one image file into 8-bit BGR, rotated according to its EXIF data. Returns the error, or
+// "" on success. A size above kMostPixelsAlongASide in the header is refused before decoding.
 std::string read_image_file(const std::filesystem::path& path, cv::Mat& image);
 
 inline constexpr int kMostPixelsAlongASide = 8192;
 
-// The last number in a name without its extension; nothing where there is none, or one that is no
-// frame's.
+// The last number in a name without its extension; nullopt if there is none, or if it cannot be the
+// number of a frame.
 std::optional<int> last_number_in(std::string_view name);
 inline constexpr int kLargestFrameNumber = 100'000'000;
 

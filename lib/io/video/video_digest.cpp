@@ -24,7 +24,7 @@ constexpr uint64_t kBlocks = 64;
 
 struct FilePart {
   fs::path file;
-  uint64_t begin, size;  // in the video, bytes
+  uint64_t begin, size;  // offset in the video and length, bytes
 };
 
 std::vector<FilePart> parts_of(const fs::path& video) {
@@ -50,7 +50,7 @@ std::string bytes_at(const FilePart& part, uint64_t from, uint64_t count) {
   return bytes;
 }
 
-// `count` bytes of the video from `from` on, whichever files they are in.
+// `count` bytes of the video from `from` on, across its files.
 std::string video_bytes(const std::vector<FilePart>& parts, uint64_t from, uint64_t count) {
   std::string bytes;
   auto part = std::upper_bound(parts.begin(), parts.end(), from,

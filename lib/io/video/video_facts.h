@@ -1,4 +1,4 @@
-// What a source of frames says about itself.
+// Facts about a source of frames.
 #pragma once
 
 namespace walktrack {
@@ -6,11 +6,12 @@ inline namespace io {
 
 struct VideoFacts {
   int width_px = 0, height_px = 0;  // of the frames as delivered
-  double frame_rate = 0;            // Hz; 0 = not known (images)
-  int missing = 0;                  // images that the numbers in the others' names leave out
-  int frame_count = 0;   // as the container says, or images with the missing; 0 = unknown
-  int rotation_deg = 0;  // turn that the file asks for, clockwise (phones)
-  bool rotated = false;  // whether frames are delivered turned by it
+  double frame_rate = 0;            // Hz; 0 = unknown (images)
+  int missing = 0;                  // missing images according to the numbers in names
+  int frame_count = 0;   // according to the container, or images including missing ones; 0 =
+                         // unknown
+  int rotation_deg = 0;  // rotation flag of the file, clockwise (phones)
+  bool rotated = false;  // whether frames are rotated by it
 };
 
 }  // namespace io

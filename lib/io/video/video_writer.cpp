@@ -69,7 +69,7 @@ void VideoWriter::close() {
     throw std::runtime_error(fmt::format("{}: {}", path_.string(), error.what()));
   }
   if (writer_) writer_->release();
-  // OpenCV's encoder reports nothing, so the file is asked.
+  // OpenCV's encoder reports no errors, so the file is opened to check it.
   cv::VideoCapture check(temporary_.string(), cv::CAP_FFMPEG);
   const bool complete = check.isOpened() && check.get(cv::CAP_PROP_FRAME_COUNT) == frames_;
   if (frames_ > 0 && !complete) {

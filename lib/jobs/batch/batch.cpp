@@ -28,14 +28,14 @@ using Share = SequenceList::Share;
 constexpr auto kPollInterval = std::chrono::milliseconds(20);
 constexpr auto kRenewInterval = std::chrono::seconds(10);
 
-// What this worker's share asks for, a byte a sequence.
+// What is to be done in this worker's share, one byte for each sequence.
 struct BatchPlan {
   std::vector<Todo> todo;
-  size_t count = 0;  // that are to be done
+  size_t count = 0;  // of the sequences that are to be done
   ChangedResults left;
 };
 
-// Looks at every sequence of the share once, before anything is done.
+// Inspects every sequence of the share once, before work begins.
 BatchPlan plan_of(const BatchJob& job, const SequenceList& list) {
   BatchPlan plan;
   auto own = list.sequences(Share::kOwn);
@@ -56,7 +56,8 @@ struct Next {
   bool stolen;
 };
 
-// What is to be done, one at a time: first the own share, then what nobody has begun of others'.
+// The sequences that are to be done, one at a time: first the worker's own share, then sequences of
+// other shares that nobody has begun.
 class Queue {
  public:
   Queue(const BatchJob& job, const SequenceList& list, const BatchPlan& plan)
@@ -81,7 +82,8 @@ class Queue {
   }
 
  private:
-  // The worker of a sequence reports its failures, and files that are in the way.
+  // Failures of a sequence, and files that are in the way, are reported by the worker in whose
+  // share it is.
   bool may_steal(const Sequence& sequence) const {
     if (fs::exists(sequence.output / kFailureFile)) return false;
     if (decide(job_, sequence).todo != Todo::kFirst) return false;
@@ -132,7 +134,7 @@ class Runner {
     renewed_ = std::chrono::steady_clock::now();
   }
 
-  // Until all processes are at work; whether there is anything left to begin.
+  // Starts sequences until all processes are busy. Returns whether any sequence is left.
   bool fill() {
     while (!stopped_ && static_cast<int>(running_.size()) < job_.jobs) {
       if (control_.stopping()) stop();
@@ -177,7 +179,7 @@ class Runner {
   int stolen_ = 0;
 };
 
-// A worker that was killed after a sequence's last file has left its claim.
+// Removes the claim of a worker that was killed after it had written a sequence's last file.
 void clear_dead_claims(const SequenceList& list) {
   auto own = list.sequences(Share::kOwn);
   while (const auto sequence = own.next())

@@ -1,5 +1,5 @@
-// `walktrack batch`: every sequence below a folder, each in a process of its own, so that a broken
-// one costs one row of a table and nothing else.
+// `walktrack batch`: tracks every sequence below a folder, each in a process of its own, so that a
+// broken one costs only one row of a table.
 //
 // OUT/<sequence>/ is the result folder of one sequence (see io/archive/result_folder.h) with
 // log.txt, the messages of its process, and failure.txt, the reason if there is no result. A batch
@@ -27,57 +27,64 @@ inline namespace jobs {
 struct Sequence {
   std::string name;  // path below the folder, e.g. "monday/trial3"
   std::filesystem::path scene, output;
-  std::filesystem::path video{};  // where `scene` is yet to be made of a template and this video
+  std::filesystem::path video{};  // the video for which `scene` is yet to be made of a template
 };
 
-inline constexpr const char* kFailureFile = "failure.txt";  // why there is no result
+inline constexpr const char* kFailureFile = "failure.txt";  // the reason why there is no result
 
 enum class SequenceState { kWaiting, kComplete, kDegraded, kFailed };
 
 struct SequenceResult {
   SequenceState state = SequenceState::kWaiting;
-  std::string reason{};                       // of failure, or of the quality check that failed
-  double seconds = 0;                         // that tracking took; 0 = not known
-  double cpu_seconds = 0, video_seconds = 0;  // and what went into how much video; 0 = not known
+  std::string reason{};                       // of the failure, or of the quality check that failed
+  double seconds = 0;                         // duration of tracking; 0 = unknown
+  double cpu_seconds = 0, video_seconds = 0;  // CPU time and duration of the tracked video; 0 =
+                                              // unknown
   std::string digest{};
   BatchFigures figures{};
 };
 
 struct BatchJob {
   std::filesystem::path folder, output;
-  std::string manifest{};  // "", or a list of sequences in the place of the folder: manifest.h
-  std::filesystem::path scene_template;  // empty, or the scene of every video below the folder
-  bool bids = false;  // the folder is a BIDS data set, and the output gets BIDS tables, too
-  std::filesystem::path work{};  // empty, or where sequences are tracked: work_folder.h
-  // Program and options that do one sequence; "SCENE -o OUT/<sequence> --resume -y" is appended.
+  std::string manifest{};  // "", or a list of sequences instead of the folder: manifest.h
+  std::filesystem::path scene_template;  // empty, or the template of a scene for every video below
+                                         // the folder
+  bool bids = false;  // whether the folder is a BIDS data set, so that the output gets BIDS tables,
+                      // too
+  std::filesystem::path work{};  // empty, or the folder in which sequences are tracked:
+                                 // work_folder.h
+  // Program and options that track one sequence; "SCENE -o OUT/<sequence> --resume -y" is appended.
   std::vector<std::string> command;
   int jobs = 1;  // processes at a time
   int shard = 1,
-      shards = 1;          // this worker does every shards-th sequence, beginning with the shard-th
-  bool steal = false;      // then what nobody has begun of the other shares
-  bool overwrite = false;  // do again what has changed or failed
-  bool retry_failed = false;               // do none but those that failed
+      shards = 1;          // this worker tracks every shards-th sequence, beginning with the shard-
+                           // th
+  bool steal = false;      // afterwards, sequences of other shares that nobody has begun
+  bool overwrite = false;  // track sequences again that have changed or failed
+  bool retry_failed = false;               // track only those that failed
   ChildLimits limits;                      // of each sequence
-  std::optional<ConfigWithOrigin> config;  // that the command tracks with
+  std::optional<ConfigWithOrigin> config;  // configuration of the command
 };
 
 struct BatchOutcome {
   int complete = 0, degraded = 0, failed = 0, waiting = 0;  // of this worker's sequences
-  int elsewhere = 0;                          // of the waiting ones: other workers are at them
-  int stolen = 0;                             // sequences of other shares that this worker has done
+  int elsewhere = 0;                          // number of waiting ones that other workers are
+                                              // tracking
+  int stolen = 0;                             // sequences of other shares that this worker has
+                                              // tracked
   double cpu_seconds = 0, video_seconds = 0;  // of this worker's complete and degraded ones
-  // Sequences whose results are of other settings or inputs, left as they are: changes_text().
+  // Sequences with results of other settings or inputs, which are not changed: changes_text().
   int changed = 0;
   std::string changes;
   bool interrupted = false;
 };
 
 // All files scene*.yaml below the folder, and other .yaml files that list cameras, in natural order
-// of their names; not inside `output`. Links to folders are not followed.
+// of their names, except for those in `output`. Links to folders are not followed.
 std::vector<Sequence> find_sequences(const std::filesystem::path& folder,
                                      const std::filesystem::path& output);
 
-// All video files below the folder, not inside `output`.
+// All video files below the folder, except for those in `output`.
 std::vector<std::filesystem::path> videos_below(const std::filesystem::path& folder,
                                                 const std::filesystem::path& output);
 
@@ -85,30 +92,30 @@ std::vector<std::filesystem::path> videos_below(const std::filesystem::path& fol
 std::vector<Sequence> find_videos(const std::filesystem::path& folder,
                                   const std::filesystem::path& output);
 
-// The sequence's name after its scene's path below the folder: "a/b/scene.yaml" is "a/b", other
-// files keep their stem.
+// The sequence's name according to its scene's path below the folder: "a/b/scene.yaml" is "a/b";
+// other files keep their stem.
 std::string sequence_name(const std::filesystem::path& relative);
 
-// What OUT/<sequence>/ says.
+// The state of OUT/<sequence>/.
 SequenceResult result_of(const Sequence& sequence);
 
 class SequenceList;
 
-// UsageError for a folder or manifest without sequences.
+// Throws a UsageError for a folder or manifest without sequences.
 BatchOutcome run_batch(const BatchJob& job, const JobControl& control);
 
-// Whether run_batch() ends with write_batch_reports(): not where many workers share a manifest,
-// whose length each of them would have to read the results of.
+// Whether run_batch() ends with write_batch_reports(). It does not if many workers share a
+// manifest, because each of them would have to read all results.
 inline bool reports_at_end(const BatchJob& job) { return job.manifest.empty() || job.shards == 1; }
 
 // Counts one more sequence.
 void add_result(const Sequence& sequence, const SequenceResult& result, BatchOutcome& out);
 
-// summary.csv, failures.txt and batch.html. UsageError for such files that no batch has written.
-// The page shows the first 10,000 sequences. What all come to.
+// Writes summary.csv, failures.txt and batch.html, and returns the totals. Throws a UsageError if
+// such files exist that no batch has written. The page shows the first 10,000 sequences.
 BatchOutcome write_batch_reports(const BatchJob& job, const SequenceList& list);
 
-// The batch's own folder, for them.
+// The outputs in the batch's own folder.
 Outputs batch_outputs(const BatchJob& job);
 
 std::string_view state_name(SequenceState state);

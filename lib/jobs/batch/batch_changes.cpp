@@ -18,11 +18,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A million results that have all changed are a few lines.
+// Limits the message if a million results have changed.
 constexpr int kMostNames = 20;
 constexpr size_t kMostKinds = 100;
 
-// A scene that is made of the template is to be the one that the result is of.
+// The scene that is made of the template must be the scene that the result was computed from.
 bool template_changed(const BatchJob& job, const Sequence& sequence) {
   return !sequence.video.empty() &&
          (!fs::exists(sequence.scene) || read_text_file(sequence.scene, kMaxYamlBytes) !=
@@ -45,14 +45,14 @@ std::string changes_in(const fs::path& folder, const fs::path& scene,
   try {
     return changes_since(folder, origin_of_track(read_scene(scene), config));
   } catch (const InputError& error) {
-    return error.what();  // it could be read once
+    return error.what();  // it was readable before
   }
 }
 
 Decision decide(const BatchJob& job, const Sequence& sequence) {
-  if (!fs::exists(sequence.output))  // which is the case for most of a million sequences
+  if (!fs::exists(sequence.output))  // true for most of a million sequences
     return {job.retry_failed ? Todo::kNothing : Todo::kFirst};
-  // A failure may stand beside a complete result: then the last try to make it again failed.
+  // A failure beside a complete result is that of the last attempt to make the result again.
   const bool failed =
       (job.retry_failed || job.overwrite) && result_of(sequence).state == SequenceState::kFailed;
   if (job.retry_failed && !failed) return {};

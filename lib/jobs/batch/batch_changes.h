@@ -1,5 +1,5 @@
-// The sequences that a batch has to track: those that are not complete, and those whose results
-// were made by an earlier batch in another way than this one would make them.
+// Decides which sequences a batch has to track: those that are not complete, and those whose
+// results were made by an earlier batch with other settings or inputs.
 #pragma once
 
 #include <functional>
@@ -16,34 +16,35 @@ inline namespace jobs {
 enum class Todo : unsigned char {
   kNothing,
   kFirst,  // there is no result yet
-  kAgain,  // in the place of a result
+  kAgain,  // replaces a result
 };
 
 struct Decision {
   Todo todo = Todo::kNothing;
-  std::string changes{};  // of a result that is left as it is: in words, see track_origin.h
+  std::string changes{};  // of a result that is not replaced, in words; see track_origin.h
 };
 
 // A sequence has changed if its complete result, or checkpoint, was made with another program,
-// configuration or other inputs; none has where the job does not say with which configuration it
-// tracks.
+// configuration or other inputs. If the job does not state its configuration, no sequence has
+// changed.
 Decision decide(const BatchJob& job, const Sequence& sequence);
 
-// What the result, or the checkpoint, in the folder was made of otherwise than a track of the scene
-// would be now, in words; "" = nothing, or there is neither.
+// How the result, or the checkpoint, in the folder differs in its origin from a new track of the
+// scene, in words; "" if it does not, or if there is neither.
 std::string changes_in(const std::filesystem::path& folder, const std::filesystem::path& scene,
                        const ConfigWithOrigin& config);
 
-// The sequences of this worker's share that are to be done, in their order.
+// Calls the function for the sequences of this worker's share that are to be tracked, in their
+// order.
 void each_to_do(const BatchJob& job, const SequenceList& list,
                 const std::function<void(const Sequence&)>& use);
 
-// Results that are left as they are, by what has changed.
+// Collects results that are not replaced, by what has changed.
 class ChangedResults {
  public:
   void add(const std::string& name, const std::string& changes);
   int count() const { return count_; }
-  // Each kind of change once, with the first sequences that it is about, one line a kind.
+  // One line for each kind of change, with the first sequences that it concerns.
   std::string text() const;
 
  private:

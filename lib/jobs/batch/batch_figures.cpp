@@ -15,7 +15,7 @@ using RunJson = nlohmann::json;
 
 constexpr size_t kMostGaitBytes = 64u << 20;
 
-// What is at /a/b/c; null where nothing is.
+// The value at /a/b/c; null if there is none.
 RunJson at(const RunJson& json, std::initializer_list<std::string_view> path) {
   const RunJson* place = &json;
   for (const std::string_view key : path) {

@@ -1,4 +1,4 @@
-// The numbers of a result, from its run.json and gait.json, that tables of many results contain.
+// The numbers of a result, from its run.json and gait.json, that appear in tables of many results.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ inline namespace jobs {
 struct BatchFigure {
   std::string_view column;   // of summary.csv
   std::string_view heading;  // of batch.html
-  int digits;                // after the point
+  int digits;                // number of decimals
 };
 
 inline constexpr std::array<BatchFigure, 7> kBatchFigures{{
@@ -28,8 +28,8 @@ inline constexpr std::array<BatchFigure, 7> kBatchFigures{{
 }};
 using BatchFigures = std::array<std::optional<double>, kBatchFigures.size()>;
 
-// Of a complete result: `run` is its run.json, `folder` holds its gait.json. What is missing or no
-// number stays empty.
+// For a complete result: `run` is its run.json, `folder` contains its gait.json. Numbers that are
+// missing stay empty.
 BatchFigures figures_of(const nlohmann::json& run, const std::filesystem::path& folder);
 
 }  // namespace jobs

@@ -22,7 +22,7 @@ std::string number(const std::optional<double>& value, int digits) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "";
 }
 
-// A million rows would be no page.
+// A page cannot show a million rows.
 constexpr size_t kMostRowsOfPage = 10'000;
 
 std::string summary_heading() {
@@ -54,7 +54,7 @@ std::string headings_html() {
          "<th class=\"number\" title=\"CPU seconds for a second of video\">CPU s/s</th>";
 }
 
-// What to look at: the report, else the folder.
+// The page to open: the report, otherwise the folder.
 std::string link_to(const Sequence& sequence) {
   std::error_code ignored;
   const bool report = std::filesystem::is_regular_file(sequence.output / "report.html", ignored);
@@ -90,7 +90,7 @@ std::string states_html(const BatchOutcome& counts) {
   return tiles;
 }
 
-// The template with texts in the place of its marks, which stand there in this order.
+// The template with its marks replaced by texts, in the order in which they appear.
 std::string filled(std::string_view page,
                    std::initializer_list<std::pair<std::string_view, std::string>> texts) {
   std::string out;
@@ -109,7 +109,8 @@ std::string headline(const BatchOutcome& counts, size_t sequences) {
   return text;
 }
 
-// One writer at a time: whoever holds the folder may clear what one that was killed has left.
+// Only one process writes at a time, so that the holder of the lock may remove what a killed one
+// has left.
 FolderLock lock_of(const std::filesystem::path& folder) {
   for (;;) {
     if (auto claim = FolderLock::try_take(folder)) return std::move(*claim);
@@ -122,7 +123,7 @@ constexpr std::array<std::string_view, 3> kReports{"summary.csv", "failures.txt"
 }  // namespace
 
 Outputs batch_outputs(const BatchJob& job) {
-  // Scenes are found below their folder: as the output folder it would hold them.
+  // Scenes are found below their folder, so that their folder cannot be the output folder as well.
   Outputs out{job.output, "batch", {kReports.begin(), kReports.end()}, {}, ""};
   if (job.manifest.empty()) out.inputs.push_back(job.folder);
   if (job.bids) out.files.emplace_back(kBidsDescription);
@@ -134,7 +135,7 @@ BatchOutcome write_batch_reports(const BatchJob& job, const SequenceList& list) 
   const Outputs outputs = batch_outputs(job);
   refuse_what_is_not_ours(outputs);
   const FolderLock claim = lock_of(outputs.folder);
-  // Others may read the reports: they are replaced, never missing.
+  // Reports are replaced and never removed first, because others may be reading them.
   const std::vector<std::string_view> kept(outputs.files.begin(), outputs.files.end());
   const ResultFolder folder(outputs, true, kept);
   AtomicFile summary(folder.file("summary.csv")), failures(folder.file("failures.txt"));

@@ -20,7 +20,7 @@ namespace {
 constexpr size_t kMostSceneBytes = 16u << 20;
 constexpr size_t kMostRecordBytes = 256u << 20;
 
-// Scene files by name are taken even when broken, so that they end up among the failures.
+// A file with a scene's name is included even if it is broken, so that it is reported as a failure.
 bool is_scene(const fs::path& path) {
   const std::string extension = path.extension().string();
   if (extension != ".yaml" && extension != ".yml") return false;
@@ -29,10 +29,11 @@ bool is_scene(const fs::path& path) {
   if (fs::file_size(path, ignored) > kMostSceneBytes) return false;
   const std::string text = read_text_file(path, kMostSceneBytes);
   const bool cameras = text.starts_with("cameras:") || text.find("\ncameras:") != std::string::npos;
-  return cameras && text.find("video:") != std::string::npos;  // what to render has cameras too
+  return cameras && text.find("video:") != std::string::npos;  // a render file lists cameras, too
 }
 
-// Regular files that `wanted` takes, not inside `output`. Links to folders are not followed.
+// Regular files that `wanted` accepts and that are not inside `output`. Links to folders are not
+// followed.
 template <typename Wanted>
 std::vector<fs::path> files_below(const fs::path& folder, const fs::path& output, Wanted wanted) {
   if (!fs::is_directory(folder)) {
@@ -68,7 +69,8 @@ double number_at(const nlohmann::json& json, const char* block, const char* key)
   return value != found->end() && value->is_number() ? value->get<double>() : 0;
 }
 
-// CPU time, and the video that it went into: of a track that was resumed, what came after that.
+// CPU time and the duration of the video for which it was used. For a track that was resumed both
+// count from there.
 void add_cost(const nlohmann::json& run, SequenceResult& out) {
   const double rate = number_at(run, "numbers", "frame_rate"),
                cpu = number_at(run, "timing", "cpu_seconds"),
@@ -131,7 +133,7 @@ std::vector<Sequence> find_videos(const fs::path& folder, const fs::path& output
   for (const fs::path& file : files) ++stems[stem(file)];
   std::vector<Sequence> found;
   for (const fs::path& file : files) {
-    // "a.mp4" and "a.mov" keep their endings, to be told apart.
+    // "a.mp4" and "a.mov" keep their extensions, so that their names differ.
     const std::string name =
         stems[stem(file)] == 1 ? stem(file) : file.lexically_relative(folder).generic_string();
     found.push_back({name, output / name / "scene.yaml", output / name, fs::absolute(file)});
@@ -140,7 +142,7 @@ std::vector<Sequence> find_videos(const fs::path& folder, const fs::path& output
 }
 
 SequenceResult result_of(const Sequence& sequence) {
-  // A failure is of the last attempt: it stands beside a complete result that was to be made again.
+  // A failure belongs to the last attempt, which may have been to replace a complete result.
   const fs::path failure = sequence.output / kFailureFile;
   if (!fs::exists(failure))
     return is_complete_result(sequence.output) ? complete_result(sequence.output / "run.json")

@@ -27,11 +27,12 @@ namespace {
 
 constexpr size_t kManifestBlock = size_t{1} << 16;
 constexpr size_t kLongestLine = size_t{1} << 14;  // bytes
-constexpr size_t kLongestPart = 200;              // of a name, bytes, as of files of a result
+constexpr size_t kLongestPart = 200;              // of a name, bytes, as for the files of a result
 
 std::string trouble_of_system() { return std::generic_category().message(errno); }
 
-// Another process may write to a pipe only once, and rows are read more than once.
+// Copies the manifest to a temporary file: a pipe can be read only once, but rows are read several
+// times.
 int copied(int from) {
   std::string name = (fs::temp_directory_path() / "walktrack_manifestXXXXXX").string();
   const int to = ::mkstemp(name.data());
@@ -61,7 +62,7 @@ int opened(const std::string& path, const std::string& file) {
   return copy;
 }
 
-// Why it cannot be the name of a result folder; "": it can.
+// The reason why it cannot be the name of a result folder; "" if it can.
 std::string trouble_of_name(std::string_view name) {
   if (std::ranges::any_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
     return "a control character";
@@ -87,7 +88,7 @@ Manifest::Manifest(const std::string& path, bool videos)
   try {
     look_through();
   } catch (...) {
-    ::close(fd_);  // no destructor runs
+    ::close(fd_);  // the destructor does not run after an exception in the constructor
     throw;
   }
 }
@@ -151,7 +152,7 @@ void Manifest::look_through() {
   refuse_doubles(seen);
 }
 
-// Two names may have one number by chance: those that have are compared.
+// Names are compared only if their hash numbers are equal.
 void Manifest::refuse_doubles(const std::vector<uint64_t>& seen) const {
   if (std::ranges::adjacent_find(seen) == seen.end()) return;
   std::map<std::string, int> lines;
@@ -190,7 +191,7 @@ bool Manifest::Reader::next_line() {
   while ((end = block_.find('\n', at_)) == std::string::npos) {
     if (block_.size() - at_ > kLongestLine) break;
     if (!fill()) {
-      end = block_.size();  // the last line needs no end
+      end = block_.size();  // the last line may lack its end
       if (at_ == end) return false;
       break;
     }

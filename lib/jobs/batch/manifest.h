@@ -23,14 +23,15 @@ inline namespace jobs {
 
 struct ManifestRow {
   std::filesystem::path file;  // absolute, lexically normal
-  std::string name;            // "/" between its parts
+  std::string name;            // with "/" between its parts
 };
 
 class Manifest {
  public:
-  // `path`: "-" is standard input, which is copied to a file without a name, as pipes are.
-  // `videos`: rows are videos, whose names lose their ending. InputError "file:line: ..." for a row
-  // that has more than two columns, whose name is no path below the output, or is another row's.
+  // `path`: "-" is standard input, which is copied to a temporary file, as pipes are. `videos`:
+  // rows are videos, whose names lose their extension. Throws an InputError "file:line: ..." for a
+  // row with more than two columns, a name that is not a path below the output, or the name of
+  // another row.
   Manifest(const std::string& path, bool videos);
   ~Manifest();
   Manifest(Manifest&& other) noexcept;
@@ -41,9 +42,9 @@ class Manifest {
   class Reader {
    public:
     explicit Reader(const Manifest& manifest) : manifest_(&manifest) {}
-    // To the next row; false at the end.
+    // Moves to the next row; returns false at the end.
     bool advance();
-    // That row; InputError as above.
+    // The present row; InputError as above.
     ManifestRow row() const { return manifest_->row_of(line_, number_); }
     int line_number() const { return number_; }
 
@@ -53,9 +54,9 @@ class Manifest {
 
     const Manifest* manifest_;
     std::string block_;
-    size_t at_ = 0;          // in the block
-    uint64_t offset_ = 0;    // of what comes after the block, in the file
-    int number_ = 0;         // of the line, from 1
+    size_t at_ = 0;          // position in the block
+    uint64_t offset_ = 0;    // position in the file of what follows the block
+    int number_ = 0;         // line number, from 1
     std::string_view line_;  // in the block
   };
 
@@ -66,8 +67,8 @@ class Manifest {
   void look_through();
   void refuse_doubles(const std::vector<uint64_t>& seen) const;
 
-  std::string file_;              // what messages call it
-  std::filesystem::path folder_;  // that paths are relative to
+  std::string file_;              // name in messages
+  std::filesystem::path folder_;  // to which paths are relative
   bool videos_;
   int fd_ = -1;
   size_t size_ = 0;

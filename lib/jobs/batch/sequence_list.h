@@ -1,5 +1,5 @@
 // The sequences of a batch in their order: those found below a folder, which are kept in memory, or
-// the rows of a manifest, which are not.
+// the rows of a manifest, which are read from the file.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ inline namespace jobs {
 
 class SequenceList {
  public:
-  // Looks for them as the job wants it. InputError for a folder or a manifest that cannot be read,
-  // UsageError where there is no sequence.
+  // Finds the sequences of the job. InputError for a folder or a manifest that cannot be read,
+  // UsageError if there is no sequence.
   explicit SequenceList(const BatchJob& job);
 
   size_t size() const { return manifest_ ? manifest_->size() : found_.size(); }

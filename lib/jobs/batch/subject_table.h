@@ -10,23 +10,24 @@
 namespace walktrack {
 inline namespace jobs {
 
-// Of a sequence's name: its label of BIDS ("sub-01" of "results/sub-01_task-walk_run-1"), else its
-// first folder ("anna" of "anna/monday/trial1"); "" for a name without either.
+// The subject according to a sequence's name: its BIDS label ("sub-01" of
+// "results/sub-01_task-walk_run-1"), otherwise its first folder ("anna" of "anna/monday/trial1");
+// "" for a name without either.
 std::string subject_of(const std::string& name);
 
 struct SubjectSum {
   int sequences = 0, complete = 0;
-  // Of the complete sequences that have the figure.
+  // Sums over the complete sequences in which the number is known.
   std::array<double, kBatchFigures.size()> sums{};
   std::array<int, kBatchFigures.size()> counts{};
 };
 using SubjectSums = std::map<std::string, SubjectSum>;
 
-// One more sequence. Beyond the first 10,000 subjects no others are added.
+// Adds one sequence. After the first 10,000 subjects no others are added.
 void add_to_subject(const std::string& name, const SequenceResult& result, SubjectSums& sums);
 
-// A table with a row for each, means over its complete sequences; "" where no subject has two
-// sequences.
+// A table with one row for each subject, with means over the complete sequences; "" if no subject
+// has two sequences.
 std::string subjects_html(const SubjectSums& sums);
 
 }  // namespace jobs

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/core/mat.hpp>
 
 #include "camera/inspection.h"
 #include "core/conventions.h"
@@ -17,6 +16,7 @@
 #include "io/drawing/picture.h"
 #include "io/video/video.h"
 #include "jobs/calibrate/calibrate_parts.h"
+#include "observation/image.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -26,9 +26,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kFocalKnown =
-    0.02;  // relative deviation up to which views have told the focal length
-const double kLeastApart = rad_from_deg(15);  // between boards; less does not tell it
-constexpr double kUsualLensRms = 1;           // px; more is a bent board, blur or the wrong model
+    0.02;  // relative deviation of the focal length below which the views determine it
+const double kLeastApart = rad_from_deg(15);  // between boards; views that differ less do not
+                                              // determine the focal length
+constexpr double kUsualLensRms = 1;           // px; a larger error is due to a bent board, blur or
+                                              // the wrong model
 
 void require(const CalibrateJob& job) {
   if (job.views.empty() == job.camera.empty())
@@ -40,12 +42,12 @@ void require(const CalibrateJob& job) {
     throw UsageError("--views and a board on the --floor need --board, --size and --spacing");
 }
 
-// Endings of the files' names.
+// Endings of the file names.
 constexpr const char *kCalibration = ".yaml", *kToml = ".toml", *kResiduals = "_residuals.csv",
                      *kLensPicture = "_lens.png", *kPlacePicture = "_place.png",
                      *kRun = "_run.json";
 
-// The marker is the camera's own: several are calibrated into one folder.
+// Every camera has its own marker, because several are calibrated into one folder.
 Outputs outputs_of(const CalibrateJob& job) {
   Outputs out{job.output,
               "calibrate_" + job.name,
@@ -57,8 +59,8 @@ Outputs outputs_of(const CalibrateJob& job) {
   return out;
 }
 
-// By the endings of their files' names; written when all has gone well.
-using Pictures = std::map<std::string, cv::Mat>;
+// By the endings of their file names; they are written after everything has succeeded.
+using Pictures = std::map<std::string, Image>;
 
 void add_residuals(const std::string& of, int frame, const PixelPoints& found,
                    const PixelPoints& misses, CalibrateOutcome& out) {
@@ -97,7 +99,7 @@ void find_lens(const CalibrateJob& job, const JobControl& control, CalibrateOutc
   pictures[kLensPicture] = lens_picture(views, *fit);
 }
 
-// The floor board's points: x along its rows, z up, so y against its columns.
+// Points of a board on the floor: x along its rows, z up, and therefore y against its columns.
 MeasuredPoints floor_points(const Board& board, const BoardViews& view) {
   MeasuredPoints out;
   out.pixels = view.points.front();
@@ -108,8 +110,8 @@ MeasuredPoints floor_points(const Board& board, const BoardViews& view) {
   return out;
 }
 
-cv::Mat first_picture(const fs::path& source, const Camera& camera) {
-  cv::Mat image = cv::Mat::zeros(camera.height_px, camera.width_px, CV_8UC3);
+Image first_picture(const fs::path& source, const Camera& camera) {
+  Image image = black_image(camera.width_px, camera.height_px);
   if (source.empty()) return image;
   FrameSource(source, image.size()).read(image);
   return image;
@@ -124,7 +126,7 @@ void check_size(const CalibrateJob& job, const Camera& lens, const BoardViews& v
 
 void find_place(const CalibrateJob& job, CalibrateOutcome& out, Pictures& pictures) {
   MeasuredPoints points;
-  cv::Mat picture;
+  Image picture;
   if (job.points.empty()) {
     const BoardViews view = find_floor_board(job.floor, *job.board);
     check_size(job, out.camera, view);

@@ -2,29 +2,29 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <opencv2/core/mat.hpp>
 
 #include "io/drawing/overlay.h"
 #include "jobs/calibrate/calibrate_parts.h"
+#include "observation/image.h"
 
 namespace walktrack {
 inline namespace jobs {
 
 namespace {
 
-constexpr double kEnlargement = 30;                        // of misses in the lens picture
-const cv::Scalar kFound(80, 220, 80), kMiss(60, 60, 255);  // green, red
+constexpr double kEnlargement = 30;                         // of residuals in the image of the lens
+const ImageColour kFound(80, 220, 80), kMiss(60, 60, 255);  // green, red
 
-void draw_thick_cross(cv::Mat& image, const Eigen::Vector2d& at, double half,
-                      const cv::Scalar& colour) {
+void draw_thick_cross(Image& image, const Eigen::Vector2d& at, double half,
+                      const ImageColour& colour) {
   draw_stroke(image, at - Eigen::Vector2d(half, 0), at + Eigen::Vector2d(half, 0), colour);
   draw_stroke(image, at - Eigen::Vector2d(0, half), at + Eigen::Vector2d(0, half), colour);
 }
 
 }  // namespace
 
-cv::Mat lens_picture(const BoardViews& views, const LensFit& fit) {
-  cv::Mat image = 0.4 * views.picture;
+Image lens_picture(const BoardViews& views, const LensFit& fit) {
+  Image image = dimmed(views.picture, 0.4);
   for (size_t v = 0; v < views.points.size(); ++v) {
     for (size_t i = 0; i < views.points[v].size(); ++i) {
       const Eigen::Vector2d& at = views.points[v][i];
@@ -37,8 +37,8 @@ cv::Mat lens_picture(const BoardViews& views, const LensFit& fit) {
   return image;
 }
 
-cv::Mat place_picture(const cv::Mat& picture, const PlaceFit& fit, const MeasuredPoints& points) {
-  cv::Mat image = picture.clone();
+Image place_picture(const Image& picture, const PlaceFit& fit, const MeasuredPoints& points) {
+  Image image = picture.clone();
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   double reach = 0;
   for (const Eigen::Vector3d& point : points.world)

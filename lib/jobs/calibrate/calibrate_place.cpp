@@ -10,7 +10,8 @@ inline namespace jobs {
 
 namespace {
 
-// Points clicked by hand are a few pixels off; more of the image width than this is a mistake.
+// Points that are marked by hand are off by a few pixels; a share of the image width above this
+// limit is a mistake.
 constexpr double kLargestRmsShare = 0.01;
 
 bool plausible(const std::optional<PlaceFit>& fit, const Camera& lens) {
@@ -18,7 +19,7 @@ bool plausible(const std::optional<PlaceFit>& fit, const Camera& lens) {
          camera_centre(fit->camera).z() > 0;
 }
 
-// The point that the others disagree with most: the one without which they fit best.
+// The point without which the others fit best.
 size_t odd_one_out(const Camera& lens, const MeasuredPoints& points, double& rms_without) {
   size_t odd = 0;
   rms_without = std::numeric_limits<double>::infinity();

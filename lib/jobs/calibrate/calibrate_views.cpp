@@ -5,6 +5,7 @@
 #include "core/errors.h"
 #include "io/video/video.h"
 #include "jobs/calibrate/calibrate_parts.h"
+#include "observation/image.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -13,8 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostFramesTried = 300;      // of a video, evenly spread
-constexpr double kLeastDifference = 0.04;  // of the image width, mean over points: another view
+constexpr int kMostFramesTried = 300;      // frames of a video that are searched, evenly spread
+constexpr double kLeastDifference = 0.04;  // mean shift of the points that makes another view,
+                                           // share of the image width
 
 std::string board_name(const Board& board) {
   const bool chess = board.kind == BoardKind::kChessboard;
@@ -37,8 +39,8 @@ bool is_another_view(const BoardViews& views, const PixelPoints& points) {
   });
 }
 
-// A board of another size in the picture, as somebody sees it who counts squares for corners.
-std::optional<Board> board_of_other_size(const cv::Mat& image, const Board& board) {
+// A board of another size, as it is found if a user has counted squares and not corners.
+std::optional<Board> board_of_other_size(const Image& image, const Board& board) {
   for (const auto& [columns, rows] : {std::pair{-1, -1}, std::pair{1, 1}, std::pair{-1, 0},
                                       std::pair{0, -1}, std::pair{1, 0}, std::pair{0, 1}}) {
     Board other = board;
@@ -49,7 +51,7 @@ std::optional<Board> board_of_other_size(const cv::Mat& image, const Board& boar
   return std::nullopt;
 }
 
-[[noreturn]] void no_board(const fs::path& source, const Board& board, const cv::Mat& picture) {
+[[noreturn]] void no_board(const fs::path& source, const Board& board, const Image& picture) {
   if (const auto other = board_of_other_size(picture, board))
     throw InputError(describe({source.string(), 0, ""},
                               fmt::format("no {}, but a {}", board_name(board), board_name(*other)),
@@ -67,7 +69,7 @@ BoardViews collect_views(const fs::path& source, const Board& board, const JobCo
   BoardViews views{frames.facts().width_px, frames.facts().height_px, {}, {}, {}};
   const int count = frames.facts().frame_count;
   const int step = std::max(1, count / kMostFramesTried);
-  cv::Mat frame, first;
+  Image frame, first;
   while (views.points.size() < kMostViews && !control.stopping()) {
     const int number = frames.next_frame();
     if (!frames.read(frame)) break;
@@ -97,7 +99,7 @@ BoardViews collect_views(const fs::path& source, const Board& board, const JobCo
 BoardViews find_floor_board(const fs::path& source, const Board& board) {
   constexpr int kFramesTried = 30;
   FrameSource frames(source);
-  cv::Mat frame, first;
+  Image frame, first;
   for (int i = 0; i < kFramesTried && frames.read(frame); ++i) {
     if (first.empty()) first = frame.clone();
     if (auto points = find_board(frame, board))

@@ -15,7 +15,7 @@ inline namespace jobs {
 
 namespace {
 
-constexpr const char* kOnlyName = "cam0";  // of the camera in a file that names none
+constexpr const char* kOnlyName = "cam0";  // name of the camera in a file that does not name any
 
 bool can_name_a_file(const std::string& name) {
   return !name.empty() && name.front() != '.' && name.size() <= 100 &&
@@ -39,7 +39,7 @@ std::vector<std::string> names_to_take(const ImportJob& job) {
   return names;
 }
 
-// What the files of all cameras together are called.
+// The common part of the names of all cameras' files.
 std::string common_name(const std::vector<std::string>& names) {
   return names.size() == 1 ? names.front() : "cameras";
 }
@@ -53,7 +53,7 @@ Outputs outputs_of(const ImportJob& job, const std::vector<std::string>& names) 
   return out;
 }
 
-// The axis, x y or z of either sign, that the pictures show upright.
+// The axis, x, y or z with either sign, that points up in the images.
 Eigen::Vector3d upright_axis(const std::vector<std::pair<std::string, Camera>>& cameras) {
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
   for (const auto& [name, camera] : cameras) up -= camera.rotation.row(1);
@@ -64,7 +64,7 @@ Eigen::Vector3d upright_axis(const std::vector<std::pair<std::string, Camera>>& 
   return out;
 }
 
-// In scenes z is up and the floor is z = 0 unless the scene states something else.
+// In scenes z points up and the floor is z = 0 unless the scene states something else.
 std::vector<std::string> notes_about_axes(
     const std::vector<std::pair<std::string, Camera>>& cameras) {
   const Eigen::Vector3d up = upright_axis(cameras);

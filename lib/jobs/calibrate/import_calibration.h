@@ -1,8 +1,7 @@
-// `walktrack calibrate --import`: cameras that another tool has calibrated, as files for scenes.
-// Into a folder, for every camera <name>.yaml (OpenCV, as scenes use it), then for all of them
-// cameras.toml (Pose2Sim) and cameras_run.json: how the files came about; of a file with one
-// camera, or where one is asked for, <name>.yaml, <name>.toml and <name>_run.json. Axes stay the
-// file's own.
+// `walktrack calibrate --import`: converts cameras that another tool has calibrated. It writes into
+// a folder <name>.yaml (OpenCV, for scenes) for every camera, and cameras.toml (Pose2Sim) and
+// cameras_run.json (the origin) for all of them; for a single camera <name>.yaml, <name>.toml and
+// <name>_run.json. Axes stay those of the file.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +17,8 @@ inline namespace jobs {
 
 struct ImportJob {
   std::filesystem::path file;
-  std::string name{};               // the one camera to take; empty: all of the file's
-  std::optional<ImageSize> size{};  // of the images, for files that do not say
+  std::string name{};               // the only camera to convert; empty: all cameras
+  std::optional<ImageSize> size{};  // of the images, for files that do not state it
   std::filesystem::path output;
   bool overwrite = false;
   std::vector<std::string> command_line;
@@ -27,13 +26,14 @@ struct ImportJob {
 
 struct ImportOutcome {
   std::vector<std::pair<std::string, Camera>> cameras;
-  std::vector<std::string> notes;  // what the user should know
+  std::vector<std::string> notes;  // notes for the user
 };
 
-// InputError for a file that is not understood, and for names in it that files cannot have.
+// InputError for a file that cannot be parsed, and for cameras whose names are not valid file
+// names.
 ImportOutcome import_calibration(const ImportJob& job);
 
-// The outcome for people.
+// A description of the outcome.
 std::string import_text(const ImportOutcome& outcome);
 
 }  // namespace jobs

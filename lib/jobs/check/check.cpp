@@ -75,7 +75,7 @@ CheckReport look_at_scene(const Scene& scene, const JobControl& control) {
   }
   check_poses(scene, report);
   const bool poses_can_be = !report.failed();
-  // Where calibrations or sizes are wrong, what is seen in the images means nothing.
+  // Tests on the images mean nothing if calibrations or sizes are wrong.
   if (check_videos(scene, control, report) && poses_can_be) check_steps(scene, control, report);
   check_keypoints(scene, report);
   return report;

@@ -1,14 +1,15 @@
-// `walktrack check`: checks a scene. It says where every camera stands and what it sees, and finds
-// the usual mistakes of calibrations and recordings: a camera underground or upside down,
-// millimetres for metres, a transposed or inverted pose, a wrong image size, unequal or varying
-// frame rates, turned phone video, cameras out of step. A mistake comes with its cure.
+// `walktrack check`: checks a scene. It reports where every camera stands and what it sees, and
+// finds common mistakes in calibrations and recordings: a camera below the ground or upside down,
+// millimetres instead of metres, a transposed or inverted pose, a wrong image size, unequal or
+// variable frame rates, rotated phone video, cameras that are not synchronous. It gives advice for
+// every mistake.
 //
-// The checks that cost little are made before a scene is tracked, too: calibrations, sizes, rates
-// and time stamps without decoding a frame, and for two or more cameras the first frames, to see
-// whether they are in step.
+// The fast checks also precede tracking: calibrations, sizes, rates and time stamps without
+// decoding a frame, and for two or more cameras the first frames, to test whether they are
+// synchronous.
 //
 // Mistakes that make a scene unreadable (a matrix that is not a rotation, a mirrored one, unknown
-// keys) are InputErrors of the readers, with their place and cure.
+// keys) are InputErrors of the readers, with their place and advice.
 #pragma once
 
 #include <filesystem>
@@ -31,9 +32,9 @@ struct CheckJob {
 
 struct Finding {
   std::string camera;  // empty = the scene
-  bool failure;        // otherwise worth knowing only
+  bool failure;        // otherwise a remark
   std::string what, cure;
-  bool may_be_lag = false;  // cameras that began at different moments would explain it
+  bool may_be_lag = false;  // cameras that began at different times would explain it
 };
 
 struct CheckedCamera {
@@ -42,10 +43,9 @@ struct CheckedCamera {
   VideoFacts video;
 };
 
-// By how much one of two cameras shows things later than the other, found from the walk, where the
-// scene does not state it.
+// The lag between two cameras as estimated from the walk, if the scene does not state it.
 struct FoundLag {
-  size_t camera;     // the late one: it starts at `frames`, the other one at 0
+  size_t camera;     // the camera that lags: it starts at `frames`, the other one at 0
   int frames;        // of the scene, > 0
   double sd_frames;  // standard deviation
 };
@@ -53,21 +53,21 @@ struct FoundLag {
 struct CheckReport {
   std::vector<CheckedCamera> cameras;
   std::vector<Finding> findings;
-  std::optional<FoundLag> lag;  // that `track` takes out
+  std::optional<FoundLag> lag;  // which `track` corrects
   bool failed() const;
 };
 
 CheckReport check_scene(const CheckJob& job, const JobControl& control);
 
-// The part of it that `track` begins with.
+// The checks with which `track` begins.
 CheckReport look_at_scene(const Scene& scene, const JobControl& control);
 
 // A finding as one line: "cam1: stands 3.20 m underground; cure: ...".
 std::string finding_line(const Finding& finding);
 
-// The report for people, one paragraph a camera, findings last.
+// The report as text: one paragraph for each camera, then the findings.
 std::string check_text(const CheckReport& report);
-// The same for programs.
+// The report as JSON.
 std::string check_json(const CheckReport& report);
 
 }  // namespace jobs

@@ -1,5 +1,5 @@
-// Poses that cannot be, and the change of the file that would put them right: every common mistake
-// is undone on trial, and what makes the camera plausible is the cure.
+// Implausible camera poses and the change of the file that would correct them: every common mistake
+// is undone on trial, and the change that makes the camera plausible is proposed.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -17,12 +17,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Usual heights in a room, a street or on a roof; a camera outside of them may be calibrated
+// Usual heights in a room, a street or on a roof, m; a camera outside of them may be calibrated
 // wrongly.
 constexpr double kLowest = 0.05, kHighest = 50;  // m above the ground
 constexpr double kMostRoll = 1.05;               // rad
 constexpr double kSmallestPerson = 12;           // px
-constexpr double kWidestView = 2.8;              // rad, of a lens that is no fisheye
+constexpr double kWidestView = 2.8;              // rad, of a lens that is not a fisheye
 constexpr double kMillimetres = 1e-3;
 
 bool plausible(const Camera& camera, double person_height) {
@@ -60,7 +60,7 @@ Camera on_ground(const Camera& camera, const Vector3d& normal) {
   return camera_in_world(world_frame_on_ground(normal, 0), camera);
 }
 
-// Single mistakes first.
+// Single mistakes come first.
 std::vector<Cure> common_cures() {
   const auto millimetres = [](Camera c) {
     return with_pose(c, c.rotation, kMillimetres * c.translation);
@@ -112,7 +112,7 @@ std::vector<Camera> cameras_of(const Scene& scene) {
   return cameras;
 }
 
-// How many of the others see a person where `camera` sees one best.
+// Number of other cameras that see a person where `camera` sees one best.
 int companions(const std::vector<Camera>& others, const Camera& camera, size_t self,
                double person_height) {
   const CameraInspection view = inspect_camera(camera, person_height);
@@ -123,8 +123,8 @@ int companions(const std::vector<Camera>& others, const Camera& camera, size_t s
   return count;
 }
 
-// Cameras that stand upright below the ground stand on a floor that is lower than z = 0, if with
-// some lower floor all of them are plausible.
+// Upright cameras below the ground stand on a floor that is lower than z = 0 if for some lower
+// floor all of them are plausible.
 constexpr const char* kLowerFloor =
     "the floor lies below z = 0 of the calibration; say where: ground: {offset: -1.2} if it is "
     "1.2 m below";
@@ -134,7 +134,7 @@ bool stand_on_a_lower_floor(const Scene& scene) {
   double lowest = 0;
   for (const SceneCamera& camera : scene.cameras)
     lowest = std::min(lowest, camera_centre(camera.camera).z());
-  for (const double above : {0.5, 1.0, 1.5, 2.0, 3.0, 5.0}) {  // m, of the lowest camera
+  for (const double above : {0.5, 1.0, 1.5, 2.0, 3.0, 5.0}) {  // height of the lowest camera, m
     const WorldFrame floor = world_frame_on_ground({0, 0, 1}, lowest - above);
     const auto stands = [&](const SceneCamera& camera) {
       return plausible(camera_in_world(floor, camera.camera), height);
@@ -165,7 +165,8 @@ std::string find_cure(const Scene& scene, size_t self) {
   return most < 0 ? kLowerFloor : fmt::format("{}; or {}", best, kLowerFloor);
 }
 
-// What the focal length alone says; with a wrong one the distortion means nothing.
+// The field of view from the focal length alone; distortion means nothing if the focal length is
+// wrong.
 double undistorted_view(const Camera& camera) {
   return 2 * std::atan(0.5 * camera.width_px / camera.focal_px.x());
 }
@@ -187,7 +188,7 @@ void check_lens(const SceneCamera& camera, CheckReport& report) {
   }
 }
 
-// Cameras that are plausible alone but look at different places.
+// Reports cameras that are plausible by themselves but look at different places.
 void check_common_ground(const Scene& scene, CheckReport& report) {
   if (scene.cameras.size() < 2) return;
   const std::vector<Camera> cameras = cameras_of(scene);

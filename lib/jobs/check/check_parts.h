@@ -14,22 +14,22 @@
 namespace walktrack {
 inline namespace jobs {
 
-// Cameras that cannot be: underground, upside down, too far, seeing nobody, or none of the others'
-// ground; and which single change of their file would put them right.
+// Finds implausible camera poses: below the ground, upside down, too far away, without a person in
+// view, or without ground in common with the other cameras; and the change of their file that would
+// correct them.
 void check_poses(const Scene& scene, CheckReport& report);
 
-// Frame sizes, rates, lengths, time stamps and turns of the videos, without decoding them. False if
-// frames cannot be compared with the calibrations.
+// Checks frame sizes, rates, lengths, time stamps and rotations of the videos without decoding
+// them. Returns false if frames cannot be compared with the calibrations.
 bool check_videos(const Scene& scene, const JobControl& control, CheckReport& report);
 
-// Keypoint files: InputErrors for those that cannot be used, notes about what is odd.
+// Checks keypoint files: InputErrors for those that cannot be used, notes on irregularities.
 void check_keypoints(const Scene& scene, CheckReport& report);
 
-// Frames that cannot be decoded.
+// Finds frames that cannot be decoded.
 void check_decoding(const Scene& scene, const JobControl& control, CheckReport& report);
 
-// The figures' paths through the videos, by camera, from the first frame on, at most
-// kMostSyncFrames.
+// The paths of the moving figures, by camera, from the first frame on, at most kMostSyncFrames.
 struct SeenFigures {
   double frame_rate = 0;  // of the scene, Hz
   std::vector<FigurePath> paths;
@@ -39,10 +39,11 @@ inline constexpr int kMostSyncFrames = 300;
 
 void check_steps(const Scene& scene, const JobControl& control, CheckReport& report);
 
-// The folder of the pictures.
+// The folder of the images.
 Outputs check_outputs(const Scene& scene, const std::filesystem::path& folder);
 
-// Ground grid, world axes and a standing figure in the first frame of each camera.
+// Draws the ground grid, the world's axes and a standing figure into the first frame of each
+// camera.
 void write_check_pictures(const Scene& scene, const CheckReport& report,
                           const std::filesystem::path& folder);
 

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <opencv2/core/mat.hpp>
 
 #include "body/kinematics.h"
 #include "core/errors.h"
@@ -7,6 +6,7 @@
 #include "io/drawing/picture.h"
 #include "io/video/scene_video.h"
 #include "jobs/check/check_parts.h"
+#include "observation/image.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kGridHalfSide = 6;  // m
 
-// The subject standing at a place on the ground.
+// The joints of the subject, standing at a place on the ground.
 JointPositions standing_figure(const Subject& subject, const Eigen::Vector2d& place) {
   const Body body = make_body(subject, {});
   Pose pose;
@@ -43,7 +43,7 @@ void write_check_pictures(const Scene& scene, const CheckReport& report,
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
     const SceneCamera& camera = scene.cameras[i];
     const CameraInspection& view = report.cameras[i].view;
-    cv::Mat frame;
+    Image frame;
     FrameSource source = camera.video.empty() ? plain_frames(camera) : FrameSource(camera.video);
     if (!source.skip(camera.start_frame) || !source.read(frame)) continue;
     const Eigen::Vector2d place = view.standing_place.value_or(Eigen::Vector2d::Zero());

@@ -1,4 +1,4 @@
-// Whether the cameras of a scene are in step, from what moves in their images.
+// Tests by the motion in the images whether the cameras of a scene are synchronous.
 #include <algorithm>
 #include <cmath>
 
@@ -14,22 +14,23 @@ inline namespace jobs {
 
 namespace {
 
-// Right cameras miss each other by up to 22 mm (rendered walks with three cameras), for shadows and
-// clothes do not look alike from all sides; beyond this it is a failure (m), below it a remark.
+// Limit between a failure and a remark, m. Rays of correctly calibrated cameras miss each other by
+// up to 22 mm (rendered walks with three cameras), because shadows and clothes look different from
+// different sides.
 constexpr double kSureGap = 0.05;
-constexpr double kBeforeLoss = 0.3;  // s by which the moment of a loss may be told too late
+constexpr double kBeforeLoss = 0.3;  // s by which the time of lost frames may be estimated too late
 // As many frames as a step takes:
 constexpr const char* kOrStandsElsewhere =
     ", if that is so; a camera that stands a step's length further along the way than its "
     "calibration says looks the same";
 
-// Whether the scene leaves it to the walk to tell when its cameras began.
+// Whether the scene leaves the cameras' start to be estimated from the walk.
 bool starts_are_open(const Scene& scene) {
   return std::none_of(scene.cameras.begin(), scene.cameras.end(),
                       [](const SceneCamera& camera) { return camera.start_given; });
 }
 
-// What to do about a camera that began so many frames early; or the other one late.
+// The advice for a camera that began so many frames early, or for the other one, which began late.
 std::string start_cure(const Scene& scene, int lag) {
   const bool second = scene.cameras[1].start_frame + lag >= 0;
   const SceneCamera& camera = scene.cameras[second ? 1 : 0];
@@ -39,12 +40,12 @@ std::string start_cure(const Scene& scene, int lag) {
 
 void say_lost(const Scene& scene, const PairLag& lag, double frame_rate, CheckReport& report) {
   const int change = lag.after - lag.before;
-  // The camera that lost frames shows things earlier from then on.
+  // The camera that lost frames shows everything earlier from then on.
   const SceneCamera& camera = scene.cameras[change < 0 ? 1 : 0];
   const SceneCamera& other = scene.cameras[change < 0 ? 0 : 1];
   const int near = scene.first_frame + lag.changes_at;
   const int safe = near - static_cast<int>(std::lround(kBeforeLoss * frame_rate));
-  // Before unequal lengths, which come of it.
+  // Inserted before the finding of unequal lengths, which follows from it.
   report.findings.insert(
       report.findings.begin(),
       {camera.name, true,
@@ -96,7 +97,7 @@ void check_steps(const Scene& scene, const JobControl& control, CheckReport& rep
   for (const SceneCamera& camera : scene.cameras) {
     if (camera.video.empty()) return;
     cameras.push_back(camera.camera);
-    // A lag is a number of frames.
+    // A lag is measured in frames.
     if (!camera.frame_rate || camera.frame_rate == scene.frame_rate) continue;
     report.findings.push_back({"", false, "whether the cameras are in step is not checked",
                                "it takes cameras of one frame rate"});

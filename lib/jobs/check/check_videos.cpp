@@ -13,13 +13,13 @@ inline namespace jobs {
 
 namespace {
 
-constexpr double kRateTolerance = 1e-3;  // 29.97 for 30 Hz passes; 25 for 24 does not
-constexpr int kMostDecoded = 2000;       // frames of each video that are tried
-constexpr double kEqualFrames = 5, kEqualShare = 0.02;  // of unequal lengths that are usual
+constexpr double kRateTolerance = 1e-3;  // relative; 29.97 for 30 Hz passes, 25 for 24 Hz does not
+constexpr int kMostDecoded = 2000;       // frames of each video that are decoded
+constexpr double kEqualFrames = 5, kEqualShare = 0.02;  // usual differences of length
 constexpr double kUnevenShare = 0.02;                   // of the frames
-constexpr double kFewUneven = 3;                        // decoders stumble at the start
+constexpr double kFewUneven = 3;                        // decoders are irregular at the beginning
 
-// False if the frames have another size than the calibration's.
+// Returns false if the frames have another size than the calibration.
 bool check_size(const SceneCamera& camera, const VideoFacts& video, CheckReport& report) {
   const int width = camera.camera.width_px, height = camera.camera.height_px;
   const bool fits = video.width_px == width && video.height_px == height;
@@ -46,10 +46,10 @@ bool check_size(const SceneCamera& camera, const VideoFacts& video, CheckReport&
   return false;
 }
 
-// What a video says of its time.
+// The timing of a video.
 struct Timing {
-  double rate = 0;    // Hz, of most frames; 0 = not known
-  double frames = 0;  // with those that were dropped; 0 = not known
+  double rate = 0;    // Hz, of most frames; 0 = unknown
+  double frames = 0;  // including dropped ones; 0 = unknown
   StampSteps steps;
 };
 
@@ -65,7 +65,7 @@ Timing timing_of(const SceneCamera& camera, const VideoFacts& video) {
 
 bool same_rate(double a, double b) { return std::abs(a / b - 1) <= kRateTolerance; }
 
-// A rate that is stated for all cameras, and that none of them has.
+// A rate that is stated for all cameras and differs from each of theirs.
 bool check_common_rate(const Scene& scene, const std::vector<Timing>& timing, CheckReport& report) {
   const double own = timing.front().rate;
   if (!scene.frame_rate || own == 0 || same_rate(own, *scene.frame_rate)) return false;
@@ -100,7 +100,7 @@ void say_dropped(const SceneCamera& camera, int frames, const char* what, CheckR
                              "tracking goes on without them; the others keep their time"});
 }
 
-// Frames that were dropped, and a rate that varies.
+// Reports dropped frames and a variable frame rate.
 void check_steps_between_frames(const SceneCamera& camera, const StampSteps& steps, int frames,
                                 CheckReport& report) {
   say_dropped(camera, steps.dropped, "frames were dropped", report);
@@ -112,7 +112,7 @@ void check_steps_between_frames(const SceneCamera& camera, const StampSteps& ste
        "frames are taken at the time that they say, to half a step; a constant rate is safer"});
 }
 
-// Cameras that began together and did not end together: one of them may have lost frames.
+// Reports cameras that began together and did not end together: one of them may have lost frames.
 void check_lengths(const Scene& scene, const std::vector<Timing>& timing, double scene_rate,
                    CheckReport& report) {
   double shortest = INFINITY, longest = 0;

@@ -1,8 +1,9 @@
-// The moving figures of all videos of a scene.
+// The paths of moving figures in all videos of a scene.
 #include <vector>
 
 #include "io/video/scene_video.h"
 #include "jobs/check/check_parts.h"
+#include "observation/image.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -16,7 +17,7 @@ SeenFigures figures_in(const Scene& scene, const JobControl& control) {
   SceneFrames images;
   for (int n = 0; n < kMostSyncFrames && !control.stopping() && video.read(images); ++n)
     for (size_t i = 0; i < cameras.size(); ++i)
-      cameras[i].add(images.fresh[i] ? images.images[i] : cv::Mat());
+      cameras[i].add(images.fresh[i] ? images.images[i] : Image());
   for (const MovingFigures& camera : cameras) out.paths.push_back(camera.path());
   return out;
 }

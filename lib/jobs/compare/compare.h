@@ -20,14 +20,14 @@ namespace walktrack {
 inline namespace jobs {
 
 struct CompareGroup {
-  std::string name;                           // "" = after its folder
+  std::string name;                           // "" = the name of its folder
   std::vector<std::filesystem::path> places;  // results, or folders with results below them
 };
 
-enum class CompareUnit { kStrides, kTrials };  // what is drawn: strides, or results
+enum class CompareUnit { kStrides, kTrials };  // the unit of resampling: strides, or results
 
 struct CompareJob {
-  std::vector<CompareGroup> groups;  // one: its left side against its right side
+  std::vector<CompareGroup> groups;  // for one group, its left side is compared with its right side
   std::filesystem::path output;
   CompareUnit unit = CompareUnit::kStrides;
   size_t draws = 2000;
@@ -36,16 +36,16 @@ struct CompareJob {
 };
 
 struct CompareOutcome {
-  size_t compared = 0;   // pairs of a parameter, with a minimal detectable change
-  size_t exceeding = 0;  // of them differ by more
+  size_t compared = 0;   // parameters with a minimal detectable change
+  size_t exceeding = 0;  // those that differ by more
   std::filesystem::path look_at;
 };
 
-// "PATH", or "NAME=PATH[,PATH...]" where no such path exists.
+// Parses "PATH", or "NAME=PATH[,PATH...]" if no such path exists.
 CompareGroup compare_group(const std::string& word);
 
-// InputError for places without a complete result, and for groups without a whole stride;
-// UsageError for an output that may not be overwritten, and for groups of one name.
+// Throws an InputError for places without a complete result and for groups without a whole stride;
+// a UsageError for an output that may not be overwritten and for groups with equal names.
 CompareOutcome compare(const CompareJob& job);
 
 }  // namespace jobs

@@ -21,15 +21,16 @@ std::vector<double> mean_curve(const std::vector<std::vector<double>>& curves) {
   return mean;
 }
 
-// A number as a curve of one point.
+// A number as a curve with one point.
 std::vector<std::vector<double>> as_curves(const std::vector<double>& values) {
   std::vector<std::vector<double>> curves;
   for (const double value : values) curves.push_back({value});
   return curves;
 }
 
-// Variance of the sample's mean by the bands of its results; nullopt where one has none. The errors
-// of a result's two sides are taken for one and the same, those of two results for independent.
+// Variance of the mean of the sample that is due to the bands of its results; nullopt if a result
+// has none. The errors of both sides of a result are taken to be equal, those of two results to be
+// independent.
 std::optional<double> band_variance(const Sample& sample, size_t parameter) {
   double sum = 0;
   for (const ComparedTrial& trial : sample.group->trials) {
@@ -43,8 +44,8 @@ std::optional<double> band_variance(const Sample& sample, size_t parameter) {
   return sum / (trials * trials);
 }
 
-// Welch's degrees of freedom (Biometrika 34, 1947), those of the bands taken for many. `squares`:
-// sum over the samples of variance^2 / (n - 1).
+// The quantile with Welch's degrees of freedom (Biometrika 34, 1947), which are taken to be
+// infinite for the bands. `squares`: sum over the samples of variance^2 / (n - 1).
 double quantile_of(double scatter, double bands, double squares) {
   const double whole = scatter + bands;
   const double degrees = squares > 0 ? whole * whole / squares : kMostDegrees;

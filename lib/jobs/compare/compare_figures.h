@@ -22,25 +22,25 @@ struct Sample {
 
 // Samples that are compared with the first of them.
 struct Comparison {
-  std::string side;  // "both", "left", "right"; "" where the samples are the sides
+  std::string side;  // "both", "left", "right"; "" if the samples are the sides
   std::vector<Sample> samples;
 };
 
-// Of one group: left against right (its `right` first). Of more: both sides, left, right.
+// For one group, left against right (its `right` first). For several: both sides, left, right.
 std::vector<Comparison> comparisons_of(const std::vector<ComparedGroup>& groups);
 
-// What is drawn in the bootstrap: a curve for each whole stride, or the mean of each trial's.
+// The units of the bootstrap: a curve for each whole stride, or the mean of each trial.
 std::vector<std::vector<double>> drawn_curves(const Sample& sample, size_t angle, CompareUnit unit);
 std::vector<double> drawn_values(const Sample& sample, size_t parameter, CompareUnit unit);
 
 struct ParameterDifference {
   double difference, low, high;  // NaN where unknown
-  double detectable;             // the minimal detectable change; NaN with less than two numbers
-  bool with_bands;               // whether the results' own bands are part of it
-  bool exceeds() const;          // more than is detectable
+  double detectable;             // the minimal detectable change; NaN for fewer than two numbers
+  bool with_bands;               // whether it includes the results' own bands
+  bool exceeds() const;          // whether the difference is larger than that
 };
 
-// Sample minus reference. Both have numbers.
+// Sample minus reference, both of which have numbers.
 ParameterDifference parameter_difference(const Sample& sample, const Sample& reference,
                                          size_t parameter, const CompareJob& job);
 

@@ -20,7 +20,7 @@ Json numbers(std::span<const double> values) {
   return out;
 }
 
-// Mean and SD over the curves at every per cent.
+// Mean and SD over the curves at every percentage of the stride.
 Json curve_json(const std::vector<std::vector<double>>& curves) {
   std::vector<double> mean, sd;
   for (size_t k = 0; k < kCyclePoints && !curves.empty(); ++k) {

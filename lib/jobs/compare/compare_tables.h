@@ -1,4 +1,4 @@
-// compare.json and its tables.
+// compare.json and the tables made from it.
 //
 // compare.json
 //   format       "walktrack compare 1"
@@ -29,7 +29,7 @@ inline namespace jobs {
 nlohmann::ordered_json compare_json(const std::vector<ComparedGroup>& groups,
                                     const CompareJob& job);
 
-// Of such a JSON.
+// The tables, from that JSON.
 std::string compare_parameters_csv(const nlohmann::ordered_json& compared);
 std::string compare_curves_csv(const nlohmann::ordered_json& compared);
 CompareOutcome count_differences(const nlohmann::ordered_json& compared);

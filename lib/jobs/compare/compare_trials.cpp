@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t kMaxJsonBytes = size_t{1} << 28;
-// Between the 5 and 95 % points of a normal distribution, in standard deviations.
+// Distance between the 5 and 95 % quantiles of a normal distribution in standard deviations.
 constexpr double kBandInSd = 3.29;
 constexpr size_t kContactParameters = 9, kAnglesWithRange = 3;
 
@@ -42,7 +42,7 @@ double number_of(const Json& object, const char* key) {
 
 size_t side_index(const Json& object) { return object.at("side") == "left" ? 0 : 1; }
 
-// The strides between the foot strikes of gait.json.
+// The strides between the foot strikes in gait.json.
 std::vector<Stride> strides_in(const Json& gait) {
   Gait events;
   for (const Json& event : gait.at("events")) {
@@ -54,7 +54,7 @@ std::vector<Stride> strides_in(const Json& gait) {
   return strides_of(events);
 }
 
-// A contact's number; cadence is that of its step.
+// A number of a contact; cadence is that of the step that ends with it.
 double contact_value(const Json& contact, size_t parameter) {
   const std::string name(kComparedParameters[parameter].name);
   if (name == "cadence_steps_per_min") return 60 / number_of(contact.at("step_time_s"), "value");
@@ -79,7 +79,7 @@ void take_contacts(const Json& gait, ComparedTrial& trial) {
   }
 }
 
-// Half the mean width of the band over the strides, as a standard deviation.
+// The mean width of the band over the strides, converted to a standard deviation.
 double band_sd(const Signal& signal, const std::vector<Stride>& strides) {
   double sum = 0;
   size_t count = 0;
@@ -125,7 +125,7 @@ bool is_result(const fs::path& folder) {
   return fs::is_regular_file(folder / kRunFile) && fs::is_regular_file(folder / "angles.csv");
 }
 
-// Why a folder without a complete result is none.
+// The reason why a folder does not contain a complete result.
 std::string missing_in(const fs::path& folder) {
   if (!fs::exists(folder)) return "no such folder";
   if (!fs::is_directory(folder)) return "a file";

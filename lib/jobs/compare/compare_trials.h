@@ -15,7 +15,7 @@ namespace walktrack {
 inline namespace jobs {
 
 struct ComparedAngle {
-  std::string_view name;  // as report_curves.h has it
+  std::string_view name;  // as in report_curves.h
   std::string_view label;
 };
 inline constexpr std::array<ComparedAngle, 4> kComparedAngles{
@@ -27,9 +27,10 @@ inline constexpr std::array<ComparedAngle, 4> kComparedAngles{
 struct ComparedParameter {
   std::string_view name;  // in compare.json
   std::string_view label, unit;
-  int digits;  // after the point, where people read it
+  int digits;  // decimals in text
 };
-// The first nine are of contacts of a foot (gait.json), the others of the angles of a stride.
+// The first nine belong to the contacts of a foot (gait.json), the others to the angles of a
+// stride.
 inline constexpr std::array<ComparedParameter, 15> kComparedParameters{
     {{"speed_m_s", "Walking speed, of strides", "m/s", 2},
      {"cadence_steps_per_min", "Cadence, of steps", "steps/min", 1},
@@ -47,11 +48,11 @@ inline constexpr std::array<ComparedParameter, 15> kComparedParameters{
      {"ankle_dorsiflexion_range_deg", "Ankle, range", "°", 1},
      {"ankle_dorsiflexion_max_deg", "Ankle, greatest dorsiflexion", "°", 1}}};
 
-// Of one side of a result.
+// The strides of one side of a result.
 struct SideStrides {
-  // Whole strides' curves, 101 points each, degrees.
+  // The curves of whole strides, 101 points each, degrees.
   std::array<std::vector<std::vector<double>>, kComparedAngles.size()> curves;
-  // One number a contact or stride that has it.
+  // One number for each contact or stride in which it is known.
   std::array<std::vector<double>, kComparedParameters.size()> values;
   // Standard deviation of the mean of `values` by the result's own bands; NaN without bands.
   std::array<double, kComparedParameters.size()> band_sd;
@@ -70,10 +71,10 @@ struct ComparedGroup {
   std::vector<ComparedTrial> trials;  // at least one
 };
 
-// InputError naming what is no complete result of `track` or `analyse`.
+// InputError that names a folder without a complete result of `track` or `analyse`.
 ComparedTrial read_trial(const std::filesystem::path& folder);
 
-// In order of the places, below a place by name. InputError where there is no result.
+// In the order of the places, and by name within a place. InputError if there is no result.
 ComparedGroup read_group(const CompareGroup& group);
 
 }  // namespace jobs

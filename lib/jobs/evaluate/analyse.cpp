@@ -31,7 +31,8 @@ size_t whole_frames(const Motion& motion) {
       }));
 }
 
-// Tracked joints tremble more than measured ones: their forces want the tracked cut-off.
+// Tracked joints are noisier than measured ones, so that their forces need the cut-off frequency
+// for tracks.
 bool was_tracked(const fs::path& motion) {
   return command_of_result(motion.parent_path()) == "track";
 }

@@ -30,7 +30,7 @@ std::string cell(const Figure* figure) {
   return fmt::format("{:.{}f}", figure->value, figure->decimals);
 }
 
-// Every key that any of the estimates has, in the order of the first that has it.
+// The keys of all estimates, in the order in which they first appear.
 std::vector<Figure> all_rows(const std::vector<EvaluatedEstimate>& all) {
   std::vector<Figure> rows;
   for (const EvaluatedEstimate& estimate : all) {
@@ -43,7 +43,7 @@ std::vector<Figure> all_rows(const std::vector<EvaluatedEstimate>& all) {
   return rows;
 }
 
-// A row of joints that nobody has says nothing.
+// A row of joints that no estimate has is left out.
 bool empty_row(const std::vector<EvaluatedEstimate>& all, const std::string& key) {
   return std::all_of(all.begin(), all.end(), [&](const EvaluatedEstimate& estimate) {
     const Figure* figure = find(estimate, key);

@@ -20,7 +20,8 @@ namespace {
 
 constexpr double kMm = 1000, kPercent = 100, kMs = 1000;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kTrimFrames = 4;  // of a foot plant at either end: heel strike and heel-off
+constexpr double kTrimFrames = 4;  // left out at either end of a flat-foot interval: heel strike
+                                   // and heel-off
 
 class Figures {
  public:

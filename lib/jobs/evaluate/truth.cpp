@@ -64,7 +64,8 @@ Eigen::Vector3d point_in(const CsvTable& table, const CsvTable::Row& row, const 
   return {value("_x"), value("_y"), value("_z")};
 }
 
-// Hips, knees, ankles and their pelvis; the other key points are of other places than our joints.
+// Hips, knees, ankles and the pelvis between the hips. The other key points are at other places
+// than the joints here.
 Motion key_points(const CsvTable& table, double rate) {
   const size_t frame = table.column("frame");
   Motion motion;

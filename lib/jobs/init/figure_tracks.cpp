@@ -12,7 +12,8 @@ inline namespace jobs {
 
 namespace {
 
-// Between two looks at the same person: a gap, and how far they get in it, in their heights.
+// The longest gap between two detections of the same person, and the farthest way in it, in their
+// heights.
 constexpr double kLongestGap_s = 0.6, kFarthestSideways = 0.6, kFarthestUpwards = 0.2;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Follows the figures that a camera sees from frame to frame.
+// Follows figures in the image from frame to frame.
 #pragma once
 
 #include <cstddef>
@@ -7,31 +7,30 @@
 namespace walktrack {
 inline namespace jobs {
 
-// Somebody in one frame, px of the video.
+// A person in one frame, px of the video.
 struct SeenFigure {
   double time = 0;    // s
   int frame = 0;      // of the video
-  size_t person = 0;  // of those in the frame
+  size_t person = 0;  // index of the person in the frame
   double u_px = 0, top_px = 0, bottom_px = 0;
 };
 
 inline double size_of(const SeenFigure& figure) { return figure.bottom_px - figure.top_px; }
 
-// One person's figures through the frames, at least one.
+// The figures of one person in several frames, at least one.
 using FigureTrack = std::vector<SeenFigure>;
 
 double median_size(const FigureTrack& track);
 
-// Adds the figure to the track of whoever was last seen where it is now, else begins one.
+// Adds the figure to the track of the person who was last seen there, otherwise begins a new track.
 void link(const SeenFigure& figure, std::vector<FigureTrack>& tracks);
 
-// How far somebody goes across the picture, in their heights.
+// The distance that somebody moves across the image, in their heights.
 double way_across(const FigureTrack& track);
-// As above, and how much larger or smaller they become: the logarithm of the largest size's share
-// of the smallest one's.
+// The same plus the change of size: the logarithm of the largest size over the smallest one.
 double way_anywhere(const FigureTrack& track);
 
-// Who goes farthest: others stand about. Empty where there is nobody.
+// The track that goes farthest, because other people may stand about; empty if there is none.
 FigureTrack walker_of(const std::vector<FigureTrack>& tracks, double (*way)(const FigureTrack&));
 
 }  // namespace jobs

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/core/mat.hpp>
 
 #include "core/conventions.h"
 #include "core/errors.h"
@@ -19,6 +18,7 @@
 #include "jobs/init/init_files.h"
 #include "jobs/init/lens_guess.h"
 #include "jobs/init/seen_walker.h"
+#include "observation/image.h"
 #include "observation/image_threads.h"
 
 namespace walktrack {
@@ -30,16 +30,17 @@ namespace {
 
 constexpr const char* kCalibrationFile = "camera.yaml";
 
-// A walker between floor and top of the head, mean over a stride, as a share of their height: knees
-// are bent, shoes and hair add, the floor in the picture is that of the nearer edge of the feet.
-// Fitted on renders: 0.990 (two walks of one person by six cameras of an independent renderer) and
-// 0.957 (three walks of this program's own); the middle, and half of the difference.
+// Height of a walking subject in the image from floor to top, as a share of their height: the mean
+// over a stride. Knees are bent; shoes and hair add height; the floor in the image is that at the
+// nearer edge of the feet. Fitted on renders: 0.990 (two walks of one person by six cameras of an
+// independent renderer) and 0.957 (three walks of this program's renderer); this is the mean, with
+// half of the difference as spread.
 constexpr double kSeenShare = 0.975, kSeenShareSd = 0.018;
 
-// How far people are from level with a camera that they take for level.
+// Spread of the tilt of cameras that people take for level.
 constexpr double kTiltSd_deg = 3, kStatedTiltSd_deg = 0.3, kRollSd_deg = 1;
 
-// How far, in their heights, somebody has to walk to be a walker.
+// The least distance that somebody has to walk to be the subject, in their heights.
 constexpr double kLeastWay = 0.5;
 
 ViewAssumptions assumptions(const InitJob& job, const SeenWalk& walk, const LensGuess& lens) {
@@ -57,7 +58,7 @@ ViewAssumptions assumptions(const InitJob& job, const SeenWalk& walk, const Lens
   return out;
 }
 
-// The places of one walk; InputError where there is none.
+// The positions of one walk; InputError if there is none.
 std::vector<SeenStature> checked_positions(const InitJob& job, const SeenWalk& walk) {
   std::vector<SeenStature> out;
   for (const WalkerPosition& position : stride_positions(walk.figures, walk.looks_hz))
@@ -86,7 +87,7 @@ double distance_of(const Camera& camera, const SeenStature& seen) {
   return foot ? (foot->head<2>() - camera_centre(camera).head<2>()).norm() : 0;
 }
 
-// What may be said of a share, in per cent of two standard deviations.
+// The uncertainty of a share: two standard deviations, in per cent.
 double percent(const Measured& of) { return 200 * of.sd / of.value; }
 
 std::string scene_yaml(const InitJob& job, const InitOutcome& out) {
@@ -129,11 +130,11 @@ std::string record_json(const InitJob& job, const InitOutcome& out, const SeenWa
   return root.dump(1) + "\n";
 }
 
-// Ground, horizon, and at every position the subject as high as they are to be.
+// Draws the ground, the horizon, and the subject at the estimated height at every position.
 std::string picture_png(const InitJob& job, const InitOutcome& out,
                         std::span<const SeenStature> positions, int frame_number) {
-  FrameSource source(job.video, cv::Size(out.view.camera.width_px, out.view.camera.height_px));
-  cv::Mat frame;
+  FrameSource source(job.video, PixelSize(out.view.camera.width_px, out.view.camera.height_px));
+  Image frame;
   if (!source.skip(frame_number) || !source.read(frame))
     throw InputError(describe({job.video.string(), 0, ""}, source.trouble(), ""));
   const Camera& camera = out.view.camera;
@@ -175,7 +176,7 @@ Outputs outputs_of(const InitJob& job) {
 
 InitOutcome init_scene(const InitJob& job, const JobControl& control) {
   refuse_what_is_not_ours(outputs_of(job));
-  // The pose network's sums go with OpenCV's threads.
+  // Results of the pose network depend on the number of OpenCV's threads.
   set_image_threads(1);
   const SeenWalk walk = seen_walk(job, control);
   const std::vector<SeenStature> positions = checked_positions(job, walk);

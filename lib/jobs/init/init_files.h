@@ -1,4 +1,4 @@
-// The parts that the scenes and records of `walktrack init` for one and two videos have in common.
+// Common parts of the scenes and records that `walktrack init` writes for one and for two videos.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ inline constexpr const char *kInitScene = "scene.yaml", *kInitPicture = "init.pn
 // "1.32 (± 0.04)", in units of `factor`: two standard deviations.
 std::string band(const Measured& of, double factor, int digits);
 
-// A file as a scene in the folder names it, in quotes.
+// A file's path relative to the scene's folder, in quotes.
 std::string path_beside(const std::filesystem::path& file, const std::filesystem::path& folder);
 
 // The scene's line about the subject.

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <opencv2/core/mat.hpp>
 
 #include "core/conventions.h"
 #include "core/errors.h"
@@ -19,6 +18,7 @@
 #include "jobs/init/init_files.h"
 #include "jobs/init/lens_guess.h"
 #include "jobs/init/seen_person.h"
+#include "observation/image.h"
 #include "observation/image_threads.h"
 
 namespace walktrack {
@@ -29,12 +29,13 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array kNames{"first", "second"};
-// Of a height that a person states.
+// Spread of a height that is stated by a person.
 constexpr double kStatureSd_m = 0.01;
-// In the picture: grid to this far from the middle of the walk, and the subject at so many places.
+// The grid reaches this far from the middle of the walk; the subject is drawn at so many places.
 constexpr double kGrid_m = 4;
 constexpr size_t kPoles = 6;
-// How far somebody has to go on the floor, in their heights: of one place rays tell too little.
+// The least distance that the subject has to walk on the floor, in their heights: rays at one place
+// do not determine the cameras.
 constexpr double kLeastPairWay = 0.5;
 
 std::string calibration_file(size_t camera) { return fmt::format("{}.yaml", kNames[camera]); }
@@ -55,7 +56,7 @@ void check_way(const InitPairJob& job, const std::vector<Eigen::Vector3d>& place
                               "a person who walks through both videos at the same time"));
 }
 
-// Where one began at least a frame, and two deviations, before the other.
+// Removes the lag if it is at least a frame and more than two standard deviations.
 void take_out_lag(InitPairOutcome& out, double frame_rate) {
   const Measured& lag = out.views.lag;
   if (std::abs(lag.value) < 2 * lag.sd) return;
@@ -103,11 +104,11 @@ std::string record_json(const InitPairJob& job, const InitPairOutcome& out) {
   return root.dump(1) + "\n";
 }
 
-// One camera's picture with the grid, and the subject as high as they are to be.
-cv::Mat view_of(const InitPairJob& job, const InitPairOutcome& out, size_t c, int frame_number) {
+// The image of one camera with the grid, and the subject at the estimated height.
+Image view_of(const InitPairJob& job, const InitPairOutcome& out, size_t c, int frame_number) {
   const Camera& camera = out.views.cameras[c];
-  FrameSource source(job.videos[c], cv::Size(camera.width_px, camera.height_px));
-  cv::Mat frame;
+  FrameSource source(job.videos[c], PixelSize(camera.width_px, camera.height_px));
+  Image frame;
   if (!source.skip(frame_number) || !source.read(frame))
     throw InputError(describe({job.videos[c].string(), 0, ""}, source.trouble(), ""));
   draw_ground_grid(frame, camera, {0, 0}, kGrid_m);
@@ -143,7 +144,7 @@ std::string lag_text(const InitPairOutcome& out) {
                      kNames[1 - out.early]);
 }
 
-// What the cameras may be used for.
+// States what the pair of cameras can be used for.
 std::string use_text(const TwoViews& views) {
   constexpr double kUseful_percent = 20;
   const double percent = 200 * views.apart.sd / views.apart.value;
@@ -162,7 +163,7 @@ std::string use_text(const TwoViews& views) {
 
 InitPairOutcome init_pair(const InitPairJob& job, const JobControl& control) {
   refuse_what_is_not_ours(outputs_of(job));
-  // The pose network's sums go with OpenCV's threads.
+  // Results of the pose network depend on the number of OpenCV's threads.
   set_image_threads(1);
   const std::array<SeenPerson, 2> seen{seen_person(job.videos[0], job.frame_rate, control),
                                        seen_person(job.videos[1], job.frame_rate, control)};

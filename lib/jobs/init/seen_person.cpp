@@ -9,15 +9,18 @@
 #include "jobs/init/figure_tracks.h"
 #include "jobs/track/input/person_finder.h"
 #include "jobs/track/input/pose_model.h"
+#include "observation/image.h"
 
 namespace walktrack {
 inline namespace jobs {
 
 namespace {
 
-constexpr double kPersonLooks_hz = 15;     // frames looked at in a second: a step has ten
+constexpr double kPersonLooks_hz = 15;     // rate of the frames that are searched: several in each
+                                           // step
 constexpr size_t kMostPersonFrames = 900;  // with somebody in them
-constexpr double kPersonShare = 0.4;       // of the picture's height: who is looked for at first
+constexpr double kPersonShare = 0.4;       // of the image's height: the assumed size of a person at
+                                           // first
 constexpr double kLeastSize_px = 40;
 constexpr double kLeastMeanConfidence = 0.3;  // of the points, mean
 
@@ -30,9 +33,9 @@ PoseNet shipped_net() {
   return {read_text_file(*file, kMaxModelBytes), file->string()};
 }
 
-// The box of the points.
+// The bounding box of the points.
 std::optional<SeenFigure> points_box(const DetectedPerson& person, size_t number) {
-  constexpr size_t kPoints = 17;  // those of COCO
+  constexpr size_t kPoints = 17;  // the points of COCO
   SeenFigure out{0, 0, number, 0, person.points[0].y_px, person.points[0].y_px};
   double confidence = 0;
   for (size_t i = 0; i < kPoints; ++i) {
@@ -63,8 +66,8 @@ SeenPerson seen_person(const std::filesystem::path& video, const std::optional<d
   const int every = std::max(1, static_cast<int>(std::lround(out.frame_rate / kPersonLooks_hz)));
   PersonFinder finder(facts.width_px, facts.height_px, kPersonShare * facts.height_px);
   std::vector<FigureTrack> tracks;
-  std::vector<DetectedPeople> seen;  // by look
-  cv::Mat frame;
+  std::vector<DetectedPeople> seen;  // by searched frame
+  Image frame;
   for (int n = 0; seen.size() < kMostPersonFrames && !control.stopping() && source.read(frame);
        ++n) {
     control.progress("looking for the subject in " + video.filename().string(),

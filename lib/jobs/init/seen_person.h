@@ -1,4 +1,5 @@
-// The keypoints, by the program's pose network, of the person who moves farthest in a video.
+// The keypoints of the person who moves farthest in a video, detected by the program's pose
+// network.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +19,8 @@ struct SeenPerson {
   std::vector<int> frames;  // of the video, by moment
 };
 
-// InputError naming the video where it has no frame rate or nobody is seen; UsageError where the
-// program was built without the network. At most a minute in which somebody is seen is looked at.
+// InputError that names the video if it has no frame rate or nobody is detected; UsageError if the
+// program was built without the network. At most a minute with a person in it is searched.
 SeenPerson seen_person(const std::filesystem::path& video, const std::optional<double>& frame_rate,
                        const JobControl& control);
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <opencv2/core/mat.hpp>
-
 #include "core/errors.h"
 #include "core/parallel_for.h"
 #include "io/archive/files.h"
@@ -14,16 +12,19 @@
 #include "jobs/track/input/pose_model.h"
 #include "observation/background/background_sampler.h"
 #include "observation/figures/whole_figure.h"
+#include "observation/image.h"
 
 namespace walktrack {
 inline namespace jobs {
 
 namespace {
 
-constexpr int kWorkingSide_px = 960;  // of the shrunk image: a person is 100 px high or more
-constexpr double kLooks_hz = 10;      // frames looked at in a second
-constexpr size_t kMostFrames = 600;   // at frames with somebody in them
-// A stride of ordinary walking, and how unequal in height its frames may be.
+constexpr int kWorkingSide_px = 960;  // longer side of the shrunk image, in which a person is 100
+                                      // px high or more
+constexpr double kLooks_hz = 10;      // rate of the frames that are searched
+constexpr size_t kMostFrames = 600;   // with somebody in them
+// Duration of a stride in ordinary walking, and the relative range of the figure's height within
+// one.
 constexpr double kStride_s = 1.1, kUnequal = 0.08;
 
 int shrink_of(const VideoFacts& facts) {
@@ -31,12 +32,12 @@ int shrink_of(const VideoFacts& facts) {
   return (side + kWorkingSide_px - 1) / kWorkingSide_px;
 }
 
-BackgroundModel background_of(const InitJob& job, cv::Size size, int shrink, int threads,
+BackgroundModel background_of(const InitJob& job, PixelSize size, int shrink, int threads,
                               const JobControl& control) {
   FrameSource source(job.background.empty() ? job.video : job.background, size);
   BackgroundSampler sampler({}, shrink);
   const auto total = static_cast<size_t>(source.facts().frame_count);
-  cv::Mat frame;
+  Image frame;
   for (size_t done = 0; source.read(frame); ++done) {
     sampler.add(frame);
     control.progress("learning the background", done, total);
@@ -45,7 +46,7 @@ BackgroundModel background_of(const InitJob& job, cv::Size size, int shrink, int
   return sampler.model(threads);
 }
 
-// Who can be seen whole in one frame.
+// Finds figures that are completely visible in one frame.
 class FigureFinder {
  public:
   FigureFinder(const VideoFacts& facts, int shrink) : shrink_(shrink) {
@@ -55,7 +56,7 @@ class FigureFinder {
     people_.emplace(facts.width_px, facts.height_px, 0.4 * facts.height_px);
   }
 
-  std::vector<SeenFigure> in(const cv::Mat& frame, const cv::Mat& mask, int number) {
+  std::vector<SeenFigure> in(const Image& frame, const Image& mask, int number) {
     std::vector<SeenFigure> found;
     const auto add = [&](const WholeFigure& figure) {
       found.push_back({0, 0, 0, figure.u_px, figure.top_px, figure.bottom_px});
@@ -110,7 +111,7 @@ SeenWalk seen_walk(const InitJob& job, const JobControl& control) {
   FigureFinder finder(facts, shrink);
   const int every = std::max(1, static_cast<int>(std::lround(out.frame_rate / kLooks_hz)));
   out.looks_hz = out.frame_rate / every;
-  cv::Mat frame;
+  Image frame;
   std::vector<FigureTrack> tracks;
   size_t looked = 0;
   for (int n = 0; looked < kMostFrames && !control.stopping() && source.read(frame); ++n) {
@@ -137,7 +138,7 @@ std::vector<WalkerPosition> stride_positions(std::span<const SeenFigure> figures
     while (to < figures.size() && figures[to].time < figures[from].time + kStride_s) ++to;
     const auto position = mean_of(figures.subspan(from, to - from), least);
     if (position) out.push_back(*position);
-    // Half overlapping.
+    // Windows overlap by half.
     const double next = figures[from].time + 0.5 * kStride_s;
     while (from < figures.size() && figures[from].time < next) ++from;
   }

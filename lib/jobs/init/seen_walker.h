@@ -1,13 +1,11 @@
-// The places of head and feet of a walking person in a video whose camera is not known: from pixels
-// that differ from the background and, if the program has the pose network, only where the network
-// detects a person.
+// Positions of head and feet of a walking person in the video of an uncalibrated camera: from
+// pixels that differ from the background and, if the program has the pose network, only in places
+// where the network detects a person.
 #pragma once
 
 #include <optional>
 #include <span>
 #include <vector>
-
-#include <opencv2/core/mat.hpp>
 
 #include "camera/view_from_walker.h"
 #include "core/job_control.h"
@@ -20,16 +18,16 @@ inline namespace jobs {
 struct SeenWalk {
   int width_px = 0, height_px = 0;
   double frame_rate = 0;  // Hz
-  double looks_hz = 0;    // frames looked at in a second
+  double looks_hz = 0;    // rate of the frames that are searched
   std::vector<SeenFigure> figures;
 };
 
-// InputError naming the video where it has no frame rate. At most a minute in which somebody is
-// seen is looked at.
+// InputError that names the video if it has no frame rate. At most a minute with a person in it is
+// searched.
 SeenWalk seen_walk(const InitJob& job, const JobControl& control);
 
-// Means over pieces of the walk that last about a stride; frames in which somebody is half hidden
-// or grown together with something are passed over. With the time of its middle.
+// A mean over a part of the walk that lasts about a stride, with the time of its middle. Frames in
+// which somebody is partly hidden or joined to another foreground region are ignored.
 struct WalkerPosition {
   SeenStature seen;
   double time;

@@ -10,20 +10,21 @@ inline namespace jobs {
 
 namespace {
 
-// Nanoseconds, as scripts/measure_costs.py prints them; those of the terms are beside the terms.
+// Nanoseconds, as scripts/measure_costs.py prints them; the costs of likelihood terms are stated
+// with the terms.
 constexpr double kDecoding = 2.22;
 constexpr double kPartProjected = 121;
 constexpr double kWalker = 7.54e3;
 constexpr double kPartPosed = 60;
 constexpr double kFrame = 1.23e5;
 
-// Of MoveNet Lightning on one thread, by hand.
+// Of MoveNet Lightning on one thread, measured by hand.
 constexpr double kNetworkLook = 14e6;
 
-// Share of the moves that the first camera lets through (filter/particle_filter.h).
+// Share of the moves that the first camera's likelihood accepts (filter/particle_filter.h).
 constexpr double kPassed = 0.57;
 
-// Mean layers of a frame with one, two, three cameras.
+// Mean number of layers in a frame with one, two and three cameras.
 constexpr std::array<double, 3> kLayers{3.9, 4.7, 4.9};
 
 constexpr double kMsPerNs = 1e-6;

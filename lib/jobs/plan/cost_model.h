@@ -33,25 +33,25 @@ inline namespace jobs {
 
 struct CameraWork {
   std::string name;
-  double filmed_px = 0;  // pixels of a frame as it is filmed
-  double region_px = 0;  // pixels of the shrunk image around the walker
-  double rows = 0;       // that the walker covers there
-  double looks = 0;      // of the pose network, a frame
+  double filmed_px = 0;  // pixels of a recorded frame
+  double region_px = 0;  // pixels of the shrunk image around the subject
+  double rows = 0;       // height of the subject there
+  double looks = 0;      // runs of the pose network for each frame
 };
 
 struct FrameWork {
   std::vector<CameraWork> cameras;
   double particles = 0;
-  double poses = 0;  // weighed in a frame by the first camera, all particles and moves together
+  double poses = 0;  // poses evaluated in a frame by the first camera, for all particles and moves
   int parts = 0;     // of the body
-  int classes = 0;   // appearances told apart; 0 = appearance is off
+  int classes = 0;   // appearance classes; 0 = appearance is off
   ObservationConfig terms;
 };
 
-// CPU ms by what they go into; what is off is not in it.
+// CPU ms of each item that is on.
 using Costs = std::vector<std::pair<std::string, double>>;
 
-// CPU ms a frame.
+// CPU ms for a frame.
 struct FrameCost {
   std::vector<Costs> cameras;  // in the order of the work
   double walker = 0, poses = 0;
@@ -62,9 +62,9 @@ double sum(const Costs& costs);
 
 FrameCost frame_cost(const FrameWork& work);
 
-// Poses weighed in a frame: once each, and after every tempered layer as often as it is moved. The
-// number of layers depends on how surprising frames are; this is what walks usually take, which
-// grows with the evidence.
+// Poses evaluated in a frame: each particle once, and again for each move after every tempered
+// layer. The number of layers depends on how well frames are predicted; this is the usual number
+// for walks, which grows with the evidence.
 double usual_layers(int cameras, int max_layers);
 
 }  // namespace jobs

@@ -21,11 +21,11 @@ namespace {
 
 constexpr double kHundred = 100;
 
-// The box that is looked at reaches half a metre to all sides of the walker (jobs/track/track.cpp),
-// seen obliquely, and a quarter of that above and below.
+// The search box reaches half a metre beyond the limbs to all sides (kReach of
+// jobs/track/track_run.cpp), seen obliquely, and a quarter of that above and below.
 constexpr double kBoxWidth = 1.2, kBoxRise = 0.25;  // m
 
-// How often the pose network looks into a frame; not where there are keypoint files.
+// Number of times that the pose network is run on a frame; 0 if there are keypoint files.
 double looks_of(const SceneCamera& camera, const KeypointConfig& keypoints) {
   if (!is_on(keypoints) || !camera.keypoints.path.empty() || camera.video.empty()) return 0;
   return 1.0 / keypoints.every;
@@ -71,13 +71,13 @@ double total_ms(const Scene& scene, const Config& config) {
   return frame_cost(frame_work(scene, config)).sum();
 }
 
-// Writes the items, each with what it would save.
+// Writes the items, each with the cost that it would save.
 class Items {
  public:
   Items(const Scene& scene, const ConfigWithOrigin& config)
       : scene_(scene), config_(config), all_(total_ms(scene, config.values)) {}
 
-  // Something that a flag of the configuration switches.
+  // An item that a flag of the configuration switches.
   void flag(const std::string& name, const std::string& key, bool on, const std::string& what) {
     PlanItem item{name, on, what, origin(key), 0};
     if (item.on) {
@@ -88,7 +88,7 @@ class Items {
     items_.push_back(std::move(item));
   }
 
-  // Something that follows from the scene.
+  // An item that follows from the scene.
   void fact(const std::string& name, bool on, const std::string& what, const std::string& why) {
     items_.push_back({name, on, what, why, 0});
   }
@@ -212,7 +212,8 @@ std::string saving(double without, double all) {
   return fmt::format("saves {:.0f} % of the time", kHundred * (1 - without / all));
 }
 
-// The camera that sees the walk most from the side, if the scene says where it goes.
+// The camera that sees the walk most nearly from the side, if the scene states the direction of the
+// walk.
 std::optional<size_t> side_camera(const Scene& scene) {
   std::optional<size_t> best;
   double most = -1;

@@ -1,4 +1,4 @@
-// `walktrack plan`: says what tracking a scene would model and why, what it would cost, and what
+// `walktrack plan`: states what tracking a scene would model and why, what it would cost, and what
 // the scene does not need. It tracks nothing: the costs are those of cost_model.h.
 #pragma once
 
@@ -18,16 +18,16 @@ inline namespace jobs {
 struct PlanItem {
   std::string name;
   bool on = true;
-  std::string what;  // it is, or would be
-  std::string why;   // it is on or off: a default, the configuration's place, the scene
-  double ms = 0;     // CPU time a frame; 0 for what is off
+  std::string what;  // description
+  std::string why;   // the reason why it is on or off: a default, the configuration, the scene
+  double ms = 0;     // CPU time for each frame; 0 if it is off
 };
 
 struct PlanCamera {
   std::string name;
   int width_px = 0, height_px = 0, shrink = 1;
   double person_px = 0;  // height of the standing subject in the shrunk image
-  double ms = 0;         // all that this camera alone costs
+  double ms = 0;         // all costs of this camera
 };
 
 struct Plan {
@@ -39,11 +39,11 @@ struct Plan {
   PlanLevels levels;
   FrameWork work;
   FrameCost cost;
-  std::vector<std::pair<std::string, double>> memory;  // what it is for, bytes
-  std::vector<std::string> advice;                     // what the scene does not need
+  std::vector<std::pair<std::string, double>> memory;  // purpose, bytes
+  std::vector<std::string> advice;                     // on what the scene does not need
 };
 
-// Opens the scene's videos, but reads no frame. InputError for what `track` would refuse, too.
+// Opens the scene's videos, but reads no frame. Throws an InputError whenever `track` would.
 Plan plan_scene(const Scene& scene, const ConfigWithOrigin& config);
 
 std::string plan_text(const Plan& plan);

@@ -14,8 +14,8 @@ inline namespace jobs {
 
 namespace {
 
-// Within these a walk is seen from the side: the distance to the camera changes by less than 3 m in
-// 7, and a foot to the side shows by no more than a quarter of its distance.
+// Within these angles a walk is seen from the side: the distance to the camera changes by less than
+// 3 m in 7, and a lateral displacement of a foot is seen at no more than a quarter of its size.
 constexpr double kSideOn = 65, kLevel = 15;  // degrees
 
 BodyModel model_of(const Scene& scene, const Config& config) {
@@ -25,7 +25,7 @@ BodyModel model_of(const Scene& scene, const Config& config) {
   return model;
 }
 
-// Why one camera does not see this walk purely from the side; empty when it does.
+// The reason why one camera does not see this walk from the side; empty if it does.
 std::string not_from_the_side(const Scene& scene) {
   if (scene.cameras.size() > 1) return "several cameras see turning and step width";
   const auto view = side_view(scene, scene.cameras[0].camera);
@@ -60,13 +60,13 @@ PlanState state_of(const Scene& scene, const Config& config) {
   const auto free = static_cast<int>(free_residuals(model).size());
   PlanState state;
   state.walker = static_cast<int>(KneedState{}.q.size() + KneedState{}.qd.size());
-  // Of the standing foot; the way that the root goes, or the heading that it keeps.
+  // The position of the supporting foot, and the velocity of the root or the constant heading.
   state.place = 2 + (turns(model) ? 2 : 1);
-  state.pose = 2 * free;  // with their rates, as values of two frames
-  state.controls =
-      kControlSize + 2;  // four springs with dampers and rest angles, a push-off; the step's aim
+  state.pose = 2 * free;              // values of two frames, from which rates follow
+  state.controls = kControlSize + 2;  // four springs with dampers and rest angles, a push-off; the
+                                      // target of the step
   state.noise = kResidualNoise + free;
-  // Two copies of each state, three weights, a parent and flags.
+  // Two copies of each state, three weights, a parent index and flags.
   state.bytes_per_particle = 2.0 * sizeof(WalkerParticle) + 6.0 * sizeof(double);
   return state;
 }

@@ -20,8 +20,8 @@ namespace walktrack {
 inline namespace jobs {
 
 struct PlanState {
-  int walker = 0, place = 0, pose = 0, controls = 0;  // numbers that a particle carries
-  int noise = 0;                                      // numbers drawn for it in each frame
+  int walker = 0, place = 0, pose = 0, controls = 0;  // numbers in a particle
+  int noise = 0;                                      // random numbers for it in each frame
   double bytes_per_particle = 0;                      // all copies and weights of the filter
   int dimension() const { return walker + place + pose + controls; }
 };
@@ -30,21 +30,21 @@ PlanState state_of(const Scene& scene, const Config& config);
 
 struct PlanLevel {
   std::string name;
-  std::vector<std::string> settings;  // what --set takes for it
+  std::vector<std::string> settings;  // settings for --set
   PlanState state;
-  bool on = false;      // the configuration's
-  bool lowest = false;  // that suffices
+  bool on = false;      // the level of the configuration
+  bool lowest = false;  // the lowest one that suffices
 };
 
 struct PlanLevels {
   std::vector<PlanLevel> levels;  // from the lowest up
-  std::string why;                // the lowest one suffices
+  std::string why;                // the reason why the lowest one suffices
 };
 
 PlanLevels plan_levels(const Scene& scene, const ConfigWithOrigin& config);
 
-// By the scene's `initial`: how far the walk's way is from a camera's line of sight over the
-// ground, 0 to pi/2 rad, and how far below the horizon it sees the walker's middle.
+// According to the scene's `initial`: the angle between the walk and a camera's line of sight over
+// the ground, 0 to pi/2 rad, and the angle of the subject's middle below the horizon.
 struct SideView {
   double off_sight = 0, below_horizon = 0;  // rad
 };

@@ -1,4 +1,4 @@
-// The plan for people and for programs.
+// The plan as text and as JSON.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMiB = 1024 * 1024, kMsPerSecond = 1000, kInPercent = 100;
 
-// Time by what it goes into, all cameras together, in the order of the work.
+// The time of each stage, summed over the cameras, in the order of the work.
 Costs stages(const FrameCost& cost) {
   Costs out;
   for (const Costs& camera : cost.cameras) {

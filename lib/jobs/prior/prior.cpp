@@ -30,7 +30,7 @@ GaitPrior read_prior(const fs::path& path) {
   return parse_gait_prior(read_text_file(path, kMaxPriorBytes), path.string());
 }
 
-// One line a node: where it stands, then what line(node) says.
+// One line for each node: its coordinates, then the result of line(node).
 template <typename Node, typename Line>
 std::string gaits_table(const PriorTable<Node>& prior, const WalkerUnits& units,
                         const std::string& columns, const Line& line) {
@@ -92,7 +92,8 @@ std::string survival_table(const Prior& prior, const Parameters& walker, const P
   return out;
 }
 
-// The cheapest gait of every speed, and what it costs with resting power and muscles' efficiency.
+// The gait of least cost at every speed, with the cost of resting power and the efficiency of
+// muscles.
 std::string cheapest_table(const std::vector<CheapestStep>& steps, double gravity) {
   std::string out = "speed,step_length,cost_of_transport,metabolic_j_per_kg_m\n";
   for (const CheapestStep& s : steps)
@@ -101,7 +102,7 @@ std::string cheapest_table(const std::vector<CheapestStep>& steps, double gravit
   return out;
 }
 
-constexpr const char* kGaitsFile = "gaits.csv";  // the last
+constexpr const char* kGaitsFile = "gaits.csv";  // written last
 
 Outputs outputs_of(const PriorReportJob& job) {
   return {

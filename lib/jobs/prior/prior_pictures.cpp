@@ -66,7 +66,7 @@ std::string shade(double share) {
   return fmt::format("rgb({},{},{})", mix(68, 33, 253), mix(1, 145, 231), mix(84, 140, 37));
 }
 
-// Borders of a node's cell on an axis: half way to its neighbours.
+// Limits of a node's cell on an axis, half way to its neighbours.
 std::pair<double, double> cell(const std::vector<double>& axis, size_t i) {
   const double below = i > 0 ? axis[i] - axis[i - 1] : axis[1] - axis[0];
   const double above = i + 1 < axis.size() ? axis[i + 1] - axis[i] : below;
@@ -98,7 +98,7 @@ std::string strip(const GaitPrior& prior, const KneedParameters& walker, double 
   KneedState state = gait.start;
   KneedControls controls = gait.controls;
   for (int i = 0; i < kSteps * kFigures; ++i) {
-    // Figures stand apart further than they walk, to be told apart.
+    // Figures are drawn further apart than they walk, so that they do not overlap.
     const double shift = kLeft + 45.0 * i - kScale * kneed_posture(model, state).hip.x();
     out += figure(kneed_posture(model, state), {shift, y}, kScale, state.transfers % 2 == 0);
     double left = gait.period / kFigures;

@@ -9,7 +9,7 @@
 namespace walktrack {
 inline namespace jobs {
 
-// What a table of gaits of any walker costs.
+// The cost of a gait of any walker at a node of a table.
 struct CostNode {
   bool valid = false;
   double cost = 0;  // of transport
@@ -23,7 +23,7 @@ CostTable cost_table(const PriorTable<Node>& prior) {
   return table;
 }
 
-// Cost of transport over speed and step length on the level, one rectangle a valid node.
+// Cost of transport over speed and step length on level ground, one rectangle for each valid node.
 std::string cost_picture(const CostTable& prior, const WalkerUnits& units);
 
 struct CheapestStep {
@@ -32,11 +32,11 @@ struct CheapestStep {
   double cost = 0;         // of transport there
 };
 
-// The cheapest step length at every speed of the table where the least cost lies inside, by a
-// parabola through the three cheapest valid nodes on the level.
+// The step length of least cost at every speed of the table for which the minimum is inside the
+// table, by a parabola through the three best valid nodes on level ground.
 std::vector<CheapestStep> cheapest_steps(const CostTable& prior, const WalkerUnits& units);
 
-// The cheapest step length against speed beside the one that people prefer.
+// The step length of least cost against speed, with the one that people prefer.
 std::string cheapest_picture(const std::vector<CheapestStep>& steps, const WalkerUnits& units);
 
 // Stick figures through one stride: slow, normal, fast, uphill, downhill.

@@ -13,14 +13,14 @@ namespace walktrack {
 inline namespace jobs {
 namespace {
 
-// The speeds that a plan asks for at some time.
+// The speeds that occur in a plan.
 std::vector<double> speeds_of(const WalkPlan& plan) {
   std::vector<double> speeds{plan.speed};
   for (const SpeedChange& change : plan.changes) speeds.push_back(change.speed);
   return speeds;
 }
 
-// The table ends where walking does; what it does not hold it would replace by its border.
+// Refuses speeds outside the table, which would otherwise be replaced by its limits.
 void check_speeds(const PriorAxes& axes, const WalkerUnits& units, const WalkPlan& plan) {
   constexpr double kRounding = 1.01;  // 2.2 m/s is in a table that ends at 2.199
   const SpeedRange range = speed_range(axes, units);
@@ -42,7 +42,7 @@ void check_slope(const PriorAxes& axes, double slope) {
                                         axes.slopes.front(), axes.slopes.back())));
 }
 
-// Where the table has no gait with the plan's step length it would take one nearby.
+// Refuses a plan whose step length is not in the table, for which a gait nearby would be taken.
 template <typename Prior, typename Parameters>
 void check_step_length(const Prior& prior, const Parameters& parameters, const WalkPlan& plan) {
   constexpr double kRounding = 1.01;
@@ -90,7 +90,7 @@ StraightLeggedParameters controlled(StraightLeggedParameters parameters,
   return parameters;
 }
 
-// With two controls this walker cannot brake nor climb: gaits are missing where it would have to.
+// With two controls this walker can neither brake nor climb, so that the table has no gaits there.
 void check_gaits(const StraightPrior& prior, const StraightLeggedParameters& parameters,
                  const WalkPlan& plan) {
   for (const double speed : speeds_of(plan)) {

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include "io/drawing/picture.h"
+#include "observation/image.h"
 
 namespace walktrack {
 inline namespace jobs {
 
 FrameWriter::FrameWriter(const ResultFolder& folder, const std::string& name, bool images,
-                         cv::Size size_px, double frame_rate)
+                         PixelSize size_px, double frame_rate)
     : folder_(folder), name_(name) {
   if (images) {
     std::filesystem::create_directories(folder.path() / name);
@@ -17,7 +18,7 @@ FrameWriter::FrameWriter(const ResultFolder& folder, const std::string& name, bo
   }
 }
 
-void FrameWriter::write(const cv::Mat& frame) {
+void FrameWriter::write(const Image& frame) {
   if (video_) {
     video_->write(frame);
     return;

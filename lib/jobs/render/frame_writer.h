@@ -1,26 +1,26 @@
-// Writes the frames of one camera as a video or as a folder of numbered PNG images. Images hold
-// exactly what was rendered; a video encoder changes it, and not always in the same way.
+// Writes the frames of one camera as a video or as a folder of numbered PNG images. Images are
+// exactly what was rendered; a video encoder changes them, and different encoders do so
+// differently.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include <opencv2/core/mat.hpp>
-
 #include "io/archive/result_folder.h"
 #include "io/video/video_writer.h"
+#include "observation/image.h"
 
 namespace walktrack {
 inline namespace jobs {
 
 class FrameWriter {
  public:
-  // Into <folder>/<name>.mp4 or, as images, <folder>/<name>/%06d.png. Throws std::runtime_error if
-  // no encoder opens.
-  FrameWriter(const ResultFolder& folder, const std::string& name, bool images, cv::Size size_px,
+  // Writes <folder>/<name>.mp4 or, as images, <folder>/<name>/%06d.png. Throws std::runtime_error
+  // if no encoder opens.
+  FrameWriter(const ResultFolder& folder, const std::string& name, bool images, PixelSize size_px,
               double frame_rate);
 
-  void write(const cv::Mat& frame);
+  void write(const Image& frame);
   void close();
 
  private:
@@ -30,10 +30,10 @@ class FrameWriter {
   std::optional<VideoWriter> video_;
 };
 
-// The name that a scene calls such a video by.
+// The name of such a video in a scene.
 std::string video_name(const std::string& name, bool images);
 
-// What the result folder calls its file or files by.
+// The name of its file or files in the result folder's list.
 std::string video_files(const std::string& name, bool images);
 
 }  // namespace jobs

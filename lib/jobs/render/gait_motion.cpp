@@ -21,9 +21,11 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kRowRate = 240;    // Hz, of the motion: the fastest cameras
-constexpr int kMarginRows = 60;     // before time 0 and after the end, for shutters and events
-constexpr double kArmPerLeg = 0.6;  // of the other thigh's swing; Murray et al. 1967
+constexpr double kRowRate = 240;    // Hz, sample rate of the motion: as high as that of the fastest
+                                    // cameras
+constexpr int kMarginRows = 60;     // before time 0 and after the end, for shutters and for events
+constexpr double kArmPerLeg = 0.6;  // relative to the swing of the opposite thigh; Murray et al.
+                                    // 1967
 constexpr double kArmAside = 0.1, kElbow = 0.35;  // rad
 constexpr double kNoStep = std::numeric_limits<double>::quiet_NaN();
 
@@ -37,7 +39,7 @@ KneedState kneed_state(const WalkerState& state) {
   return out;
 }
 
-// The walker of a job on its way through time, writing down what the ground does.
+// Simulates the walker of a job and records the ground reaction.
 class Walking {
  public:
   Walking(const SimulateJob& job, double start)
@@ -67,7 +69,7 @@ class Walking {
     return walker_->section_state(x.head(n), x.tail(n));
   }
 
-  // A jump of momentum at one time is an impulse on the standing foot.
+  // A jump of momentum at one time is an impulse on the supporting foot.
   void note(const WalkerState& now) {
     const PlanarMomentum momentum = walker_->momentum(now);
     const ContactForce contact = walker_->contact_forces(now).front();
@@ -86,7 +88,8 @@ class Walking {
     records_.push_back(record);
   }
 
-  // The strike has been noted as one jump of the foot that stood; the landing foot has its part.
+  // The heel strike has been recorded as one jump at the supporting foot; a part of it belongs to
+  // the landing foot.
   void change_support() {
     GroundRecord& strike = records_.back();
     const Vector2d landing = events_.back().transition.impulse;
@@ -110,7 +113,7 @@ class Walking {
   Vector2d last_force_, last_momentum_;
 };
 
-// Heading 0, over the plane's own ground.
+// The pose with heading 0 above the ground of the plane of walking.
 Pose pose_in_plane(const BodyModel& model, const WalkerState& walker, Side stance) {
   const KneedState state = kneed_state(walker);
   const Vector2d hips = kneed_posture(model.walker, state).hip;
@@ -136,13 +139,14 @@ std::vector<GroundRecord>::const_iterator first_after(const std::vector<GroundRe
                           [](double t, const GroundRecord& record) { return t < record.time; });
 }
 
-// The nearest before a time; the simulation's steps are a millisecond.
+// The last record before a time; steps of the simulation are a millisecond.
 const GroundRecord& record_at(const std::vector<GroundRecord>& records, double time) {
   const auto after = first_after(records, time);
   return after == records.begin() ? records.front() : *std::prev(after);
 }
 
-// Impulses up to a time, between the records about it; at an event, those after it.
+// Impulses up to a time, interpolated between the neighbouring records; at an event, those after
+// it.
 std::array<Vector2d, 2> impulses_at(const std::vector<GroundRecord>& records, double time) {
   const auto after = first_after(records, time);
   const GroundRecord& a = record_at(records, time);

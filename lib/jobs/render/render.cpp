@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <opencv2/core/mat.hpp>
 
 #include "core/conventions.h"
 #include "core/errors.h"
@@ -20,6 +19,7 @@
 #include "jobs/render/gait_motion.h"
 #include "jobs/render/render_keypoints.h"
 #include "jobs/render/render_truth.h"
+#include "observation/image.h"
 #include "synth/sensor.h"
 #include "synth/stage.h"
 
@@ -31,8 +31,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSceneFile = "scene.yaml";
-constexpr size_t kFramesPerThread = 2;   // in memory at a time
-constexpr double kRoundingShare = 1e-6;  // of a frame: a duration of whole frames includes the last
+constexpr size_t kFramesPerThread = 2;   // number of frames in memory at a time
+constexpr double kRoundingShare = 1e-6;  // share of a frame: a duration of whole frames includes
+                                         // the last one
 
 // One camera of the recording.
 struct RenderedCamera {
@@ -41,7 +42,7 @@ struct RenderedCamera {
   double rate;                       // Hz
   uint32_t stream;                   // of its random numbers
   size_t frames;                     // with start_frame
-  double time(size_t frame) const {  // of an exposure
+  double time(size_t frame) const {  // the time of an exposure
     return (static_cast<double>(frame) - camera.start_frame) / rate + camera.delay;
   }
 };
@@ -57,7 +58,7 @@ size_t frames_in(double duration, double rate) {
   return static_cast<size_t>(std::floor(duration * rate + kRoundingShare)) + 1;
 }
 
-// A camera's place, from its file if it has one.
+// The cameras whose pose is calibrated, read from their files.
 std::vector<std::optional<Camera>> calibrations(const RenderOptions& options) {
   std::vector<std::optional<Camera>> out;
   for (const RenderCamera& camera : options.cameras) {
@@ -70,12 +71,11 @@ std::vector<std::optional<Camera>> calibrations(const RenderOptions& options) {
   return out;
 }
 
-cv::Mat picture(const RenderJob& job, const Plane<Colour>& light, uint32_t stream, uint32_t frame) {
-  std::vector<uint8_t> bytes =
-      developed(light, job.options.sensor, job.options.seed, stream, frame);
-  const cv::Mat image(light.height, light.width, CV_8UC3, bytes.data());
-  if (job.options.jpeg_quality == 0) return image.clone();
-  return after_jpeg(image, job.options.jpeg_quality);
+Image picture(const RenderJob& job, const Plane<Colour>& light, uint32_t stream, uint32_t frame) {
+  const Image image =
+      bgr_image(developed(light, job.options.sensor, job.options.seed, stream, frame), light.width,
+                light.height);
+  return job.options.jpeg_quality == 0 ? image : after_jpeg(image, job.options.jpeg_quality);
 }
 
 void write_truth_pictures(const RenderJob& job, const Stage& stage, const RenderedCamera& rendered,
@@ -103,7 +103,7 @@ void make_truth_folders(const RenderJob& job, const std::string& camera) {
   }
 }
 
-// Renders `count` frames, some at a time in parallel, and writes them in order.
+// Renders `count` frames, several at a time in parallel, and writes them in order.
 template <typename MakeFrame>
 void write_video(const RenderJob& job, const std::string& name, const RenderedCamera& rendered,
                  const ResultFolder& folder, size_t count, int threads, const JobControl& control,
@@ -112,7 +112,7 @@ void write_video(const RenderJob& job, const std::string& name, const RenderedCa
                      {rendered.view.camera.width_px, rendered.view.camera.height_px},
                      rendered.rate);
   const size_t batch = kFramesPerThread * static_cast<size_t>(threads);
-  std::vector<cv::Mat> images(batch);
+  std::vector<Image> images(batch);
   for (size_t start = 0; start < count && !control.stopping(); start += batch) {
     const size_t n = std::min(batch, count - start);
     parallel_for(n, threads, [&](size_t i) { images[i] = make_frame(start + i); });
@@ -163,7 +163,7 @@ std::vector<double> scene_times(const Stage& stage, double rate) {
   return times;
 }
 
-// Position, heading and speed at time 0, from the first half second.
+// The line `initial` of a scene: position, heading and speed at time 0, from the first half second.
 std::string initial_line(const Motion& truth) {
   size_t last = 0;
   while (last + 1 < truth.time.size() && truth.time[last] < 0.5) ++last;
@@ -224,7 +224,7 @@ std::vector<RenderedCamera> rendered_cameras(const RenderOptions& options, const
   return out;
 }
 
-// Forces at the scene's times, with the walker where the stage has put it.
+// Forces at the times of the scene, with the walker at its place in the scene.
 TableNotes write_kinetics(const RenderJob& job, WalkedGait walked, std::vector<double> times,
                           const ResultFolder& folder) {
   const FilmedWalker& walker = job.walker;

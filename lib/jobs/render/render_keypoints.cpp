@@ -36,8 +36,9 @@ constexpr std::array kPoints{std::pair{kNose, Joint::kHead},
 constexpr std::array kLegPairs{std::pair{kLeftHip, kRightHip}, std::pair{kLeftKnee, kRightKnee},
                                std::pair{kLeftAnkle, kRightAnkle},
                                std::pair{kLeftBigToe, kRightBigToe}};
-constexpr double kLeastConfidence = 0.4;  // of a made point; by hand
-// Streams of random numbers beyond those of cameras' sensors; a camera has some for each person.
+constexpr double kLeastConfidence = 0.4;  // of a rendered point; by hand
+// Streams of random numbers after those of the cameras' sensors; a camera has several for each
+// person.
 constexpr uint32_t kStreams = 1u << 30, kStreamsOfCamera = 1u << 10;
 
 bool within(const std::vector<TimeSpan>& spans, double time) {
@@ -62,7 +63,7 @@ struct Draws {
   double height_px;
 
   Keypoint point(const Eigen::Vector2d& true_px) {
-    // As many draws for every point, so that one fault changes no other.
+    // The same number of draws for every point, so that one detection error does not change others.
     const double lost = rng.uniform(), confidence = kLeastConfidence + 0.6 * rng.uniform();
     const double sd = faults.noise * height_px / std::sqrt(confidence);
     const double dx = sd * rng.normal(), dy = sd * rng.normal();

@@ -1,9 +1,9 @@
 // Keypoints of a rendered video as a pose detector would write them, with the errors that the
 // options state: OpenPose JSON with the 26 points of HALPE_26, one file for each frame.
 //
-// A point's error is normal, with a standard deviation of noise x height of the person in the
-// picture / sqrt(confidence); confidences are spread evenly over 0.4 to 1. The face has a nose (the
-// middle of the head), the feet have big toes and no heels. Nothing hides anything.
+// A point's error is normal, with a standard deviation of noise x height of the person in the image
+// / sqrt(confidence); confidences are spread evenly over 0.4 to 1. The face has only a nose (at the
+// middle of the head); the feet have big toes and no heels. Occlusion is not modelled.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ DetectedPeople rendered_keypoints(const Stage& stage, const Camera& camera,
 
 std::string openpose_json(const DetectedPeople& people);
 
-// Of a camera, in the scene's folder.
+// The folder of a camera's keypoints, in the scene's folder.
 std::string keypoint_folder(const std::string& camera);
 
 // "<camera>_000000000012_keypoints.json"

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <opencv2/core/mat.hpp>
 
 #include "io/archive/files.h"
 #include "io/drawing/picture.h"
@@ -37,9 +36,7 @@ std::string events_csv(const Motion& whole, double duration) {
 }
 
 void write_labels(const std::filesystem::path& file, const Plane<uint8_t>& labels) {
-  const cv::Mat image(labels.height, labels.width, CV_8UC1,
-                      const_cast<uint8_t*>(labels.values.data()));  // which is only read
-  write_file_atomically(file, png_bytes(image));
+  write_file_atomically(file, png_bytes(grey_image(labels.values, labels.width, labels.height)));
 }
 
 void write_flow(const std::filesystem::path& file, const Plane<Eigen::Vector2f>& flow) {

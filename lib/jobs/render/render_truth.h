@@ -1,4 +1,4 @@
-// The tables and pictures of truth that accompany a rendered video.
+// The tables and images of the truth of a rendered video.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 namespace walktrack {
 inline namespace jobs {
 
-// t,side,event with side l or r and event strike or toe_off: those of the whole motion that lie
-// within the truth's time.
+// t,side,event with side l or r and event strike or toe_off: the events of the whole motion within
+// the time of the truth.
 std::string events_csv(const Motion& whole, double duration);
 
 void write_labels(const std::filesystem::path& file, const Plane<uint8_t>& labels);

@@ -24,12 +24,13 @@ namespace {
 
 constexpr auto kTrialPollInterval = std::chrono::milliseconds(10);
 constexpr size_t kMaxLogBytes = 16u << 20;
-// Of one trial: many times what a sound one takes, so that a busy machine does not look like a
-// hang.
+// Limits of one trial: many times what a correct one needs, so that a busy machine is not taken for
+// a hang.
 constexpr ChildLimits kLimits{.seconds = 300, .memory_mb = 4096};
 constexpr ChildLimits kStressLimits{.seconds = 3600, .memory_mb = 12'288};
 
-// Indices of the names, trials of minutes first: none of them is then left alone at the end.
+// Indices of the names, with trials of minutes first, so that none of them is left alone at the
+// end.
 std::vector<size_t> order_of(const std::vector<std::string>& names) {
   const std::vector<std::string> quick = trial_names(false);
   std::vector<size_t> order(names.size());
@@ -120,7 +121,7 @@ std::vector<TrialResult> run_selftest(const SelftestJob& job, const JobControl& 
     });
     control.progress("trials", next - running.size(), names.size());
   }
-  while (!running.empty()) {  // told to stop: ends them, and leaves nothing of them
+  while (!running.empty()) {  // interrupted: ends the trials and removes their files
     const size_t index = running.front().index;
     running.pop_front();
     fs::remove_all(place(index));

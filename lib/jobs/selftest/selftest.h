@@ -1,11 +1,11 @@
-// `walktrack selftest`: extremes that recordings and configurations can hold, each tried on the
-// installed program with videos made on the spot. Every trial has to end as
-//   tracked    the walker was followed, within kTrackedWithin of the truth where there is one
-//   degraded there is a result that says what is wrong with it (exit 4 of `track`), or whose
-//              figures are stated here
+// `walktrack selftest`: extreme recordings and configurations, each tried on the installed program
+// with videos that are rendered for it. Every trial has to end as
+//   tracked    the walker was followed, within kTrackedWithin of the truth if there is one
+//   degraded   there is a result with a statement of what is wrong with it (exit 4 of `track`), or
+//              the errors are stated here
 //   reported   the input was refused with a message for the user
 // Anything else is a failure: a number that is not finite, a crash, a hang, memory without bound.
-// Each trial is a process of its own, so that the table tells of crashes and hangs too.
+// Each trial is a process of its own, so that crashes and hangs appear in the table as well.
 #pragma once
 
 #include <filesystem>
@@ -26,35 +26,36 @@ inline constexpr double kTrackedWithin = 0.17;  // of the height, median of the 
 struct TrialResult {
   std::string name{};
   TrialEnd end = TrialEnd::kFailed;
-  std::string what{};      // figures, or the reason
+  std::string what{};      // errors, or the reason
   double seconds = 0;      // wall time of its process
-  double peak_memory = 0;  // of its process, MB; 0 = not known
+  double peak_memory = 0;  // of its process, MB; 0 = unknown
 };
 
 // In the order of the table; `stress` adds the long ones.
 std::vector<std::string> trial_names(bool stress);
 
-// One trial in this process; videos and results go to `folder`, which it makes. UsageError for an
-// unknown name and a folder that holds something; what the trial itself throws beyond errors for
-// the user comes through.
+// Runs one trial in this process; videos and results are written to `folder`, which is created.
+// UsageError for an unknown name and for a folder that is not empty; other exceptions than errors
+// for the user are passed on.
 TrialResult run_trial(const std::string& name, const std::filesystem::path& folder);
 
-// One line that a trial's process prints last, and back; kFailed for other lines.
+// The line that a trial's process prints last, and its parser, which returns kFailed for other
+// lines.
 std::string trial_line(const TrialResult& result);
 TrialResult trial_from_line(const std::string& name, const std::string& line);
 
 struct SelftestJob {
   // A program and options that run one trial and print its line; "NAME -o FOLDER" is appended.
   std::vector<std::string> command;
-  std::filesystem::path folder;  // empty, for videos and results; what trials leave is removed
+  std::filesystem::path folder;  // empty, for videos and results; files of trials are removed
   bool stress = false;
   int jobs = 1;  // trials at a time
 };
 
-// All trials, in the order of the table. Stops early when asked to: fewer results.
+// All trials, in the order of the table; fewer if it was interrupted.
 std::vector<TrialResult> run_selftest(const SelftestJob& job, const JobControl& control);
 
-// The table for a terminal, with a last line that counts how trials ended.
+// The table for a terminal; its last line counts the outcomes of the trials.
 std::string selftest_table(const std::vector<TrialResult>& results);
 
 }  // namespace jobs

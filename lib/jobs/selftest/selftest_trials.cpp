@@ -13,6 +13,7 @@
 #include "filter/particle_filter.h"
 #include "jobs/selftest/selftest.h"
 #include "jobs/selftest/selftest_video.h"
+#include "observation/image.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -25,7 +26,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Trial {
   const char* name;
-  bool stress;  // takes minutes
+  bool stress;  // a trial that takes minutes
   TrialResult (*run)(const fs::path& folder);
 };
 
@@ -45,9 +46,9 @@ TrialResult try_scene(const std::string& lines, const fs::path& folder) {
   return try_video(video, folder);
 }
 
-TrialResult try_spoilt(void (*spoil)(Frames&), const fs::path& folder) {
+TrialResult try_degraded(void (*degrade)(Frames&), const fs::path& folder) {
   TestVideo video = video_of_walk();
-  video.spoil = spoil;
+  video.degrade = degrade;
   return try_video(video, folder);
 }
 
@@ -60,13 +61,13 @@ TrialResult try_slope(double slope_deg, const fs::path& folder) {
   return try_video(video, folder);
 }
 
-// Fewer seconds of it, which nobody need make a step in.
+// Cuts the video to fewer seconds, in which the walker need not make a step.
 void cut(TestVideo& video, double seconds) {
   video.options.duration = seconds;
   video.settings.emplace_back("quality.least_steps=0");
 }
 
-// Where the camera differs from that of the other videos.
+// What differs from the camera of the other videos.
 struct CameraSetup {
   int width_px = 160, height_px = 120;
   std::optional<double> focal_px{};
@@ -83,7 +84,7 @@ TrialResult try_camera(const CameraSetup& setup, const fs::path& folder) {
   camera.position = setup.position;
   camera.look_at = setup.look_at;
   video.enlarge = setup.enlarge;
-  if (video.enlarge > 1) cut(video, 0.2);  // hundreds of megabytes of pictures
+  if (video.enlarge > 1) cut(video, 0.2);  // the frames take hundreds of megabytes
   return try_video(video, folder);
 }
 
@@ -97,26 +98,27 @@ TrialResult try_rate(double rate, const fs::path& folder) {
 // Three frames: a start and two steps.
 TrialResult try_many_particles(const char* count, const fs::path& folder) {
   TestVideo video = video_of_walk();
-  // Hypotheses of the start are small filters; the large one is to work from the first frame on.
+  // Start hypotheses have small filters of their own; here the large filter starts in the first
+  // frame.
   video.settings = {fmt::format("filter.particles={}", count), "filter.max_layers=2",
                     "start.seconds=0"};
   cut(video, 0.07);
   return try_video(video, folder);
 }
 
-// The same walk again and again, for as many frames as wanted: memory must not grow with them.
+// The same walk is repeated for as many frames as wanted: memory must not grow with them.
 TrialResult try_long(size_t frames, const fs::path& folder) {
   TestVideo video = video_of_walk();
   video.watch_memory = true;
   video.settings = {"filter.particles=30", "start.particles=10"};
-  video.spoil = [frames](Frames& shot) {
+  video.degrade = [frames](Frames& shot) {
     const size_t once = shot.size();
     for (size_t i = once; i < frames; ++i) shot.push_back(shot[i % once]);
   };
   return try_video(video, folder);
 }
 
-// A filter on a line, with likelihoods that no float could hold.
+// A filter in one dimension with likelihoods that no float can represent.
 TrialResult try_filter(double (*log_likelihood)(double x), bool may_die) {
   ParticleFilter<double> filter({.particles = 1000}, 1, 1);
   filter.start(std::vector<double>(1000, 0.0));
@@ -152,7 +154,8 @@ void keep_every(Frames& frames, size_t nth) {
 }
 
 constexpr std::array kTrials{
-    // The one that has to pass the quality checks, so with half of the default particles.
+    // The only trial that has to pass the quality checks, and which therefore has half of the
+    // default particles.
     Trial{"ordinary walk", false,
           [](const fs::path& f) { return try_settings({"start.particles=80"}, f); }},
     Trial{"ordinary walk, start not told", false,
@@ -189,7 +192,7 @@ constexpr std::array kTrials{
     Trial{"noise a thousand times", false,
           [](const fs::path& f) {
             TestVideo video = video_of_walk();
-            video.options.duration = 0.5;  // what flies about takes time to search for
+            video.options.duration = 0.5;  // short, because debris takes long to search
             video.settings = {"motion.torque_noise_scale=1000",
                               "motion.phase_noise=1",
                               "motion.yaw_rate_sd=80",
@@ -227,7 +230,7 @@ constexpr std::array kTrials{
     Trial{"240 frames/s", false, [](const fs::path& f) { return try_rate(240, f); }},
     Trial{"every frame twice", false,
           [](const fs::path& f) {
-            return try_spoilt(
+            return try_degraded(
                 [](Frames& frames) {
                   for (size_t i = 1; i < frames.size(); i += 2) frames[i] = frames[i - 1];
                 },
@@ -235,30 +238,31 @@ constexpr std::array kTrials{
           }},
     Trial{"every other frame missing", false,
           [](const fs::path& f) {
-            return try_spoilt([](Frames& frames) { keep_every(frames, 2); }, f);
+            return try_degraded([](Frames& frames) { keep_every(frames, 2); }, f);
           }},
     Trial{"black frames now and then", false,
           [](const fs::path& f) {
-            return try_spoilt(
+            return try_degraded(
                 [](Frames& frames) {
-                  for (size_t i = 4; i < frames.size(); i += 7) frames[i] = cv::Scalar::all(0);
+                  for (size_t i = 4; i < frames.size(); i += 7) fill(frames[i], 0);
                 },
                 f);
           }},
     Trial{"one colour throughout", false,
           [](const fs::path& f) {
-            return try_spoilt(
+            return try_degraded(
                 [](Frames& frames) {
-                  for (cv::Mat& frame : frames) frame = cv::Scalar::all(90);
+                  for (Image& frame : frames) fill(frame, 90);
                 },
                 f);
           }},
-    Trial{
-        "a single frame", false,
-        [](const fs::path& f) { return try_spoilt([](Frames& frames) { frames.resize(1); }, f); }},
+    Trial{"a single frame", false,
+          [](const fs::path& f) {
+            return try_degraded([](Frames& frames) { frames.resize(1); }, f);
+          }},
     Trial{"frames that change their size", false,
           [](const fs::path& f) {
-            return try_spoilt([](Frames& frames) { frames[9] = frames[9].rowRange(0, 50); }, f);
+            return try_degraded([](Frames& frames) { frames[9] = frames[9].rowRange(0, 50); }, f);
           }},
     Trial{"camera looking away", false,
           [](const fs::path& f) {

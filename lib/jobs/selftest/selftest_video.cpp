@@ -14,6 +14,7 @@
 #include "io/tables/motion_file.h"
 #include "jobs/track/track.h"
 #include "metrics/joint_error.h"
+#include "observation/image.h"
 #include "synth/sensor.h"
 #include "synth/stage.h"
 
@@ -25,9 +26,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kSeconds = 2;      // of a video
-constexpr double kHeight = 1.75;    // m, of who walks in it
+constexpr double kHeight = 1.75;    // m, of the walker
 constexpr double kLeastMass = 0.5;  // kg, that a scene may state
-constexpr double kFarthest = 1000;  // m; nobody walks out of that in a self-test
+constexpr double kFarthest = 1000;  // m; no walker gets farther in a self-test
 constexpr size_t kMaxJointTableBytes = 64u << 20;
 constexpr int kEmptyFrames = 10;
 constexpr double kMostMemoryGrowth = 1;  // MB, from the first half of a video to the second
@@ -39,21 +40,20 @@ struct Shot {
   Motion truth;
 };
 
-cv::Mat image_of(const Plane<Colour>& light, const TestVideo& video, uint32_t stream,
-                 size_t frame) {
-  std::vector<uint8_t> bytes = developed(light, video.options.sensor, video.options.seed, stream,
-                                         static_cast<uint32_t>(frame));
-  const cv::Mat image(light.height, light.width, CV_8UC3, bytes.data());
-  if (video.enlarge == 1) return image.clone();
-  return enlarged(image, video.enlarge);
+Image image_of(const Plane<Colour>& light, const TestVideo& video, uint32_t stream, size_t frame) {
+  const std::vector<uint8_t> bytes = developed(light, video.options.sensor, video.options.seed,
+                                               stream, static_cast<uint32_t>(frame));
+  const Image image = bgr_image(bytes, light.width, light.height);
+  return video.enlarge == 1 ? image : enlarged(image, video.enlarge);
 }
 
-// The camera whose pixels are 1 / factor as large.
+// The camera with pixels of 1 / factor the size.
 Camera enlarged(Camera camera, double factor) {
   camera.width_px = static_cast<int>(camera.width_px * factor);
   camera.height_px = static_cast<int>(camera.height_px * factor);
   camera.focal_px *= factor;
-  camera.centre_px = (camera.centre_px.array() + 0.5) * factor - 0.5;  // pixel centres are whole
+  // Pixel centres are at integers.
+  camera.centre_px = (camera.centre_px.array() + 0.5) * factor - 0.5;
   return camera;
 }
 
@@ -73,7 +73,7 @@ Shot shoot(const TestVideo& video) {
     shot.background.push_back(image_of(view.empty, video, kBackgroundStream, i));
   }
   shot.truth = truth_at(stage, times);
-  if (video.spoil) video.spoil(shot.frames);
+  if (video.degrade) video.degrade(shot.frames);
   return shot;
 }
 
@@ -83,7 +83,7 @@ void write_frames(const Frames& frames, const fs::path& folder) {
     write_picture(folder / fmt::format("{:06}.bmp", i), frames[i]);
 }
 
-// Where the walk begins, from its first half second.
+// The line `initial` of the scene, from the first half second of the walk.
 std::string start_of_walk(const Motion& truth) {
   size_t last = 0;
   while (last + 1 < truth.time.size() && truth.time[last] < 0.5) ++last;
@@ -111,7 +111,7 @@ fs::path write_scene(const TestVideo& video, const Shot& shot, const fs::path& f
 
 ConfigWithOrigin config_of(const TestVideo& video) {
   ConfigWithOrigin config;
-  // Few particles: this is about surviving, not about accuracy.
+  // Few particles: trials test for crashes, not accuracy.
   for (const char* setting : {"threads=1", "filter.particles=150", "start.particles=40"}) {
     apply_setting(config, setting, "selftest");
   }
@@ -119,14 +119,14 @@ ConfigWithOrigin config_of(const TestVideo& video) {
   return config;
 }
 
-// MB on the heap. Not what is resident, which is up to the kernel as well.
+// MB on the heap; the resident size depends on the kernel as well.
 double heap_memory() {
   const struct mallinfo2 heap = mallinfo2();
   return static_cast<double>(heap.uordblks + heap.hblkhd) / (1 << 20);
 }
 
-// The most memory that tracking took in each half of the video: searching takes more than
-// following, and both happen in both.
+// The most memory that tracking took in each half of the video. Searching takes more than following
+// a subject, and both happen in both halves.
 struct MemoryWatch {
   double first_half = 0, second_half = 0;  // MB
 
@@ -145,11 +145,11 @@ TrackOutcome track(const fs::path& scene, ConfigWithOrigin config, const fs::pat
   job.config = std::move(config);
   job.output = output;
   job.overlay = false;
-  job.ignore_checks = true;  // extremes are what it is about
+  job.ignore_checks = true;  // the trials use extreme inputs on purpose
   return track_scene(job, control);
 }
 
-// What no result may hold; empty if it does not. The reader refuses cells that are no numbers.
+// The first fault of a result; empty if it has none. The reader refuses cells that are not numbers.
 std::string fault_in(const fs::path& output) {
   const std::string uncertainty = read_text_file(output / "uncertainty.csv", kMaxJointTableBytes);
   if (uncertainty.find("nan", uncertainty.find('\n')) != std::string::npos ||
@@ -167,7 +167,7 @@ std::string fault_in(const fs::path& output) {
   return {};
 }
 
-// `height` of the walker, m.
+// Judges an outcome. `height` of the walker, m.
 TrialResult judged(const TrackOutcome& outcome, const Motion& truth, double height,
                    const fs::path& output) {
   TrialResult result;
@@ -239,11 +239,11 @@ TestVideo video_of_standing(double speed, double turn_rate) {
 }
 
 TrialResult try_video(const TestVideo& video, const fs::path& folder) {
-  ConfigWithOrigin config = config_of(video);  // a setting that is refused is a fault of the trial
+  ConfigWithOrigin config = config_of(video);  // a setting that is refused is an error of the trial
   try {
     Shot shot = shoot(video);
     const fs::path scene = write_scene(video, shot, folder);
-    shot.frames.clear();  // so that the memory told is the tracker's
+    shot.frames.clear();  // so that the reported memory is that of the tracker
     const fs::path output = folder / "result";
     MemoryWatch memory;
     JobControl control;

@@ -33,7 +33,7 @@ constexpr double kThighMass = anthropometry::kThighShares.mass;
 constexpr double kShankMass = anthropometry::kShankAndFoot.mass;
 constexpr double kHipHalfWidth = .0955;
 
-// Rates (rad/s, m/s) that no body reaches before its integration has diverged.
+// Rates (rad/s, m/s) above which the integration has diverged.
 constexpr double kLargestRate = 1e6;
 
 Vector3d vector3(const char* key, const std::vector<double>& values) {
@@ -193,7 +193,7 @@ ArticulatedRecording record(const ArticulatedBody& body, const ArticulatedJob& j
     options.baumgarte_rate = job.spec.baumgarte_rate;
   }
   ArticulatedSample now{0, start_of(body, job.spec)};
-  if (!held.empty()) {  // the start keeps what the holds allow of its velocity
+  if (!held.empty()) {  // projects the start velocities on what the holds allow
     auto& [q, u] = now.state;
     u = projected_velocity(assemble(body, q, u, {}).mass, attachment_constraint(body, q, u, held),
                            u);

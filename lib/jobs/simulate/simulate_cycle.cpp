@@ -31,11 +31,11 @@ double value_of(ModelSpec model, const std::string& key) {
       return *entry.number;
     }
   }
-  apply_model_setting(model, key + "=0");  // throws and names the nearest key
+  apply_model_setting(model, key + "=0");  // throws an error that names the nearest key
   throw std::runtime_error(key + " is no number that can be followed");
 }
 
-// The map of one model, which keeps its walker alive.
+// The return map of one model, which owns its walker.
 ReturnMap owned_map(std::shared_ptr<const Walker> walker, const GaitOptions& options) {
   return [walker, map = step_map(*walker, options)](const VectorXd& x) { return map(x); };
 }
@@ -57,7 +57,7 @@ VectorXd settled_guess(const Walker& walker, VectorXd x, const CycleJob& job) {
   return x;
 }
 
-// What happens to the guess itself, for the message when nothing was found.
+// Describes what happens to the initial guess, for the message if no cycle was found.
 std::string fate_of(const Walker& walker, const VectorXd& guess, const GaitOptions& options) {
   const Eigen::Index n = guess.size() / 2;
   WalkerState state = walker.section_state(guess.head(n), guess.tail(n));
@@ -75,7 +75,8 @@ std::runtime_error no_cycle(const Walker& walker, const VectorXd& guess,
                             fate_of(walker, guess, options));
 }
 
-// Newton's steps keep the energy of a walker that conserves it: the one stated, else the guess's.
+// For a walker that conserves energy, Newton's method keeps the energy that is stated, otherwise
+// that of the guess.
 ModelSpec with_energy(ModelSpec model, const Walker& walker, const VectorXd& guess) {
   if (model.model == "monopode" && model.start.energy == 0) {
     const Eigen::Index n = guess.size() / 2;
@@ -88,8 +89,8 @@ SectionProjection onto_energy(const ModelSpec& model) {
   return [model](const VectorXd& x) { return at_energy(model, x); };
 }
 
-// The cycle of the model with the followed parameter at its goal. Throws where it is lost, saying
-// how far it came.
+// The limit cycle of the model with the followed parameter at its goal. If it is lost, throws an
+// error that states how far it was followed.
 FollowedCycle followed(const CycleJob& job, const VectorXd& guess) {
   const auto model_at = [&](double value) { return with_value(job.model, job.follow_key, value); };
   const auto walker_at = [&](double value) {

@@ -136,7 +136,7 @@ Recording record(const Walker& walker, const SimulateJob& job, const JobControl&
     while (next <= now.time) next += job.sample_interval;
   };
   const auto observe = [&](const WalkerState& now) {
-    if (now.time == last.time) {  // both sides of an event
+    if (now.time == last.time) {  // the states before and after an event
       if (recording.states.back().time != now.time) keep(last);
       keep(now);
     } else if (now.time >= next) {

@@ -44,7 +44,7 @@ ModelSpec on_slope(double degrees) {
   return model;
 }
 
-// Both legs straight, all rates zero but the legs' common one.
+// Both legs straight and all rates zero, except for a rate that the legs have in common.
 ModelSpec straight(double stance, double swing, double rate) {
   ModelSpec model = default_model("kneed");
   model.start.q = {0, stance, swing, stance, swing};
@@ -74,7 +74,8 @@ WalkerState run(const ModelSpec& model, Integrator integrator, double step, doub
   return state;
 }
 
-// Largest difference of an angle; of the time as well where both fell. -1: cannot be compared.
+// Largest difference of an angle, and of the time if both walkers fell; -1 if they cannot be
+// compared.
 double difference(const WalkerState& a, const WalkerState& b) {
   if (a.health != b.health || a.q.size() != b.q.size()) return -1;
   return std::max((a.q - b.q).cwiseAbs().maxCoeff(), std::abs(a.time - b.time));

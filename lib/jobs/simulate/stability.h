@@ -1,9 +1,9 @@
 // The kneed walker in extreme cases: the errors of each integrator for time steps, stiffness, mass
 // ratios, slopes and degenerate postures. Every cell of the table is one of three words, and never
-// a NaN:
-//   accurate   ends within `tolerance` of the reference in every angle, with the same fate
-//   degraded   ends sound or fallen, but farther away
-//   diverged   reported as such
+// NaN:
+//   accurate   ends within `tolerance` of the reference in every angle, with the same outcome
+//   degraded   ends valid or fallen, but with a larger error
+//   diverged   the divergence was reported
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ struct StabilityJob {
 struct StabilityRow {
   std::string scenario;
   Integrator integrator;
-  std::vector<std::string> words;  // one a step size
+  std::vector<std::string> words;  // one for each step size
   std::vector<double> errors;      // rad, largest difference of an angle; -1 where diverged
 };
 

@@ -35,11 +35,11 @@ constexpr size_t kMaxBytes = size_t{1} << 28;
 constexpr size_t kMostRuns = 100'000;
 constexpr const char* kJoints = "joints.csv";
 
-// The headline figure of `evaluate` for each kind of truth.
+// The main error of `evaluate` for each kind of truth.
 constexpr std::array<std::string_view, 3> kHeadlines{"joint_error_mean_mm", "plant_error_mean_mm",
                                                      "ground_error_mean_mm"};
 
-// A name that any file system takes.
+// A name that is valid on any file system.
 std::string folder_name(const std::string& setting) {
   std::string name = setting.empty() ? "as configured" : setting;
   for (char& c : name) {
@@ -54,7 +54,7 @@ std::string folder_name(const std::string& setting) {
 struct SweepTrial {
   const SweepSetting& setting;
   uint64_t seed;
-  int repeat;  // from 0
+  int repeat;  // counted from 0
 };
 
 class Sweep {
@@ -75,7 +75,7 @@ class Sweep {
            (trial.repeat == 0 ? seed : fmt::format("{}_again_{}", seed, trial.repeat));
   }
 
-  // Tracks, unless that has been done; false if told to stop before the end.
+  // Tracks unless the result exists; returns false if it was interrupted.
   bool run(const SweepTrial& trial) {
     const size_t before = done_;
     done_ += frames_;
@@ -110,9 +110,9 @@ class Sweep {
     return track;
   }
 
-  // Whether the run's folder holds what this program would measure now.
+  // Whether the run's folder contains the result that this program would compute now.
   bool measured(const TrackJob& track) const {
-    // Somebody may have removed a part of it.
+    // A part of it may have been removed.
     if (!is_complete_result(track.output) || !fs::exists(track.output / kJoints)) return false;
     const std::string changed =
         changes_since(track.output, origin_of_track(track.scene, track.config));
@@ -122,7 +122,7 @@ class Sweep {
                     track.output.string(), changed));
   }
 
-  // A run's own progress becomes a part of the sweep's; what it says is for its report.
+  // The progress of a run is a part of the sweep's; its messages are left to its own report.
   JobControl quiet(size_t before) const {
     JobControl inner;
     inner.stop_request = control_.stop_request;
@@ -151,7 +151,7 @@ double tracking_seconds(const Json& record, const char* clock) {
   return seconds;
 }
 
-// The headline figure; NaN where the walker was not found. `label` becomes what it is.
+// The main error; NaN if the subject was not found. Sets `label` to its name.
 double headline(const Truth& truth, const Motion& estimate, std::string& label) {
   for (const Figure& figure : figures(truth, estimate, std::nullopt)) {
     if (std::find(kHeadlines.begin(), kHeadlines.end(), figure.key) == kHeadlines.end()) continue;
@@ -184,7 +184,7 @@ SweepRun measure(const Sweep& sweep, const SweepTrial& trial, int repeats, const
   return out;
 }
 
-// The truth, or what stands for it; nullopt if interrupted.
+// The truth or what replaces it; nullopt if interrupted.
 std::optional<Truth> reference_of(const SweepJob& job, Sweep& sweep, const SweepSetting& richest,
                                   SweepReport& report) {
   const fs::path file = job.truth.empty() ? job.scene.truth : job.truth;

@@ -29,17 +29,18 @@ struct SweepJob {
   std::vector<SweptParameter> parameters;
   int seeds = 3;                // of each setting, from the configuration's on
   int repeats = 1;              // of each run, for its time alone
-  std::filesystem::path truth;  // empty = the scene's; if it has none, see SweepReport::reference
+  std::filesystem::path truth;  // empty = the scene's; without one see SweepReport::reference
   std::filesystem::path output;
-  bool again = false;  // do complete runs again
+  bool again = false;  // repeat complete runs
 };
 
 struct SweepRun {
   uint64_t seed = 0;
-  bool found = false;                                          // the walker
+  bool found = false;                                          // whether the subject was found
   double error_mm = std::numeric_limits<double>::quiet_NaN();  // NaN = not found
-  double lost_share = 1;                                       // of the frames after that
-  // Medians of the repeats; of the processors together, which other programs hardly change.
+  double lost_share = 1;                                       // of the frames after the subject
+                                                               // was found
+  // Medians of the repeats; CPU time, which other programs hardly affect.
   double seconds_per_frame = std::numeric_limits<double>::quiet_NaN();
   double cpu_seconds_per_frame = std::numeric_limits<double>::quiet_NaN();
 };
@@ -47,11 +48,11 @@ struct SweepRun {
 struct SweepRow {
   SweepSetting setting;
   std::vector<SweepRun> runs;
-  // Means over the runs; the error's standard deviation over seeds, NaN for fewer than two.
+  // Means over the runs; standard deviation of the error over seeds, NaN for fewer than two.
   double error_mm = 0, error_sd_mm = 0, lost_share = 0;
   double seconds_per_frame = 0, cpu_seconds_per_frame = 0;  // medians of the runs
-  bool holds = false;     // every seed found the walker and kept to the limit of lost frames
-  bool on_front = false;  // nothing that holds is both faster and more accurate
+  bool holds = false;     // every seed found the subject and kept the limit of lost frames
+  bool on_front = false;  // no other setting that holds is both faster and more accurate
 
   double frames_per_second() const { return 1 / seconds_per_frame; }
 };
@@ -59,23 +60,25 @@ struct SweepRow {
 struct SweepReport {
   std::string scene;
   std::vector<SweptParameter> parameters;
-  std::vector<SweepRow> rows;  // in grid order; without those that no run has finished of
-  std::string error_is;        // what the error is, e.g. "joint error (7 joints), mean, mm"
-  // What errors are against: the truth's file, or without one a run of the richest setting with a
-  // seed of its own, so that they contain that run's error too.
+  std::vector<SweepRow> rows;  // in grid order, without settings for which no run has finished
+  std::string error_is;        // the definition of the error, e.g. "joint error (7 joints), mean,
+                               // mm"
+  // The reference of the errors: the truth's file or, without one, a run of the richest setting
+  // with another seed, so that errors include the error of that run.
   std::string reference;
   bool against_truth = true;
   int seeds = 0, threads = 0;
   bool interrupted = false;
 };
 
-// Throws UsageError, InputError for what cannot be started, InputError for a video that breaks off.
+// Throws UsageError or InputError for what cannot be started, InputError for a video that ends
+// early.
 SweepReport run_sweep(const SweepJob& job, const JobControl& control);
 
-// Means, deviations and the front from the rows' runs.
+// Computes means, deviations and the front from the runs of the rows.
 void summarise_sweep(std::vector<SweepRow>& rows, double most_lost_share);
 
-// What somebody wants of a setting.
+// Requirements for a setting.
 struct SweepWish {
   std::optional<double> frames_per_second, error_mm;
 };
@@ -86,7 +89,7 @@ std::vector<std::string> sweep_advice(const SweepReport& report, const SweepWish
 std::string sweep_csv(const SweepReport& report);
 std::string sweep_json(const SweepReport& report, const std::vector<std::string>& advice);
 std::string sweep_markdown(const SweepReport& report, const std::vector<std::string>& advice);
-// The four files, and the folder that they are in.
+// The four files and their folder.
 Outputs sweep_outputs(const SweepJob& job);
 void write_sweep(const SweepReport& report, const std::vector<std::string>& advice,
                  const SweepJob& job);

@@ -67,7 +67,7 @@ void refuse_unknown(const std::string& name) {
                             words + " and the keys of 'walktrack config'"));
 }
 
-// Which of the scene's cameras a value stands for.
+// The cameras of the scene that a value denotes.
 std::vector<SceneCamera> chosen_cameras(const std::string& value,
                                         const std::vector<SceneCamera>& all) {
   std::vector<SceneCamera> chosen;
@@ -87,7 +87,7 @@ std::vector<SceneCamera> chosen_cameras(const std::string& value,
          fmt::format("1 to {}, or names of {} joined by +", all.size(), fmt::join(names, ", ")));
 }
 
-// The words that `terms` takes.
+// The names that `terms` accepts.
 std::vector<std::string_view> term_keys() {
   std::vector<std::string_view> names;
   for (const TermSwitch& each : term_switches()) names.push_back(each.key);
@@ -111,7 +111,8 @@ std::vector<std::pair<std::string, std::string>> term_flags(const std::string& v
   return flags;
 }
 
-// How much a value promises; nullopt for a word.
+// A number by which settings are ordered, which is larger for one with more terms or cameras;
+// nullopt for a word.
 std::optional<double> richness(const std::string& parameter, const std::string& value) {
   if (value == "true" || value == "on") return 1;
   if (value == "false" || value == "off") return 0;

@@ -22,23 +22,23 @@ namespace walktrack {
 inline namespace jobs {
 
 struct SweptParameter {
-  std::string name;                 // as it was asked for
+  std::string name;                 // as it was stated
   std::vector<std::string> values;  // at least one
 };
 
 // A value for each parameter, in their order.
 using SweepSetting = std::vector<std::string>;
 
-// Parameters from words "NAME=V1:V2,NAME=V1:V2". UsageError for what is unknown, doubled, or
-// refused by this scene or configuration.
+// Parses parameters "NAME=V1:V2,NAME=V1:V2". UsageError for names that are unknown or repeated, and
+// for values that this scene or configuration refuses.
 std::vector<SweptParameter> swept_parameters(const std::vector<std::string>& words,
                                              const Scene& scene, const ConfigWithOrigin& config);
 
-// All combinations, the last parameter turning fastest.
+// All combinations; the last parameter varies fastest.
 std::vector<SweepSetting> sweep_grid(const std::vector<SweptParameter>& parameters);
 
-// Of each parameter the value that ought to be the most accurate: the largest number, most cameras,
-// most terms, true before false; of words the last.
+// For each parameter the value that is expected to be the most accurate: the largest number, most
+// cameras, most terms, true before false; the last one for other words.
 SweepSetting richest_setting(const std::vector<SweptParameter>& parameters);
 
 void apply_sweep_setting(const std::vector<SweptParameter>& parameters, const SweepSetting& setting,
@@ -48,11 +48,12 @@ void apply_sweep_setting(const std::vector<SweptParameter>& parameters, const Sw
 std::string setting_name(const std::vector<SweptParameter>& parameters,
                          const SweepSetting& setting);
 
-// What `track` has to be told for it.
+// The inputs of `track` for a setting.
 struct SettingWords {
   std::string config;                                           // file or preset; empty = none
   std::vector<std::pair<std::string, std::string>> parameters;  // key, value
-  std::string cameras;                                          // to keep in the scene; empty = all
+  std::string cameras;                                          // that are kept in the scene; empty
+                                                                // = all
 };
 SettingWords setting_words(const std::vector<SweptParameter>& parameters,
                            const SweepSetting& setting);

@@ -1,4 +1,4 @@
-// What a sweep writes and says.
+// Files and messages of a sweep.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A setting is as good as the best while its error is at most this much larger.
+// A setting counts as equal to the best one if its error is at most this many times as large.
 constexpr double kAsGood = 1.1;
 constexpr double kMilliseconds = 1000, kPerHundred = 100;
 
@@ -44,7 +44,8 @@ std::string in_words(const SweepReport& report, const SweepRow& row) {
                      row.frames_per_second());
 }
 
-// The row of the front that `wanted` allows and that comes first by `before`; nullptr if none.
+// The first row of the front in the order `before` among those that `wanted` accepts; nullptr if
+// there is none.
 using Compare = std::function<bool(const SweepRow&, const SweepRow&)>;
 const SweepRow* best(const SweepReport& report, const std::function<bool(const SweepRow&)>& wanted,
                      const Compare& before) {

@@ -11,8 +11,8 @@ inline namespace jobs {
 
 namespace {
 
-constexpr double kNewShare = 0.1;    // of a frame in the averages
-constexpr double kMostGrowth = 1.5;  // from frame to frame, either way
+constexpr double kNewShare = 0.1;    // weight of a frame in running means
+constexpr double kMostGrowth = 1.5;  // factor from frame to frame, either way
 constexpr double kSecondsPerMs = 1e-3;
 
 }  // namespace
@@ -37,7 +37,7 @@ int ParticleBudget::next(int particles, double fixed_seconds, double filter_seco
   const double room = std::max(0.0, kSecondsPerMs * config_.frame_ms - fixed_);
   const double afforded = each_ > 0 ? room / each_ : config_.most_particles;
   const double near = std::clamp(afforded, particles / kMostGrowth, particles * kMostGrowth);
-  // Rounded up, a growth of half leaves even a single particle.
+  // Rounded up, so that a growth by half increases even a single particle.
   const double whole = afforded > particles ? std::ceil(near) : std::floor(near);
   return bounded(whole);
 }

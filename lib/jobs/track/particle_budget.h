@@ -1,8 +1,8 @@
-// The number of particles that a frame can have within its budget, from the time that frames have
-// taken:
+// The number of particles for a frame within its time budget, from the measured times of earlier
+// frames:
 //   seconds = fixed + particles * each
 // `fixed` (decoding, evidence) and `each` (the filter) are measured in every frame and averaged
-// over the last ten or so. Only here results depend on the clock.
+// over about ten frames. Only here results depend on measured time.
 #pragma once
 
 #include "io/config/config.h"
@@ -12,17 +12,17 @@ inline namespace jobs {
 
 class ParticleBudget {
  public:
-  // UsageError for bounds that leave nothing between them.
+  // UsageError if the lower bound is above the upper one.
   explicit ParticleBudget(const BudgetConfig& config);
 
   bool on() const { return config_.frame_ms > 0; }
 
-  // A number brought within the configuration's bounds.
+  // A number clamped to the configuration's bounds.
   int bounded(double particles) const;
 
-  // The number for the next frame, after one with `particles` that took `fixed_seconds` and, for
-  // the filter, `filter_seconds`. Within bounds; at most half as many again or
-  // two thirds as many as before, so that one slow frame does not starve the next.
+  // The number for the next frame after a frame with `particles` that took `fixed_seconds` and, for
+  // the filter, `filter_seconds`. It is within bounds and changes by a factor of at most 1.5 either
+  // way, so that one slow frame has little effect on the next.
   int next(int particles, double fixed_seconds, double filter_seconds);
 
  private:

@@ -13,7 +13,7 @@ inline namespace jobs {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start);
 
-// CPU seconds so far, of this process and of this thread.
+// CPU seconds of this process and of this thread so far.
 double process_cpu_seconds();
 double thread_cpu_seconds();
 
@@ -21,7 +21,7 @@ struct Elapsed {
   double seconds = 0, cpu = 0;
 };
 
-// A point in time, and of the work of all threads.
+// A point in time, with the CPU time of all threads so far.
 struct TimePoint {
   Clock::time_point clock = Clock::now();
   double cpu = process_cpu_seconds();

@@ -41,7 +41,7 @@ TrackStatus judge(TrackRun& run, const Quality& quality, const SceneVideo& video
   return trouble.empty() ? TrackStatus::kTracked : TrackStatus::kQualityFailed;
 }
 
-// With every term off there would be nothing but the walker's own gait.
+// Without any term the result would only show the gait prior.
 void require_a_term(const ObservationConfig& observation) {
   const std::vector<TermSwitch> switches = term_switches();
   std::vector<std::string_view> names;
@@ -54,7 +54,7 @@ void require_a_term(const ObservationConfig& observation) {
                fmt::format("one or more of {} with enabled: true", fmt::join(names, ", "))));
 }
 
-// Why a sound checkpoint is of no use for this job; "": it is.
+// The reason why a valid checkpoint cannot be used for this job; "" if it can.
 std::string trouble_with(const Checkpoint& checkpoint, const TrackJob& job) {
   const fs::path file = job.output / kCheckpointFile;
   if (checkpoint.observers.size() != job.scene.cameras.size())
@@ -62,7 +62,7 @@ std::string trouble_with(const Checkpoint& checkpoint, const TrackJob& job) {
   return frame_file_trouble(job.output / kFramesFile, checkpoint.records, checkpoint.record_bytes);
 }
 
-// Says what a complete result was made of otherwise, or refuses to make it again.
+// Explains what differs from an earlier complete result, or refuses to compute it again.
 void see_to_earlier_result(const TrackJob& job, const Origin& origin, const JobControl& control) {
   if (!is_complete_result(job.output)) return;
   const std::string changed = changes_since(job.output, origin);
@@ -83,8 +83,8 @@ struct LookedAt {
   std::optional<FoundLag> lag;
 };
 
-// Says and hands back what the scene's checks found. InputError for the first failure, with its
-// cure, unless failures are to be ignored.
+// Reports and returns the findings of the scene's checks. Throws InputError for the first failure,
+// with advice, unless failures are ignored.
 LookedAt looked_at(const TrackJob& job, const JobControl& control) {
   const CheckReport report = look_at_scene(job.scene, control);
   LookedAt out{{}, report.lag};
@@ -106,7 +106,7 @@ LookedAt looked_at(const TrackJob& job, const JobControl& control) {
   return out;
 }
 
-// The checkpoint to go on from, if that is wanted and there is one that fits.
+// The checkpoint to resume from, if that is wanted and there is a valid one.
 std::optional<Checkpoint> checkpoint_for(const TrackJob& job, const Origin& origin,
                                          const JobControl& control) {
   if (!job.resume) {
@@ -130,7 +130,7 @@ std::optional<Checkpoint> checkpoint_for(const TrackJob& job, const Origin& orig
   return std::move(found.checkpoint);
 }
 
-// Frame by frame to the video's end; whether it was told to stop before.
+// Tracks frame by frame to the end of the video. Returns whether it was interrupted.
 bool follow_video(TrackRun& run, const SceneVideo& video, const JobControl& control,
                   TrackOutcome& outcome) {
   const auto total = static_cast<size_t>(std::max(0, video.frame_count()));
@@ -144,8 +144,8 @@ bool follow_video(TrackRun& run, const SceneVideo& video, const JobControl& cont
   return stopped;
 }
 
-// The job with what was decided before anything is tracked: terms that are `auto`, and how far the
-// cameras are out of step. With the time that took; what was found goes into the outcome.
+// The job after the decisions that precede tracking: terms that are `auto`, and the lags of the
+// cameras. Returns the time that this took as well; the findings are stored in the outcome.
 std::pair<TrackJob, Elapsed> checked_job(const TrackJob& given, const JobControl& control,
                                          TrackOutcome& outcome) {
   const TimePoint start;

@@ -1,15 +1,15 @@
-// `walktrack track`: one scene becomes a result folder:
+// `walktrack track`: tracks the subject of a scene and writes a result folder:
 //   joints.csv, uncertainty.csv, the tables of jobs/track/results/motion_tables.h,
 //   overlay_<camera>.mp4, report.html, run.json
-// Frames are streamed and their records kept in a file (io/archive/frame_file.h): what grows in
-// memory with the video is what the tables are made of, some kilobytes a frame, at the end.
+// Frames are streamed and their records are kept in a file (io/archive/frame_file.h). Only the
+// content of the tables grows in memory with the video, some kilobytes for each frame.
 //
-// Before it begins it looks at the scene as `check` does (jobs/check/check.h): what is wrong stops
-// it, what is worth knowing goes into run.json and the report.
+// First the scene is checked as by `check` (jobs/check/check.h): failures stop the command; remarks
+// are recorded in run.json and in the report.
 //
-// While it works the folder also holds checkpoint.bin and frames.bin, from which another process
-// can go on after this one was killed or told to stop: it ends with the same bytes. Checkpoints are
-// made between frames in which the walker is tracked, not while they are searched for.
+// During the work the folder also contains checkpoint.bin and frames.bin, from which another
+// process can continue to the same bytes after this one was killed or interrupted. Checkpoints are
+// written between frames in which the subject is tracked, not during a search.
 #pragma once
 
 #include <filesystem>
@@ -31,10 +31,11 @@ struct TrackJob {
   Scene scene;
   ConfigWithOrigin config;
   std::filesystem::path output;
-  bool overwrite = false;  // a complete result, and a checkpoint that is not gone on from
-  bool resume = false;     // go on from the folder's checkpoint, if there is one
+  bool overwrite = false;  // replaces a complete result, and a checkpoint from which it does not
+                           // resume
+  bool resume = false;     // resumes from the folder's checkpoint if there is one
   bool overlay = true;
-  bool ignore_checks = false;  // go on though the scene's checks fail, and say so
+  bool ignore_checks = false;  // continues if the scene's checks fail, and reports it
   std::vector<std::string> command_line;
 };
 
@@ -42,8 +43,8 @@ enum class TrackStatus {
   kTracked,
   kNotFound,       // nobody walks in this video
   kQualityFailed,  // tracked, but a quality check failed
-  kInterrupted,    // told to stop; what was done is kept
-  kCutShort,       // a video ended with trouble; what was done is kept
+  kInterrupted,    // the part that was done is kept
+  kCutShort,       // a video ended with an error; the part that was done is kept
 };
 
 struct TrackOutcome {
@@ -51,20 +52,20 @@ struct TrackOutcome {
   int frames = 0, tracked = 0;
   double frames_per_second = 0;  // of the whole command, until the report is written
   std::optional<double> stride_frames_per_second;  // see TrackRun
-  bool resumable = false;  // for kInterrupted: there is a checkpoint to go on from
+  bool resumable = false;  // for kInterrupted: there is a checkpoint to resume from
   WalkSummary walk;
   std::vector<QualityMeasure> failed_checks;  // for kQualityFailed
-  std::vector<std::string> checks;            // what the scene's checks found
-  std::optional<FoundLag> lag;                // between two cameras, taken out
-  std::string message;                        // for kCutShort and kQualityFailed: what happened
+  std::vector<std::string> checks;            // findings of the scene's checks
+  std::optional<FoundLag> lag;                // between two cameras, which was corrected
+  std::string message;                        // for kCutShort and kQualityFailed: the reason
   std::filesystem::path open_first;           // the file to open first
 };
 
-// As run.json has it.
+// The word in run.json.
 std::string_view status_word(TrackStatus status);
 
-// Throws UsageError, InputError for what cannot be started, also for a checkpoint that does not fit
-// and for a scene whose checks fail.
+// Throws UsageError or InputError for what cannot be started, also for a checkpoint that does not
+// fit and for a scene whose checks fail.
 TrackOutcome track_scene(const TrackJob& job, const JobControl& control);
 
 }  // namespace jobs

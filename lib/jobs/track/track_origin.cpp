@@ -27,7 +27,7 @@ std::string name_from(const Scene& scene, const fs::path& file) {
   return (name.empty() ? file : name).generic_string();
 }
 
-// Of all files of a camera, by their content.
+// Digest of the content of all keypoint files of a camera.
 std::string keypoint_digest(const KeypointSource& source) {
   std::string text;
   for (const fs::path& file : keypoint_files(source))

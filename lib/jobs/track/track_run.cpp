@@ -19,7 +19,7 @@ namespace {
 
 int threads_of(const TrackJob& job) {
   const int threads = thread_count(job.config.values.threads);
-  // More than there are would make its own library complain on the terminal.
+  // OpenCV's threading library prints a warning if more threads are asked for than exist.
   set_image_threads(std::min(threads, hardware_threads()));
   return threads;
 }
@@ -37,7 +37,7 @@ TrackSetup timed_set_up(const TrackJob& job, double frame_rate,
 }  // namespace
 
 bool CheckpointTimer::due() const {
-  constexpr double kMostShare = 0.01;  // of the time that checkpoints may take
+  constexpr double kMostShare = 0.01;  // share of the time that checkpoints may take
   return seconds_ == 0 || seconds_since(last_) >= std::max(seconds_, cost_ / kMostShare);
 }
 
@@ -72,7 +72,8 @@ TrackRun::TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& f
   std::vector<double> scales;
   for (const Region& region : everywhere_) scales.push_back(region.metres_per_px);
   movement_.emplace(std::move(scales), setup_.scene.dt);
-  // OpenCV splits the network's layers by its threads, and other sums have other last bits.
+  // OpenCV splits the layers of the network by its threads, so that their number changes the last
+  // bits of sums.
   if (setup_.detections.uses_network()) set_image_threads(1);
   if (checkpoint) tracker_.resume(std::move(checkpoint->tracker));
   if (in_doubt_only())
@@ -150,7 +151,7 @@ Region TrackRun::region(size_t camera) const {
     return region;
   }
   constexpr double kReach = 0.5;  // m around the last pose, for the limbs
-  constexpr double kHasty = 0.5;  // m/s by which the speed may be wrong
+  constexpr double kHasty = 0.5;  // m/s; error of the speed that the search region allows for
   const double speed = frames_.records.back().estimate.speed;
   Region region = person_region(setup_.scene.cameras[camera], tracker_.mean_place(),
                                 tracker_.body().subject.height,
@@ -165,7 +166,7 @@ std::vector<Region> TrackRun::regions() const {
   return out;
 }
 
-// The first frame, of the video or from a checkpoint on.
+// Fetches the first frame, of the video or after a checkpoint.
 void TrackRun::fetch() {
   const TimePoint start;
   const NextFrame::Cost cost = next_.fetch(regions_.empty() ? regions() : regions_,
@@ -184,7 +185,7 @@ void TrackRun::complete() {
 
 void TrackRun::push() { keep(tracker_.push(evidence_)); }
 
-// Before a frame is tracked: how much somebody moves in it, if nobody is tracked yet.
+// Before a frame is tracked: measures motion in it if nobody is tracked yet.
 void TrackRun::watch_movement() {
   if (!tracker_.tracking()) {
     moving_.push_back(movement_->newly_covered(evidence_));
@@ -211,8 +212,8 @@ void TrackRun::hear_names(const FrameRecord& record) {
   names_.add({record.tracked, record.names, record.modes.p_legs_swapped}, setup_.scene.dt);
 }
 
-// Works on this frame while the next one is fetched. The clock of decoding and evidence is what
-// this one had to wait for them.
+// Tracks this frame while the next one is fetched. The time of decoding and evidence is the time
+// that this frame had to wait for them.
 void TrackRun::follow() {
   const bool tracked = tracker_.tracking();
   regions_ = regions();
@@ -238,8 +239,8 @@ void TrackRun::follow() {
   watch_.add("evidence", elapsed_since(lost));
 }
 
-// Under a budget, as many particles for the next frame as there is time for. Frames of searching
-// and starting take what they take.
+// Adapts the number of particles for the next frame to the time budget. Frames of a search or a
+// start are not limited.
 void TrackRun::pace(const TimePoint& since) {
   if (!budget_.on()) return;
   if (!tracker_.tracking()) {
@@ -252,9 +253,9 @@ void TrackRun::pace(const TimePoint& since) {
       budget_.next(used, seconds_since(since.clock) - filter_seconds_, filter_seconds_));
 }
 
-// Once tracked, every frame teaches what the walker looks like and how detections err: where the
-// particles are, for colours that follow the pose which they were used to find would confirm
-// themselves.
+// While tracking, updates the subject's appearance and the statistics of detections from every
+// frame. They use the particles' mean: colours at the reported pose, which they were used to find,
+// would confirm themselves.
 void TrackRun::learn() {
   if (!tracker_.tracking() || !setup_.observers.front().learns()) return;
   const TimePoint start;

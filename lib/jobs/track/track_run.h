@@ -1,9 +1,9 @@
-// One scene being tracked, frame by frame: observers, tracker, the records so far, and the
-// checkpoints from which another process could go on.
+// Tracks one scene frame by frame: observers, tracker, the records so far, and the checkpoints from
+// which another process can resume.
 //
-// The next frame is decoded and prepared beside the particles of this one. Where to look in it is
-// therefore known from the frame before this one; a walker who has just been lost is looked for in
-// the whole of it.
+// The next frame is decoded and segmented in parallel with the particles of this one. The search
+// region of a frame is therefore determined from the frame before the previous one; if the subject
+// has just been lost, it is the whole image.
 #pragma once
 
 #include <array>
@@ -30,12 +30,12 @@ inline constexpr std::string_view kCheckpointFile = "checkpoint.bin", kFramesFil
 inline constexpr std::string_view kSmoothedFile = "smoothed_frames.bin",
                                   kNamedFile = "named_frames.bin",
                                   kPlantedFile = "planted_frames.bin";
-// Those that a run is resumed from; all that there are only while it works.
+// The files from which a run is resumed, which only exist during the work.
 inline constexpr std::array kFilesOfWork{kCheckpointFile, kFramesFile};
 inline constexpr std::array kPassingFiles{kCheckpointFile, kFramesFile, kNamedFile, kSmoothedFile,
                                           kPlantedFile};
 
-// When a checkpoint is worth its time.
+// Decides when a checkpoint is worth its time.
 class CheckpointTimer {
  public:
   explicit CheckpointTimer(double seconds) : seconds_(seconds) {}
@@ -49,16 +49,17 @@ class CheckpointTimer {
 
 class TrackRun {
  public:
-  // From the first frame or, in a folder that has kept kFilesOfWork, from the checkpoint.
+  // Begins with the first frame or, in a folder that has kept kFilesOfWork, after the checkpoint.
   TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& folder, Origin origin,
            std::optional<Checkpoint> checkpoint, const JobControl& control);
 
-  // Takes the frames that came before the checkpoint from the video. InputError if it ends there.
+  // Skips the frames before the checkpoint. InputError if the video ends there.
   void skip(const JobControl& control);
-  // The next frame: evidence, tracking, learning, and a checkpoint if one is due. False if there is
-  // none.
+  // Processes the next frame: evidence, tracking, updates of the appearance, and a checkpoint if
+  // one is due. Returns false if there is none.
   bool step();
-  // After the last frame. `resumable`: another process may go on here; false if it could not.
+  // To be called after the last frame. `resumable`: another process may resume here. Returns
+  // whether it could.
   bool finish(bool resumable);
 
   int first_frame() const { return static_cast<int>(first_frame_); }
@@ -68,16 +69,17 @@ class TrackRun {
   const BodyModel& model() const { return tracker_.model(); }
   bool keypoints_lead() const { return tracker_.keypoints_lead(); }
   int threads() const { return threads_; }
-  // Looks again at a video in which nobody was found, and says what was missing (why_nobody.h).
+  // Reads the video again if nobody was found, and returns the reason (why_nobody.h).
   std::string why_nobody(const JobControl& control);
   const TrackedFrames& frames() const { return frames_; }
   // By camera.
   std::vector<KeypointTerm::State> keypoints() const;
-  // What is odd about keypoint files, one sentence each.
+  // Irregularities of keypoint files, one sentence each.
   std::vector<std::string> notes() const;
-  // By frame, NaN while not tracking; empty without a budget.
+  // By frame, NaN if not tracking; empty without a time budget.
   const std::vector<double>& particles_used() const { return particles_used_; }
-  // In the stride: frames before and after which the walker was tracked. Nothing without one.
+  // Speed over the frames before and after which the subject was tracked; nullopt if there are
+  // none.
   std::optional<double> stride_frames_per_second() const {
     return stride_.frames > 0 ? std::optional(stride_.frames / stride_.seconds) : std::nullopt;
   }
@@ -87,7 +89,7 @@ class TrackRun {
  private:
   Region region(size_t camera) const;
   std::vector<Region> regions() const;
-  // Several cameras share the threads among themselves.
+  // Several cameras share the threads.
   int row_threads() const { return setup_.observers.size() == 1 ? threads_ : 1; }
   void fetch();
   void complete();
@@ -110,13 +112,13 @@ class TrackRun {
   GaitPrior prior_;
   ParticleBudget budget_;
   Tracker tracker_;
-  NamesSoFar names_;  // only asked where the network looks in doubt alone
+  NamesSoFar names_;  // only used if the network runs on doubtful frames alone
   std::vector<Region> everywhere_;
   std::optional<MovementWatch> movement_;
-  std::deque<double> moving_;  // of the frames whose records have not come out
+  std::deque<double> moving_;  // of the frames whose records are not finished
   SceneVideo& video_;
   NextFrame next_;
-  // Of the next frame; a checkpoint holds them.
+  // Of the next frame; they are part of checkpoints.
   std::vector<Region> regions_;
   SceneEvidence evidence_;
   TrackedFrames frames_;

@@ -18,12 +18,12 @@ inline namespace jobs {
 
 namespace {
 
-// Places nearer than most: a walker who comes this near must not be blurred away, one further off
-// is merely seen at a lower resolution.
+// Share of the places that are farther: a subject who comes this near must not be blurred, but one
+// further off may be seen at a lower resolution.
 constexpr double kNearShare = 0.7;
 constexpr double kFallbackDistance = 10;  // m, where no place on the ground is in view
 
-// How high the subject is expected to stand in the image.
+// Expected height of the subject in the image.
 double expected_height_px(const Scene& scene, const Camera& camera, const DetectorConfig& config) {
   const double height = scene.subject.height;
   if (scene.initial) {
@@ -47,7 +47,7 @@ Observer make_observer(const Scene& scene, const SceneCamera& camera, const Conf
   const WorkingScale scale = working_scale(scene, camera.camera, config);
   input.shrink = scale.shrink;
   input.appearances = appearances_of(body);
-  // Several cameras share the threads among themselves.
+  // Several cameras share the threads.
   input.threads = scene.cameras.size() == 1 ? thread_count(config.threads) : 1;
   input.occluders = occluders_at(camera, 0);
   input.pictures = !camera.video.empty();

@@ -27,7 +27,8 @@ void append_entity(std::string& text, std::string_view key, std::string_view lab
   text += fmt::format("{}{}-{}", text.empty() ? "" : "_", key, label);
 }
 
-// UsageError would be for options; these names were found in the data set.
+// Converts UsageError, which is for options, to InputError, because these names come from the data
+// set.
 BidsName checked(const fs::path& file, const fs::path& subject, const BidsName& name) {
   if (!name.label("task"))
     throw InputError(describe({file.string(), 0, ""}, "a name without task-", kFormOfName));

@@ -23,7 +23,7 @@ struct TrackedVideo {
   Sequence sequence;
 };
 
-// Complete ones by the folder of their tables; of the others, the folder.
+// Complete results by the folder of their tables; of the others only the folder is listed.
 std::map<fs::path, std::vector<TrackedVideo>> by_folder(const SequenceList& list) {
   std::map<fs::path, std::vector<TrackedVideo>> out;
   auto all = list.sequences(SequenceList::Share::kAll);
@@ -40,7 +40,7 @@ std::string file_of(const BidsName& name, const std::string& table) {
   return tracked_entities_text(name) + "_" + table;
 }
 
-// As BIDS URI: the data set that the output is derived from is "raw" there.
+// A BIDS URI, in which the data set from which the output is derived is called "raw".
 std::string source_of(const BatchJob& job, const Sequence& sequence) {
   const fs::path way = fs::weakly_canonical(sequence.video.parent_path())
                            .lexically_relative(fs::weakly_canonical(job.folder));

@@ -34,7 +34,7 @@ std::string point_of_angle(std::string_view name) {
   return name.ends_with("_l") ? "l" + joint : joint;
 }
 
-// Angles between two parts of the body, which Motion-BIDS has a type for.
+// Angles between two parts of the body, for which Motion-BIDS has a type of its own.
 bool is_of_joint(std::string_view name) {
   return !name.starts_with("pelvis") && name != "trunk_tilt";
 }

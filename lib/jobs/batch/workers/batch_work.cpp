@@ -20,13 +20,13 @@ namespace {
 constexpr size_t kMostLogBytes = size_t{1} << 30;
 constexpr const char* kLogFile = "log.txt";
 constexpr const char* kSceneOfVideo = "scene.yaml";
-constexpr int kDegradedExit = 4, kInterruptedExit = 130;  // of the sequence's program
+constexpr int kDegradedExit = 4, kInterruptedExit = 130;  // exit codes of the sequence's program
 
 std::string log_text(const fs::path& log) {
   return fs::exists(log) ? read_text_file(log, kMostLogBytes) : "";
 }
 
-// The last line that the program said, without its name in front.
+// The last line of the program's output, without the name of the program in front.
 std::string last_words(const fs::path& log) {
   std::string text = log_text(log);
   while (text.ends_with('\n')) text.pop_back();
@@ -46,14 +46,15 @@ std::string failure_reason(const BatchJob& job, const ChildEnd& end, const fs::p
   return fmt::format("exit {}{}{}", end.exit_code, words.empty() ? "" : ": ", words);
 }
 
-// What this process writes into a folder of the sequence; its own program does the rest.
+// What this process writes into a folder of the sequence; everything else is written by its own
+// program.
 Outputs outputs_of(const Sequence& sequence, const fs::path& folder) {
   if (sequence.video.empty())
     return {folder, "batch", {kLogFile, kFailureFile}, {sequence.scene}, ""};
   return {folder, "batch", {kLogFile, kFailureFile, kSceneOfVideo}, {sequence.video}, ""};
 }
 
-// Whether another worker has noted an end, with or without success, since this one began.
+// Whether another worker has recorded an end, with or without success, since this one began.
 bool done_by_another(const Sequence& sequence, Todo todo, fs::file_time_type began) {
   const auto is_later = [&](const fs::path& file) {
     std::error_code none;
@@ -73,7 +74,7 @@ void write_scene(const BatchJob& job, const Sequence& sequence, const ResultFold
   if (tracked != folder.file(kSceneOfVideo)) write_file_atomically(tracked, scene);
 }
 
-// Whether a worker that was killed had only to show it.
+// Whether a worker was killed after the result was complete and before it was moved to its place.
 bool is_made(const BatchJob& job, const Sequence& sequence, const fs::path& folder) {
   return !job.work.empty() && is_complete_result(folder) &&
          (!job.config || changes_in(folder, tracked_scene(job, sequence), *job.config).empty());
@@ -120,7 +121,7 @@ std::optional<RunningSequence> start_sequence(const BatchJob& job, const Sequenc
                                               Todo todo, fs::file_time_type began) {
   if (done_by_another(sequence, todo, began)) return std::nullopt;
   std::optional<SequenceClaim> claim = SequenceClaim::try_take(sequence.output);
-  // Another worker may have done it between the look and the claim.
+  // Another worker may have finished it between the inspection and the claim.
   if (!claim || done_by_another(sequence, todo, began)) return std::nullopt;
   const fs::path place = tracked_in(job, sequence);
   std::vector<std::string_view> kept;
@@ -145,7 +146,8 @@ void end_sequence(const BatchJob& job, const RunningSequence& running,
   const fs::path place = tracked_in(job, sequence);
   const bool well = !end || end->exit_code == 0 || end->exit_code == kDegradedExit;
   if (well && is_complete_result(place)) {
-    // Who has taken the claim over, thinking this worker dead, shows its own.
+    // A worker that has taken over the claim, because it took this one for dead, moves its own
+    // result.
     if (job.work.empty() || !running.claim.is_held()) return;
     try {
       show_result(job, sequence, running.claim, alive);

@@ -1,4 +1,4 @@
-// A sequence of a batch that this worker tracks: claiming, beginning and ending it.
+// Tracks one sequence of a batch: claims it, starts it and ends it.
 #pragma once
 
 #include <filesystem>
@@ -16,27 +16,28 @@ inline namespace jobs {
 struct RunningSequence {
   Sequence sequence;
   SequenceClaim claim;
-  std::optional<ChildProcess> child;  // none where only showing the result is left to be done
+  std::optional<ChildProcess> child;  // nullopt if the result only has to be moved to its place
 };
 
-// UsageError for a link among the folders that lead from `output` to the one of this name.
+// Throws a UsageError if one of the folders from `output` to the one of this name is a link.
 void refuse_links(const std::filesystem::path& output, const std::filesystem::path& name);
 
-// UsageError where the sequence's results would lie elsewhere than below the output, or among files
-// that are not the batch's own.
+// Throws a UsageError if the sequence's results would be outside the output, or among files that do
+// not belong to the batch.
 void refuse_place(const BatchJob& job, const Sequence& sequence, Todo todo);
 
-// The time by the clock of the output's file system, with which other workers' files can be
-// compared though clocks of machines differ.
+// The time by the clock of the output's file system, which can be compared with the times of other
+// workers' files even if the clocks of machines differ.
 std::filesystem::file_time_type time_of_output(const BatchJob& job);
 
-// If it is still to be done, as it was when this worker began, and nobody else is at it: clears why
-// an earlier try failed, and starts.
+// Starts the sequence if it is still to be tracked and no other worker is tracking it, and removes
+// the reason of an earlier failure.
 std::optional<RunningSequence> start_sequence(const BatchJob& job, const Sequence& sequence,
                                               Todo todo, std::filesystem::file_time_type began);
 
-// After its end (none: there was no child): shows the result, or notes why there is none. Of
-// sequences that were told to stop nothing is noted. `alive` is called while that takes long.
+// To be called when the child has ended (nullopt: there was none): moves the result to its place,
+// or records the reason of the failure. Nothing is recorded for sequences that were interrupted.
+// `alive` is called while that takes long.
 void end_sequence(const BatchJob& job, const RunningSequence& running,
                   const std::optional<ChildEnd>& end, bool stopping,
                   const std::function<void()>& alive);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kCannotStart = 127;
 
-// Runs between fork and exec: only calls that are safe there.
+// Runs between fork and exec, so that only async-signal-safe calls are allowed.
 [[noreturn]] void become(char* const* argv, int out, rlim_t memory_bytes, pid_t parent) {
   const int in = ::open("/dev/null", O_RDONLY);
   ::dup2(in, STDIN_FILENO);
@@ -31,15 +31,15 @@ constexpr int kCannotStart = 127;
     const rlimit limit{memory_bytes, memory_bytes};
     ::setrlimit(RLIMIT_AS, &limit);
   }
-  // Signals of the terminal are the parent's to pass on, and nobody outlives the parent.
+  // The parent passes signals of the terminal on, and the child ends with its parent.
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(kCannotStart);  // it died before it was watched
+  if (::getppid() != parent) ::_exit(kCannotStart);  // the parent died before prctl
   ::execv(argv[0], argv);
   ::_exit(kCannotStart);
 }
 
-// A new file: what is there already, a link above all, is neither followed nor cut short.
+// A new file: an existing one, above all a link, is neither followed nor truncated.
 int new_log(const std::filesystem::path& log) {
   const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (out >= 0) return out;

@@ -1,4 +1,4 @@
-// Another program as a child of this one, without a shell: started, watched, limited, ended.
+// Runs another program as a child process, without a shell and with limits.
 #pragma once
 
 #include <chrono>
@@ -17,16 +17,16 @@ struct ChildLimits {
 
 struct ChildEnd {
   int exit_code = 0;  // of the program; 128 + signal if one ended it
-  int signal = 0;     // 0 = ended by itself
+  int signal = 0;     // 0 = it was not ended by a signal
   bool timed_out = false;
   double seconds = 0;
 };
 
 class ChildProcess {
  public:
-  // Starts words[0] with the other words; what it prints goes to the new file `log`, its input is
-  // empty. Throws std::runtime_error if there is such a file or can be no child; a program that
-  // cannot be started ends with 127.
+  // Starts words[0] with the other words as arguments. Its output goes to the new file `log`, its
+  // input is empty. Throws std::runtime_error if the file exists or no process can be created; a
+  // program that cannot be started ends with exit code 127.
   ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& log,
                const ChildLimits& limits);
   // Kills the child if it still runs.
@@ -34,7 +34,7 @@ class ChildProcess {
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;
 
-  // How it ended; nullopt while it runs. Past its time limit it is killed.
+  // How it ended; nullopt while it runs. A child that exceeds its time limit is killed.
   std::optional<ChildEnd> poll();
   // Asks it to stop (SIGTERM).
   void ask_to_stop() const;

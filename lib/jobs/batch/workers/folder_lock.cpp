@@ -26,10 +26,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Names that begin with .walktrack_ are ours alone (io/archive/result_folder.h).
+// Names that begin with .walktrack_ are reserved for the program (io/archive/result_folder.h).
 constexpr const char *kProbe = ".walktrack_probe.", *kStale = ".walktrack_stale.";
 
-// "host.boot.namespace": workers of one place can see whether the other's process lives.
+// "host.boot.namespace": workers with the same place name can test whether the other's process is
+// alive.
 std::string place_name() {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
@@ -41,10 +42,10 @@ std::string place_name() {
   return fmt::format("{}.{}.{}.", host.data(), boot, processes.string());
 }
 
-// The place, then the process: tells workers apart.
+// The place and the process, which identify a worker.
 std::string worker_name() { return place_name() + std::to_string(::getpid()); }
 
-// Whether the claim says who holds it, that it is from here, and that there is no such process.
+// Whether the holder of the claim is a process of this place that does not exist any more.
 bool holder_is_dead(const fs::path& file) {
   std::ifstream stream(file);
   std::string holder;
@@ -55,14 +56,14 @@ bool holder_is_dead(const fs::path& file) {
   return process && *process > 0 && ::kill(static_cast<pid_t>(*process), 0) != 0 && errno == ESRCH;
 }
 
-// What tells a file from its successor of the same name.
+// Distinguishes a file from a later file of the same name.
 std::pair<ino_t, int64_t> identity(const fs::path& file) {
   struct stat facts {};
   if (::stat(file.c_str(), &facts) != 0) return {};
   return {facts.st_ino, int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + facts.st_mtim.tv_nsec};
 }
 
-// What workers that were killed in the middle of a takeover left.
+// Removes files of workers that were killed during a takeover.
 void remove_leftovers(const fs::path& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
@@ -76,13 +77,13 @@ void remove_leftovers(const fs::path& folder) {
       fmt::format("{}: {}", file.string(), std::generic_category().message(error)));
 }
 
-// False where the file exists and O_EXCL is among the flags. Throws where nothing can be written
-// there: a claim that could not be made is not another worker's.
+// Returns false if the file exists and O_EXCL is set. Throws if nothing can be written there, so
+// that this is not taken for another worker's claim.
 bool write_name(const fs::path& file, int flags) {
   const int descriptor =
       ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | flags, 0666);
   if (descriptor < 0) {
-    // ENOENT: who held the folder has just removed it.
+    // ENOENT: the holder has just removed the folder.
     if (errno == EEXIST || errno == ENOENT) return false;
     fail(file, errno);
   }
@@ -95,8 +96,9 @@ bool write_name(const fs::path& file, int flags) {
   fail(file, error);
 }
 
-// The file appears with its holder's name or not at all, so that a worker killed here leaves no
-// claim of nobody. Where the file system has no links, the name comes a moment later.
+// The file appears together with its holder's name or not at all, so that a worker that is killed
+// here leaves no claim without a name. On file systems without links the name is written a moment
+// later.
 bool create_exclusively(const fs::path& file) {
   const fs::path own =
       file.parent_path() / fmt::format("{}{}.{}.new", kProbe, worker_name(), ::gettid());
@@ -104,16 +106,16 @@ bool create_exclusively(const fs::path& file) {
   struct stat facts {};
   const bool linked = ::link(own.c_str(), file.c_str()) == 0;
   const int error = linked ? 0 : errno;
-  // NFS may have lost its reply: the count of links is what is true.
+  // NFS may have lost the reply of link(); the number of links shows whether it succeeded.
   const bool created = linked || (::stat(own.c_str(), &facts) == 0 && facts.st_nlink == 2);
   ::unlink(own.c_str());
-  // ENOENT: whoever holds the folder has cleared it of leftovers.
+  // ENOENT: the holder of the folder has removed the file as a leftover.
   if (created || error == EEXIST || error == ENOENT) return created;
   if (error != EPERM && error != EOPNOTSUPP && error != ENOSYS) fail(file, error);
   return write_name(file, O_EXCL);
 }
 
-// Age by the clock of the file system's last writer here: a probe file's time minus the claim's, so
+// The age by the clock of the file system: the time of a new probe file minus that of the claim, so
 // that the clocks of two machines need not agree.
 double age_seconds(const fs::path& file) {
   const fs::path probe = file.parent_path() / fmt::format("{}{}", kProbe, worker_name());
@@ -133,13 +135,13 @@ std::optional<FolderLock> FolderLock::try_take(const fs::path& folder, double st
   if (!create_exclusively(file)) {
     const auto judged = identity(file);
     if (!is_dead(folder, stale_seconds)) return std::nullopt;
-    // Of several workers that find it stale, the rename succeeds for one.
+    // If several workers find the claim stale, rename() succeeds for one of them.
     const fs::path stale = folder / fmt::format("{}{}", kStale, worker_name());
     std::error_code lost;
     fs::rename(file, stale, lost);
     if (lost) return std::nullopt;
     const bool was_judged = identity(stale) == judged;
-    // Another one was quicker and this is its new claim: it gets it back.
+    // Another worker was faster, and this is its new claim, which is restored.
     if (!was_judged) fs::create_hard_link(stale, file, lost);
     fs::remove(stale, lost);
     if (!was_judged || !create_exclusively(file)) return std::nullopt;
@@ -167,7 +169,7 @@ bool FolderLock::is_held() const {
 FolderLock::FolderLock(FolderLock&& other) noexcept : file_(std::exchange(other.file_, {})) {}
 
 void FolderLock::renew() const {
-  // The time is set by the file system, not by this machine's clock.
+  // The file system sets the time, not this machine's clock.
   ::utimensat(AT_FDCWD, file_.c_str(), nullptr, 0);
 }
 

@@ -1,7 +1,7 @@
-// A claim on a folder, so that several workers, also of several machines that share it, never do
-// the same work twice. The claim is a file whose creation succeeds for one worker alone; while it
-// works it renews the file's time. A claim is taken over if its worker was a process of this
-// machine that no longer exists, or if it was not renewed for kStaleSeconds.
+// A claim on a folder, so that several workers, also on several machines that share it, never do
+// the same work twice. The claim is a file whose creation succeeds for only one worker, which
+// renews the file's time while it works. A claim may be taken over if its worker was a process of
+// this machine that no longer exists, or if it was not renewed for kStaleSeconds.
 #pragma once
 
 #include <filesystem>
@@ -19,14 +19,14 @@ class FolderLock {
   // nullopt if another worker holds the folder.
   static std::optional<FolderLock> try_take(const std::filesystem::path& folder,
                                             double stale_seconds = kStaleSeconds);
-  // Gives it back.
+  // Releases the claim.
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&&) = delete;
 
-  // To be called more often than every kStaleSeconds.
+  // Must be called more often than every kStaleSeconds.
   void renew() const;
-  // Whether the claim is still this worker's; not after others thought it dead.
+  // Whether the claim still belongs to this worker, and was not taken over.
   bool is_held() const;
   bool given_away() const { return file_.empty(); }
 
@@ -35,7 +35,7 @@ class FolderLock {
 
  private:
   explicit FolderLock(std::filesystem::path file) : file_(std::move(file)) {}
-  std::filesystem::path file_;  // empty = given away
+  std::filesystem::path file_;  // empty = released
 };
 
 }  // namespace jobs

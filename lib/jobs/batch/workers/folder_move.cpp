@@ -30,7 +30,7 @@ constexpr size_t kBlockBytes = size_t{1} << 20;
                                        std::generic_category().message(error)));
 }
 
-// 0, or the error.
+// Returns 0 or the error number.
 int renamed(const fs::path& from, const fs::path& to) {
   return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
@@ -63,14 +63,15 @@ void copy_folder(const fs::path& from, const fs::path& to, const std::function<v
   }
 }
 
-// new_folder() lets nobody else in; results are as readable as any other folder.
+// A new folder is readable only for its owner; results get the permissions of any other folder.
 void open_to_others(const fs::path& folder) {
   const mode_t mask = ::umask(0);
   ::umask(mask);
   fs::permissions(folder, static_cast<fs::perms>(0777U & ~mask));
 }
 
-// Files of a folder that others see already, the last one last.
+// Moves the files into a folder that others can see already; the file that marks it complete is
+// moved last.
 void merge(const fs::path& from, const fs::path& to, const std::string& last) {
   std::vector<fs::path> names;
   for (const auto& entry : fs::directory_iterator(from))
@@ -88,7 +89,7 @@ void merge(const fs::path& from, const fs::path& to, const std::string& last) {
   fs::remove(from);
 }
 
-// What is on the file system of `to`.
+// Moves what is on the same file system as `to`.
 void put_in_place(const fs::path& from, const fs::path& to, const std::string& last) {
   const int error = renamed(from, to);
   if (error == ENOTEMPTY || error == EEXIST) return merge(from, to, last);
@@ -107,7 +108,7 @@ bool on_one_file_system(const fs::path& a, const fs::path& b) {
 
 void move_folder(const fs::path& from, const fs::path& to, const fs::path& stage,
                  const std::string& last, const std::function<void()>& alive) {
-  // By way of `stage` in either case: two mounts of one file system refuse a rename, too.
+  // Two mounts of one file system refuse a rename as well, so that `stage` is used in either case.
   const fs::path moved = new_folder(stage / "new.");
   if (!on_one_file_system(from, stage) || renamed(from, moved) != 0) {
     copy_folder(from, moved, alive);

@@ -20,7 +20,8 @@ fs::path hidden_folder(const fs::path& result) {
 
 namespace {
 
-// Who gives a claim back removes the folder, perhaps under the next one's feet.
+// A worker that releases a claim removes the folder, possibly while another one is creating a lock
+// in it.
 std::optional<FolderLock> lock_of_hidden(const fs::path& folder) {
   constexpr int kTries = 3;
   for (int i = 0; i < kTries; ++i) {
@@ -39,7 +40,7 @@ std::optional<SequenceClaim> SequenceClaim::try_take(const fs::path& result) {
   const fs::path folder = hidden_folder(result);
   std::optional<FolderLock> lock = lock_of_hidden(folder);
   if (!lock) return std::nullopt;
-  // What a worker that was killed has left: files that were to be shown, and never were.
+  // Removes unfinished files of a worker that was killed.
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().filename() != FolderLock::kFile) fs::remove_all(entry.path());
   return SequenceClaim(folder, std::move(*lock));
@@ -52,7 +53,7 @@ SequenceClaim::~SequenceClaim() {
   for (const auto& entry : fs::directory_iterator(folder_, ignored))
     if (ours && entry.path().filename() != FolderLock::kFile) fs::remove_all(entry.path(), ignored);
   lock_.reset();
-  fs::remove(folder_, ignored);  // which does nothing where another worker is in it already
+  fs::remove(folder_, ignored);  // has no effect if another worker has put a lock into it
 }
 
 bool is_claimed(const fs::path& result) {

@@ -1,6 +1,5 @@
-// A worker's claim on a sequence: a FolderLock in a hidden folder beside the result folder. Files
-// that have to be on the result's file system before the result appears are in that hidden folder,
-// too, so that the result folder holds only the result.
+// A worker's claim on a sequence: a FolderLock in a hidden folder beside the result folder. That
+// folder also contains files that have to be on the result's file system before the result appears.
 #pragma once
 
 #include <filesystem>
@@ -11,21 +10,21 @@
 namespace walktrack {
 inline namespace jobs {
 
-// Beside a result folder and for it: ".walktrack_for.<its name>".
+// The hidden folder of a result folder: ".walktrack_for.<its name>".
 std::filesystem::path hidden_folder(const std::filesystem::path& result);
 
 class SequenceClaim {
  public:
-  // nullopt if another worker holds it. Makes the folders above the result.
+  // nullopt if another worker holds it. Creates the folders above the result.
   static std::optional<SequenceClaim> try_take(const std::filesystem::path& result);
-  // Gives it back, and removes the hidden folder.
+  // Releases the claim and removes the hidden folder.
   ~SequenceClaim();
   SequenceClaim(SequenceClaim&& other) noexcept = default;
   SequenceClaim& operator=(SequenceClaim&&) = delete;
 
   const std::filesystem::path& folder() const { return folder_; }
   void renew() const { lock_->renew(); }
-  // Whether nobody has taken it over for a dead worker's.
+  // Whether it was not taken over.
   bool is_held() const { return lock_->is_held(); }
 
  private:
@@ -35,10 +34,10 @@ class SequenceClaim {
   std::optional<FolderLock> lock_;
 };
 
-// Whether a worker holds it: one that lives, as far as can be seen.
+// Whether a worker that seems to be alive holds a claim on it.
 bool is_claimed(const std::filesystem::path& result);
 
-// Gives back what a worker that was killed has left, if there is such a claim.
+// Removes the claim of a worker that was killed.
 void clear_dead_claim(const std::filesystem::path& result);
 
 }  // namespace jobs

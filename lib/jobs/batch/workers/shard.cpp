@@ -32,7 +32,7 @@ std::optional<int> number(const Environment& environment, const char* name) {
   return value;
 }
 
-// One that has to be there beside another.
+// A variable that is required because another one is set.
 int needed(const Environment& environment, const char* name, const char* beside) {
   const auto value = number(environment, name);
   if (!value) fail(fmt::format("{} without {}", beside, name), "both, or i/n");
@@ -44,7 +44,7 @@ Shard checked(Shard shard, const std::string& found) {
   return shard;
 }
 
-// Tasks of an array, and the tasks of each; either may be missing.
+// The tasks of an array and the tasks in each; either may be missing.
 std::optional<Shard> of_slurm(const Environment& environment) {
   const auto id = number(environment, "SLURM_ARRAY_TASK_ID");
   const auto task = number(environment, "SLURM_PROCID");

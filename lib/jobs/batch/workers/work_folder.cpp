@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t kDigits = 12;
 
-// The same name for one output however it is written.
+// The same name for one output folder, however its path is written.
 fs::path work_of_output(const BatchJob& job) {
   const std::string output = fs::weakly_canonical(fs::absolute(job.output)).string();
   return fs::absolute(job.work) / ("walktrack-" + sha256(output).substr(0, kDigits));
@@ -43,7 +43,7 @@ void refuse_work_in_output(const BatchJob& job) {
 void show_result(const BatchJob& job, const Sequence& sequence, const SequenceClaim& claim,
                  const std::function<void()>& alive) {
   const fs::path made = tracked_in(job, sequence);
-  // What both commands leave; what else lies there is the user's, and stays.
+  // Removes the files of both commands. Other files are the user's and are kept.
   remove_marked(sequence.output, "track");
   remove_marked(sequence.output, "batch");
   move_folder(made, sequence.output, claim.folder(), kRunFile, alive);
@@ -51,7 +51,7 @@ void show_result(const BatchJob& job, const Sequence& sequence, const SequenceCl
 }
 
 void clear_work(const BatchJob& job, const Sequence& sequence) {
-  // Folders above it stay: another worker may be about to make its own there.
+  // Folders above it are kept, because another worker may be about to use them.
   const fs::path folder = tracked_in(job, sequence);
   if (!fs::exists(folder / kCheckpointFile)) fs::remove_all(folder);
 }

@@ -20,7 +20,7 @@ bool all_have_files(const Scene& scene) {
                      [](const SceneCamera& camera) { return !camera.keypoints.path.empty(); });
 }
 
-// A camera without a video has no pictures to look into.
+// A camera without a video has no images to detect people in.
 bool wants_network(const SceneCamera& camera) {
   return camera.keypoints.path.empty() && !camera.video.empty();
 }
@@ -42,7 +42,7 @@ bool has_network(const KeypointConfig& config) {
   return has_pose_net() && pose_model_file(config.model);
 }
 
-// Whether the cameras are few enough and see people large enough for the network.
+// Whether there are so few cameras, and people so large in them, that the network helps.
 bool network_would_tell(const Scene& scene, const Config& config) {
   return scene.cameras.size() <= cameras_in_doubt(scene) &&
          std::all_of(scene.cameras.begin(), scene.cameras.end(), [&](const SceneCamera& camera) {

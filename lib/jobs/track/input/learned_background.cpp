@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include <opencv2/core/mat.hpp>
-
 #include "core/parallel_for.h"
 #include "io/archive/files.h"
 #include "io/video/video.h"
@@ -13,6 +11,7 @@
 #include "jobs/track/track_setup.h"
 #include "observation/background/background_sampler.h"
 #include "observation/background/people_mask.h"
+#include "observation/image.h"
 #include "observation/image_threads.h"
 #include "observation/pose_net/pose_net.h"
 
@@ -21,12 +20,12 @@ inline namespace jobs {
 
 namespace {
 
-// Whoever is found late is followed back to the frames before.
+// A person who is found late is followed back to earlier frames.
 std::vector<DetectedPeople> people_in(const BackgroundSampler& frames, PoseNet& net,
                                       double person_px, const JobControl& control) {
   const auto count = static_cast<size_t>(frames.frames());
   std::vector<DetectedPeople> people(count);
-  const cv::Mat first = frames.frame(0);
+  const Image first = frames.frame(0);
   PersonFinder finder(first.cols, first.rows, person_px);
   const auto look = [&](size_t frame) {
     return finder.look(net, frames.frame(static_cast<int>(frame)), static_cast<int>(frame));
@@ -78,14 +77,14 @@ BackgroundModel learned_background(const SceneCamera& camera, const Config& conf
   const BackgroundConfig& background = config.observation.background;
   const bool from_video = learns_from_video(camera);
   FrameSource source(from_video ? camera.video : camera.background,
-                     cv::Size(camera.camera.width_px, camera.camera.height_px));
+                     PixelSize(camera.camera.width_px, camera.camera.height_px));
   BackgroundSampler sampler(background, scale.shrink);
   const auto total = static_cast<size_t>(source.facts().frame_count);
-  cv::Mat frame;
+  Image frame;
   for (size_t done = 0; source.read(frame); ++done) {
     sampler.add(frame);
     control.progress("learning the background", done, total);
-    if (control.stopping()) break;  // not before there is a frame, without which there is no model
+    if (control.stopping()) break;  // not before the first frame, without which there is no model
   }
   if (from_video && background.without_people == TermSetting::kOn)
     hide_people(sampler, config.observation.keypoints, scale.person_px / scale.shrink, control);

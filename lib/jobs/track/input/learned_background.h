@@ -1,4 +1,4 @@
-// A camera's background, from pictures of the empty scene or from the video itself.
+// A camera's background, from images of the empty scene or from the video itself.
 #pragma once
 
 #include <string>
@@ -12,16 +12,16 @@
 namespace walktrack {
 inline namespace jobs {
 
-// Whether a camera has a video and no pictures of the empty scene.
+// Whether a camera has a video and no images of the empty scene.
 bool learns_from_video(const SceneCamera& camera);
 
-// Whether people are left out of the backgrounds that are made of videos: as configured; `auto`
-// does so where keypoints are not off, the program has the network, and a camera without pictures
-// of the empty scene shows people large enough for it.
+// Whether people are left out of backgrounds that are estimated from videos: as configured. `auto`
+// means yes if keypoints are not off, the program has the network, and a camera without images of
+// the empty scene shows people large enough for it.
 bool leaves_people_out(const Scene& scene, const Config& config);
 
-// Learns it. Without pictures of the empty scene, and as `config` says, people are left out whom
-// the network finds in the frames that the model is made of; OpenCV is on one thread meanwhile.
+// Estimates the background. Without images of the empty scene, and as configured, people whom the
+// network detects in the frames of the model are left out; OpenCV runs on one thread meanwhile.
 BackgroundModel learned_background(const SceneCamera& camera, const Config& config,
                                    const WorkingScale& scale, const JobControl& control);
 

@@ -9,7 +9,7 @@ inline namespace jobs {
 namespace {
 
 constexpr double kCell = 0.1;          // m
-constexpr double kMovementTime = 0.3;  // s; a walker's legs and arms have left their place by then
+constexpr double kMovementTime = 0.3;  // s; after this time a walker's legs and arms are elsewhere
 
 }  // namespace
 

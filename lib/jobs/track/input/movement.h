@@ -1,4 +1,4 @@
-// Whether somebody moves in a video while nobody is tracked.
+// Measures motion in a video while nobody is tracked.
 #pragma once
 
 #include <deque>
@@ -11,17 +11,17 @@
 namespace walktrack {
 inline namespace jobs {
 
-// How much of the pictures somebody newly covers, m^2 on the body, in the camera that sees most of
-// it.
+// The area that is newly covered by foreground, m^2 on the body, in the camera in which it is
+// largest.
 class MovementWatch {
  public:
-  // `metres_per_px`: by camera, of somebody somewhere in the middle of it. `dt`: s between frames.
+  // `metres_per_px`: by camera, for a person in the middle of the scene. `dt`: s between frames.
   MovementWatch(std::vector<double> metres_per_px, double dt);
 
-  // Of a frame that was looked at as a whole, against kMovementTime before it; 0 until there is
-  // one.
+  // For a frame that was segmented as a whole, compared with the one kMovementTime before it; 0
+  // until there is one.
   double newly_covered(const SceneEvidence& evidence);
-  // Frames were not looked at as a whole.
+  // To be called if a frame was not segmented as a whole.
   void forget() { before_.clear(); }
 
  private:

@@ -5,13 +5,14 @@
 #include <numeric>
 
 #include "core/parallel_for.h"
+#include "observation/image.h"
 
 namespace walktrack {
 inline namespace jobs {
 
 namespace {
 
-// Whether anything stands in front of the walker for a while only.
+// Whether any occluder is present for a limited time only.
 bool comes_or_goes(const SceneCamera& camera) {
   return std::any_of(camera.occluders.begin(), camera.occluders.end(), [](const Occluder& each) {
     return std::isfinite(each.from) || std::isfinite(each.to);
@@ -52,7 +53,7 @@ void NextFrame::prepare(std::span<const Region> regions, bool around, int thread
     if (images_.fresh[c]) {
       const FrameToLookAt frame{images_.images[c], images_.source[c], images_.number, regions[c],
                                 around};
-      const cv::Mat none;
+      const Image none;
       const bool pictures = !scene_.cameras[c].video.empty();
       observers_[c].prepare(pictures ? images_.images[c] : none, regions[c], row_threads,
                             prepared_[c], detections_.look(c, frame));
@@ -68,7 +69,7 @@ void NextFrame::complete(double time, int threads, SceneEvidence& out) {
     if (images_.fresh[c]) {
       observers_[c].complete(prepared_[c], out[c]);
     } else {
-      out[c] = CameraEvidence{};  // a repeated frame says nothing new
+      out[c] = CameraEvidence{};  // a repeated frame contains no new evidence
       observers_[c].forget_previous_frame();
     }
   });

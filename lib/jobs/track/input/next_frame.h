@@ -1,5 +1,5 @@
-// A video's next frame on its way to evidence: decoded and prepared by itself, or beside the
-// particles of the frame before, then completed.
+// Prepares a video's next frame: it is decoded and segmented, possibly in parallel with the
+// particles of the frame before, and completed afterwards.
 #pragma once
 
 #include <span>
@@ -17,31 +17,31 @@ inline namespace jobs {
 
 class NextFrame {
  public:
-  // What fetching took; CPU of the threads that did it for a camera each.
+  // Elapsed time of fetching, and CPU time of the threads that did it, one for each camera.
   struct Cost {
     Elapsed decode, prepare;
   };
 
-  // All have to outlive this.
+  // The arguments have to outlive this object.
   NextFrame(const Scene& scene, SceneVideo& video, std::vector<Observer>& observers,
             Detections& detections);
 
-  // Decodes the next frame and prepares it: where to look, by camera, and whether that is around
-  // the subject. Cameras are shared by `threads`, and the rows of a single one by `row_threads`.
-  // Changes no observer.
+  // Decodes the next frame and segments it in `regions`, by camera, which are around the subject if
+  // `around` is set. Cameras are distributed over `threads`, and the rows of a single one over
+  // `row_threads`. Changes no observer.
   Cost fetch(std::span<const Region> regions, bool around, int threads, int row_threads);
-  // Prepares it again, to look elsewhere.
+  // Segments it again in other regions.
   void prepare(std::span<const Region> regions, bool around, int threads, int row_threads);
 
   bool fetched() const { return fetched_; }
-  // Whether fetching found a frame: there is none after the last.
+  // Whether there is a frame; false after the last one.
   bool there() const { return there_; }
 
-  // Its evidence, by camera; `time` in s since the video's first frame. The next one can be fetched
-  // then.
+  // Computes its evidence, by camera; `time` in s since the video's first frame. Afterwards the
+  // next frame can be fetched.
   void complete(double time, int threads, SceneEvidence& out);
 
-  // After the last frame: gives back pictures and decoders.
+  // To be called after the last frame: frees images and decoders.
   void close();
 
  private:
@@ -51,7 +51,7 @@ class NextFrame {
   Detections& detections_;
   SceneFrames images_;
   std::vector<PreparedFrame> prepared_;
-  std::vector<double> cpu_seconds_;  // of preparing, by camera
+  std::vector<double> cpu_seconds_;  // of segmentation, by camera
   bool fetched_ = false, there_ = false;
 };
 

@@ -4,14 +4,16 @@
 #include <array>
 #include <cmath>
 
+#include "observation/image.h"
+
 namespace walktrack {
 inline namespace jobs {
 
 namespace {
 
 constexpr size_t kMostFollowed = 2;
-constexpr float kSeen = 0.25f;  // confidence of a point that counts
-// The trunk and a knee or an ankle of a person as shares of their height.
+constexpr float kSeen = 0.25f;  // least confidence of a visible point
+// Lengths of the trunk and of the lower leg of a person as shares of their height.
 constexpr double kTrunkShare = 0.288, kLowerShare = 0.53;
 
 CutOut square(double x, double y, double side) {
@@ -40,7 +42,7 @@ Middle middle_of(const DetectedPerson& person, std::initializer_list<KeypointNam
   return out;
 }
 
-// Whether two squares are around the same person.
+// Whether two squares contain the same person.
 bool alike(const CutOut& a, const CutOut& b) {
   const double apart = std::hypot(a.x0 + a.side_px / 2.0 - b.x0 - b.side_px / 2.0,
                                   a.y0 + a.side_px / 2.0 - b.y0 - b.side_px / 2.0);
@@ -79,7 +81,7 @@ std::vector<CutOut> squares_over(int width_px, int height_px, double person_px) 
   return out;
 }
 
-DetectedPeople PersonFinder::look(PoseNet& net, const cv::Mat& picture, int frame) {
+DetectedPeople PersonFinder::look(PoseNet& net, const Image& picture, int frame) {
   DetectedPeople people;
   std::vector<CutOut> next;
   const auto take = [&](const CutOut& where, bool refine) {

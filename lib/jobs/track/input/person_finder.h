@@ -1,31 +1,32 @@
-// Where a pose network is to look in a picture of one camera.
+// Selects the parts of a camera's image on which the pose network is run.
 //
-// While the subject is tracked, around them. Before, nobody knows: a square that has shown a person
-// is followed to where their points are, for up to two people, and one more square a frame goes
-// over the picture in turn, the whole of it first.
+// While the subject is tracked, it is the square around them. Before, squares with up to two people
+// are moved to the detected points, and one more square in each frame scans the image in turn,
+// beginning with the whole image.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "observation/image.h"
 #include "observation/observer.h"
 #include "observation/pose_net/pose_net.h"
 
 namespace walktrack {
 inline namespace jobs {
 
-// How much larger than a person the square around them is.
+// Size of the square around a person relative to the person.
 inline constexpr double kCutOutMargin = 1.35;
 
-// A square of the picture as recorded around a region of the shrunk image.
+// A square of the recorded image around a region of the shrunk image.
 CutOut cut_out_around(const Region& region, int shrink, double height);
 
-// The square around somebody who was seen; nothing when too little of a person is there. It wants
-// shoulders, hips and a knee or an ankle.
+// The square around a detected person; nullopt unless shoulders, hips and a knee or an ankle were
+// detected.
 std::optional<CutOut> cut_out_around(const DetectedPerson& person);
 
-// Squares that cover a picture: the whole of it, then pieces that show a person of `person_px` at a
-// good size, half overlapping.
+// Squares that cover an image: the whole of it, then overlapping squares in which a person of
+// `person_px` has a suitable size.
 std::vector<CutOut> squares_over(int width_px, int height_px, double person_px);
 
 class PersonFinder {
@@ -33,9 +34,9 @@ class PersonFinder {
   PersonFinder(int width_px, int height_px, double person_px)
       : squares_(squares_over(width_px, height_px, person_px)) {}
 
-  // Looks into the frame of that number.
-  DetectedPeople look(PoseNet& net, const cv::Mat& picture, int frame);
-  // Begins anew.
+  // Runs the network on the frame of that number.
+  DetectedPeople look(PoseNet& net, const Image& picture, int frame);
+  // Forgets the people that were followed.
   void forget() { followed_.clear(); }
 
  private:

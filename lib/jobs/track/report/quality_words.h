@@ -11,15 +11,15 @@ inline namespace jobs {
 
 struct QualityWords {
   std::string_view name, what, unit;
-  int digits;                // after the point
+  int digits;                // number of decimals
   std::string_view meaning;  // one sentence
-  std::string_view advice;   // what to do when the check fails; empty where none can fail
+  std::string_view advice;   // advice if the check fails; empty if it cannot fail
 };
 
-// Every measure there is, in the order in which they are shown.
+// All measures, in the order in which they are shown.
 std::span<const QualityWords> quality_words();
 
-// A measure of that name with its words, without a limit. std::out_of_range for an unknown name.
+// The measure of that name with its texts, without a limit. std::out_of_range for an unknown name.
 QualityMeasure quality_measure(std::string_view name, double value);
 
 }  // namespace jobs

@@ -21,14 +21,14 @@ Json millimetres(double metres) {
   return std::isfinite(metres) ? Json(std::lround(1000 * metres)) : Json();
 }
 
-// To a thousandth: pages are read, not computed with.
+// Rounded to thousandths, because the page only shows the numbers.
 Json rounded(double value) {
   return std::isfinite(value) ? Json(std::round(1000 * value) / 1000) : Json();
 }
 
 Json triple(const Eigen::Vector3d& p) { return {rounded(p.x()), rounded(p.y()), rounded(p.z())}; }
 
-// Where the camera stands and the corners of its picture, one metre ahead of it.
+// The position of the camera and the corners of its image, one metre in front of it.
 Json camera_json(const SceneCamera& scene_camera) {
   const Camera& camera = scene_camera.camera;
   Json corners = Json::array();
@@ -42,7 +42,7 @@ Json camera_json(const SceneCamera& scene_camera) {
           {"corners", corners}};
 }
 
-// A frame's joints in one list x, y, z, x, ...: mm; null where none is known.
+// A frame's joints in one list x, y, z, x, ... in mm; null if unknown.
 Json frame_row(const JointPositions& joints, size_t count) {
   Json row = Json::array();
   bool any = false;

@@ -1,9 +1,9 @@
 // report.html: one page that shows a motion that was tracked or analysed, made from the motion and
 // from its tables.
 //
-// It holds the overlay videos, an interactive view of the figure in space, curves over the gait
-// cycle beside a published normal range, events, diagnostics of the filter, quality checks,
-// settings and run.json itself. Positions in it are in the library's world axes.
+// It contains the overlay videos, an interactive 3-D view of the figure, curves over the gait cycle
+// beside a published normal range, events, diagnostics of the filter, quality checks, settings and
+// run.json itself. Positions in it are in the library's world axes.
 #pragma once
 
 #include <filesystem>
@@ -23,15 +23,15 @@ inline namespace jobs {
 inline constexpr const char* kReportFile = "report.html";
 
 struct ReportInput {
-  std::filesystem::path source;  // the scene or the motion that it is about; for the title
+  std::filesystem::path source;  // the scene or the motion, for the title
   const AnalysedMotion& analysed;
-  const JointUncertainty& uncertainty;   // row by row; or empty
-  std::span<const SceneCamera> cameras;  // may be none
+  const JointUncertainty& uncertainty;   // for each row; or empty
+  std::span<const SceneCamera> cameras;  // may be empty
   std::string run_json;
-  std::vector<ReportClip> clips;  // overlay videos, written
+  std::vector<ReportClip> clips;  // overlay videos that have been written
 };
 
-// Writes report.html into the folder, with the tables that are there; returns its path.
+// Writes report.html into the folder, with the tables that exist; returns its path.
 std::filesystem::path write_report(const ResultFolder& folder, const ReportInput& input);
 
 }  // namespace jobs

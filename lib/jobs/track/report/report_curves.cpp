@@ -41,7 +41,8 @@ Signal named(Signal signal, std::string name, Side side) {
   return signal;
 }
 
-// The sum of signals of equal times, their bands taken as wide as they can be.
+// The sum of signals at equal times. Their bands are added, which is the largest uncertainty that
+// they can have together.
 Signal sum(Signal a, const Signal& b) {
   for (size_t i = 0; i < a.value.size(); ++i) {
     a.value[i] += b.value[i];

@@ -16,23 +16,23 @@ inline namespace jobs {
 
 // A number over time and its 5-95 % band; NaN where unknown.
 struct Signal {
-  std::string name;  // as in normal_gait.csv where that has it, e.g. "knee_flexion"
+  std::string name;  // as in normal_gait.csv if it is there, e.g. "knee_flexion"
   Side side = Side::kLeft;
   std::vector<double> time, value, p05, p95;
 };
 
-// Of angles.csv of a result folder: degrees, forward lean positive.
+// The main angles in angles.csv of a result folder: degrees, forward lean positive.
 std::vector<Signal> angle_signals(const std::filesystem::path& folder);
 
-// The other angles of angles.csv, under its names: degrees, with its signs but for lumbar_extension
-// and trunk_tilt, of which forward is positive here.
+// The other angles in angles.csv, under its names, in degrees and with its signs, except for
+// lumbar_extension and trunk_tilt, of which forward is positive here.
 std::vector<Signal> more_angle_signals(const std::filesystem::path& folder);
 
-// Of kinetics.csv: vertical load of each foot in body weights, moments in N m/kg.
+// From kinetics.csv: vertical load of each foot in body weights, moments in N m/kg.
 std::vector<Signal> load_signals(const ResultFolder& folder, const AnalysedMotion& analysed);
 
 // [{name, side, count, mean, p05, p95: [101 numbers], strides: [{from, to, toe_off, values}]}]:
-// each signal cut at the strikes of its side. Bands are means of the strides' bands.
+// each signal is cut at the foot strikes of its side. Bands are means of the strides' bands.
 nlohmann::ordered_json cycles_json(const std::vector<Signal>& signals, const Gait& gait);
 
 }  // namespace jobs

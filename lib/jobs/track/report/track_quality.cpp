@@ -31,7 +31,7 @@ QualityMeasure at_least(std::string_view name, double value, double limit) {
 
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
 
-// What is counted over the frames of a track.
+// Counts over the frames of a track.
 struct QualityCounts {
   int tracked = 0, lost = 0, moving = 0;  // frames; lost: after the first tracked one
   double p_legs_swapped = 0;              // sum of probabilities
@@ -53,7 +53,7 @@ QualityCounts quality_counts(const TrackedFrames& frames) {
   return out;
 }
 
-// Of a configuration without silhouettes nothing is known, and nothing measured.
+// Without silhouettes nothing is measured.
 void add_overlap(const TrackedFrames& frames, const QualityConfig& limits, Quality& out) {
   std::vector<double> overlaps = mean_overlaps(frames);
   std::erase_if(overlaps, [](double overlap) { return std::isnan(overlap); });
@@ -62,7 +62,7 @@ void add_overlap(const TrackedFrames& frames, const QualityConfig& limits, Quali
       at_least("overlap_percent", 100 * *std::ranges::min_element(overlaps), 100 * limits.overlap));
 }
 
-// What planting feet takes away, of the frames before it.
+// The quality before feet were planted, which hides some errors.
 Quality quality_before(const TrackedFrames& moving, const QualityConfig& limits) {
   const Motion motion = motion_of(moving);
   const Plausibility p = plausibility(motion, gait_from_motion(motion));

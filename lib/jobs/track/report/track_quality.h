@@ -1,5 +1,5 @@
-// The quality of a track, as far as it shows without a truth: numbers, each with the limit of the
-// configuration that it must not exceed.
+// The quality of a track as far as it can be measured without a truth: numbers, each with the limit
+// that the configuration states.
 #pragma once
 
 #include <optional>
@@ -17,36 +17,36 @@ inline namespace jobs {
 
 using Quality = std::vector<QualityMeasure>;
 
-// Somebody moves in a frame in which this much of a picture is newly covered (FrameRecord::moving):
-// a quarter of what a walker covers in that time.
+// A frame contains motion if this much of an image is newly covered (FrameRecord::moving): a
+// quarter of what a walking person covers in that time.
 inline constexpr double kSomebodyMoves = 0.15;  // m^2
 
-// What any motion shows, without limits: feet, ground and trembling are judged by
-// metrics/plausibility.h, swapped legs by metrics/leg_swaps.h. `rate` in Hz.
-// `leg`: the subject's leg length, m.
+// The measures of any motion, without limits: feet, ground and jitter are measured by
+// metrics/plausibility.h, swapped legs by metrics/leg_swaps.h. `rate` in Hz. `leg`: the subject's
+// leg length, m.
 Quality quality_of_motion(const Motion& motion, double rate, double leg);
 
-// The same of a track with its limits, after what was lost, in the order that they are shown in.
-// `moving`: the frames before their feet were planted; the limits on feet are for those, for
-// planted ones tell little of a track that fails.
+// The measures of a track with their limits, in the order in which they are shown, beginning with
+// lost frames. `moving`: the frames before their feet were planted. The limits on feet apply to
+// those, because planted feet hide the errors of a track that fails.
 Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
                    const QualityConfig& limits, double leg);
 
-// In how many of the frames with keypoints the figure is on one of the people detected; nullopt
-// if there are too few of them.
+// The share of the frames with keypoints in which the figure agrees with a detected person; nullopt
+// if there are too few such frames.
 std::optional<QualityMeasure> quality_of_keypoints(const KeypointUse& use,
                                                    const QualityConfig& limits);
 
-// By camera, the mean over the frames that tell of how well the figure lies on the person
-// (FigureFit::overlap); NaN for a camera that tells nothing.
+// By camera, the mean overlap of the figure with the subject (FigureFit::overlap) over the frames
+// in which it is known; NaN if it never is.
 std::vector<double> mean_overlaps(const TrackedFrames& frames);
 
 Quality failures(const Quality& quality);
 
-// What a failed check says: the measure, its value and what is allowed.
+// The message for a failed check: the measure, its value and what is allowed.
 std::string failure_text(const QualityMeasure& failed);
 
-// What the first failed check says against the result; empty if all passed.
+// The message of the first failed check; empty if all passed.
 std::string first_failure(const Quality& quality);
 
 }  // namespace jobs

@@ -32,7 +32,7 @@ std::vector<std::string_view> term_names() {
   return names;
 }
 
-// "evidence.silhouettes.side": a list for every term and camera that says anything.
+// "evidence.silhouettes.side": a list for every term and camera with evidence.
 void add_evidence(const Scene& scene, const TrackedFrames& frames, RunSeries& out) {
   constexpr double kSilent = std::numeric_limits<double>::quiet_NaN();
   const size_t lists = scene.cameras.size() * Terms::kCount;
@@ -55,7 +55,7 @@ void add_evidence(const Scene& scene, const TrackedFrames& frames, RunSeries& ou
 
 std::string overlap_key(const SceneCamera& camera) { return "overlap_percent." + camera.name; }
 
-// How well the figure lies on the person in that camera, by frame; NaN where nothing tells.
+// Overlap of the figure with the subject in that camera, by frame; NaN if there is no evidence.
 std::vector<double> overlap_percents(const TrackedFrames& frames, size_t camera) {
   std::vector<double> out;
   for (const FrameRecord& record : frames.records) {
@@ -66,8 +66,8 @@ std::vector<double> overlap_percents(const TrackedFrames& frames, size_t camera)
   return out;
 }
 
-// Of the reported pelvis over the ground, from the frame before to the one after, m/s; of an end of
-// what was tracked, from or to the frame itself. NaN where there is no figure, or one alone.
+// Speed of the reported pelvis over the ground by central differences, m/s; one-sided at the ends
+// of a tracked interval, and NaN if it has only one frame.
 std::vector<double> pelvis_speeds(const TrackedFrames& frames) {
   const Motion motion = motion_of(frames);
   const auto seen = [&](size_t i) { return known(motion.joints[i][Joint::kPelvis]); };

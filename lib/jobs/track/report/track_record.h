@@ -12,14 +12,14 @@
 namespace walktrack {
 inline namespace jobs {
 
-// Of the frames of a video: `first` is -1 where nobody was tracked, those after it without a track
-// are lost; particles that fell and diverged.
+// Counts over the frames of a video: `first` is -1 if nobody was tracked; frames after it without a
+// track are lost; particles that fell and that diverged.
 struct FrameCounts {
   int tracked = 0, first = -1, lost = 0, fallen = 0, diverged = 0;
 };
 FrameCounts frame_counts(const TrackedFrames& frames);
 
-// The subject's size where the scene leaves it to the images, as a sentence.
+// The estimated size of the subject, if the scene does not state it, as a sentence.
 std::string size_note(const Stature& stature);
 
 RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& run,

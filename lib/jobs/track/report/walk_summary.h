@@ -13,17 +13,17 @@ inline namespace jobs {
 
 struct TrackOutcome;
 
-// A walk in four numbers, those of gait.json. NaN: not known.
+// Four numbers of a walk, as in gait.json. NaN: unknown.
 struct WalkSummary {
-  size_t steps = 0;    // that have a length
+  size_t steps = 0;    // steps whose length is known
   Banded speed;        // m/s
-  Banded cadence;      // steps a minute
+  Banded cadence;      // steps per minute
   Banded step_length;  // m
 };
 WalkSummary walk_summary(const GaitTable& table);
 
-// Some lines: frames and pace, the four numbers with their bands, quality checks that failed with
-// what to do, and the page to open.
+// Text lines: frames and speed of computation, the four numbers with their bands, failed quality
+// checks with advice, and the page to open.
 std::string summary_text(const TrackOutcome& outcome);
 
 // {"format": "walktrack result 1", "command": "track", "status", "exit", "result", "open",

@@ -18,9 +18,9 @@ using anthropometry::kUsualSpeed;
 using Eigen::Vector2d;
 
 constexpr double kShortest = 0.5;  // s, of what is searched
-constexpr double kBetween = 0.4;   // s between frames that are looked at
-constexpr int kMostLooks = 40;     // frames
-constexpr double kFar = 4;         // how many times smaller figures are tried, too
+constexpr double kBetween = 0.4;   // s between inspected frames
+constexpr int kMostLooks = 40;     // inspected frames
+constexpr double kFar = 4;         // factor by which smaller figures are tried as well
 
 // The best figure of a frame, nats; 0 = none is better than an empty scene.
 struct Seen {
@@ -30,7 +30,7 @@ struct Seen {
 
 struct Account {
   Seen best, best_small;
-  double speed = 0;  // m/s, where the best figure was
+  double speed = 0;  // m/s, of the motion at the place of the best figure
 };
 
 class Looker {
@@ -48,11 +48,11 @@ class Looker {
 
   bool has_pictures() const { return setup_.scene.pictures; }
   double height() const { return setup_.scene.model.body.subject.height; }
-  // In the first camera's video.
+  // Height of the subject at a place in the image of the first camera, px.
   double px(const Vector2d& place) const {
     return height_px(searched_.scene.cameras[0].camera, place, height());
   }
-  // The lowest figure that is looked for; 0 if none is.
+  // Height of the smallest figure that is searched; 0 if there is none.
   double least_px() const {
     double least = near_.empty() ? 0 : px(near_[0]);
     for (const Vector2d& place : near_) least = std::min(least, px(place));
@@ -111,7 +111,8 @@ class Looker {
   const SearchedVideo& searched_;
   TrackSetup& setup_;
   PoseTemplates figures_;
-  std::vector<Vector2d> near_, far_;  // places where figures are large enough, and smaller
+  std::vector<Vector2d> near_, far_;  // places at which figures are large enough, and at which they
+                                      // are smaller
 };
 
 std::string in_words(const Account& seen, const Looker& looker, const DetectorConfig& config) {

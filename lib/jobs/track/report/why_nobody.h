@@ -1,5 +1,6 @@
-// The reason for which nobody was found in a video, in words: whether length, size in the picture,
-// foreground or motion was missing, with the number. Frames of the video are read again for this.
+// The reason why no subject was found in a video, in words: whether length, size in the image,
+// foreground or motion was insufficient, with the number. Frames of the video are read again for
+// this.
 #pragma once
 
 #include <span>
@@ -16,14 +17,14 @@ inline namespace jobs {
 
 struct SearchedVideo {
   const Scene& scene;
-  DetectorConfig config;  // for what the scene shows
+  DetectorConfig config;  // adapted to the scene
   const GaitPrior& prior;
   std::span<const Region> everywhere;  // by camera
   int threads;
 };
 
-// `seconds`: how long the video is. Begins with ": "; empty where a start was given, which is no
-// matter of searching.
+// `seconds`: the duration of the video. The text begins with ": "; it is empty if a start was
+// given, because then nothing is searched.
 std::string why_nobody(const SearchedVideo& searched, TrackSetup& setup, double seconds,
                        const JobControl& control);
 
