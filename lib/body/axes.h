@@ -6,7 +6,7 @@
 namespace walktrack {
 inline namespace body {
 
-// Columns x, y, z: z along `up`, y as near to `left` as that allows.
+// Columns x, y, z: z along `up`, y as near to `left` as possible.
 inline Eigen::Matrix3d axes_with_z(const Eigen::Vector3d& up, const Eigen::Vector3d& left) {
   Eigen::Matrix3d out;
   out.col(2) = up.normalized();
@@ -15,7 +15,7 @@ inline Eigen::Matrix3d axes_with_z(const Eigen::Vector3d& up, const Eigen::Vecto
   return out;
 }
 
-// The same with x along `forward`, as feet have it.
+// The same with x along `forward`, for feet.
 inline Eigen::Matrix3d axes_with_x(const Eigen::Vector3d& forward, const Eigen::Vector3d& left) {
   Eigen::Matrix3d out;
   out.col(0) = forward.normalized();

@@ -77,7 +77,7 @@ void add_arm(Body& body, Side side) {
   const Joint elbow = left ? Joint::kLeftElbow : Joint::kRightElbow;
   const Segment upper = left ? Segment::kLeftUpperArm : Segment::kRightUpperArm;
   const Segment fore = left ? Segment::kLeftForearm : Segment::kRightForearm;
-  const double hand = .075 * h;  // a loosely closed hand carries the forearm on
+  const double hand = .075 * h;  // a loosely closed hand extends the forearm
   body.parts.push_back({upper, shoulder, up(-l.upper_arm), up(0), scaled(kElbow, h),
                         scaled(kUpperArmTop, h), Appearance::kTrunk});
   body.parts.push_back({fore, elbow, up(-l.forearm - hand), up(0), scaled(kWrist, h),

@@ -1,4 +1,4 @@
-// The body of one subject: its lengths and the solid parts that cameras see.
+// The body of one subject: its lengths and the solid parts that are seen in images.
 //
 // A part is an elliptic truncated cone between two points of its axis, closed at either end by half
 // an ellipsoid whose third semi-axis is the mean of that end's two. Semi-axes vary linearly along
@@ -16,7 +16,7 @@
 namespace walktrack {
 inline namespace body {
 
-// Classes of clothes and skin that look alike. The likelihood decides which classes it
+// Classes of clothes and skin with equal appearance. The likelihood decides which classes it
 // distinguishes.
 enum class Appearance { kTrunk, kLegs, kFeet, kHead, kArms };
 inline constexpr int kAppearanceCount = 5;
@@ -38,21 +38,22 @@ enum class Segment {
 };
 inline constexpr int kSegmentCount = 12;
 
-// Half widths of a cross-section: along the segment's y (lateral) and x (forward) axes, metres.
+// Half widths of a cross-section along the segment's y (lateral) and x (forward) axes, metres.
 struct CrossSection {
   double lateral, forward;
 };
 
 struct Part {
   Segment segment;
-  Joint origin;           // the joint that `lower` and `upper` are offsets from
-  Eigen::Vector3d lower;  // axis ends in segment axes, metres; lower to upper is along +z for all
-  Eigen::Vector3d upper;  // parts but the feet, which lie along +x (lower = heel, upper = toes)
+  Joint origin;  // the joint to which `lower` and `upper` are relative
+  // Ends of the axis in the segment's axes, metres; from lower to upper is along +z for all parts
+  // except the feet, for which it is along +x (lower = heel, upper = toes).
+  Eigen::Vector3d lower, upper;
   CrossSection at_lower, at_upper;  // feet: `forward` is the half height of the foot
   Appearance appearance;
 };
 
-// More parts than any body has.
+// An upper limit of the number of parts.
 inline constexpr size_t kMaxParts = 24;
 
 struct BodyGroups {

@@ -1,4 +1,4 @@
-// Where a foot stands still.
+// Intervals in which a foot does not move.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 namespace walktrack {
 inline namespace body {
 
-// Frames [first, last] in which the sole of that foot lies flat.
+// Frames [first, last] in which the sole of that foot is flat on the ground.
 struct FlatFoot {
   Side side;
   size_t first, last;

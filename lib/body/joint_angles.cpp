@@ -15,7 +15,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A rotation between body frames, both turned from (forward, left, up) to (forward, up, right).
+// A rotation between body frames, with both converted from (forward, left, up) to (forward, up,
+// right).
 Matrix3d opensim_rotation(const Matrix3d& rotation) {
   Matrix3d turn;
   // clang-format off
@@ -48,8 +49,8 @@ Matrix3d pelvis_from_thigh(const LegPose& leg, double outward) {
          about(Vector3d::UnitZ(), -outward * leg.hip_rotation);
 }
 
-// Five angles of a leg from `first` on. The left leg's adduction and rotation turn about mirrored
-// axes.
+// Sets the five angles of a leg from `first` on. The left leg's adduction and rotation are about
+// mirrored axes.
 void set_leg(const LegPose& leg, double outward, JointAngle first, JointAngles& out) {
   const Vector3d hip = zxy_angles(pelvis_from_thigh(leg, outward));
   const auto at = static_cast<size_t>(first);

@@ -1,4 +1,4 @@
-// Joint angles as gait laboratories and OpenSim name them, from a pose.
+// Joint angles from a pose, with the names of gait laboratories and OpenSim.
 //
 // Grood & Suntay's joint coordinate systems in the order that the ISB recommends for the leg (Wu et
 // al., J. Biomech. 35, 2002) and that OpenSim's Rajagopal and Lai models use: flexion about the

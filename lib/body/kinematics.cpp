@@ -164,7 +164,8 @@ double sole_pitch(const BodyLengths& lengths, const Eigen::Vector2d& ankle_from_
 
 void stand_on(const Body& body, Side side, const Vector3d& ball,
               const Eigen::Vector2d& ankle_from_ball, Pose& pose) {
-  // The foot points where the leg's plane points: heading, turned by the hip's rotation.
+  // The foot points forward in the plane of the leg, i.e. the heading rotated by the hip's
+  // rotation.
   LegPose& leg = pose.legs[index(side)];
   const double toes = pose.heading - outward(side) * leg.hip_rotation;
   const Vector3d ankle_world =

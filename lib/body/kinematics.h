@@ -1,8 +1,8 @@
 // Forward kinematics: pose -> joint centres, segment orientations and posed parts.
 //
-// Standing on a foot: the sole lies flat from strike to heel-off, then turns about the ball, which
-// never moves (model of the three rockers without the first, Perry 1992). The root follows from the
-// ball's place on the ground and the leg's angles.
+// Standing on a foot: the sole is flat from heel strike to heel-off, then rotates about the ball,
+// which does not move (the model of three rockers without the first, Perry 1992). The root follows
+// from the ball's position on the ground and the leg's angles.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@ inline namespace body {
 
 struct Skeleton {
   JointPositions joints;                                          // world
-  std::array<Eigen::Matrix3d, kSegmentCount> world_from_segment;  // unset for groups left out
+  std::array<Eigen::Matrix3d, kSegmentCount> world_from_segment;  // undefined for parts that the
+                                                                  // body lacks
   const Eigen::Matrix3d& axes(Segment s) const {
     return world_from_segment[static_cast<size_t>(s)];
   }
@@ -36,7 +37,8 @@ Eigen::Matrix3d world_from_pelvis(const Pose& pose);
 
 Skeleton forward_kinematics(const Body& body, const Pose& pose);
 
-// A list of at most kMaxParts. Lives on the stack: a particle's likelihood allocates nothing.
+// A list of at most kMaxParts. It is stored on the stack: a particle's likelihood allocates
+// nothing.
 class PosedParts {
  public:
   size_t size() const { return size_; }
@@ -53,24 +55,24 @@ class PosedParts {
   size_t size_ = 0;
 };
 
-// The parts of a skeleton, one for each of body.parts and in their order.
+// The parts of a skeleton, one for each of body.parts in the same order.
 PosedParts pose_parts(const Body& body, const Skeleton& skeleton);
 
-// The hip-to-ankle vector of one leg in the world for root orientation and leg angles of `pose`;
-// the root's position does not matter.
+// The vector from hip to ankle of one leg in the world, for the root's orientation and the leg
+// angles of `pose`; the root's position has no effect.
 Eigen::Vector3d ankle_from_root(const Body& body, const Pose& pose, Side side);
 
-// Ankle relative to the ball for a sole pitched by `pitch` (0 flat, positive = heel up) about its
-// ball: (forward, up), metres.
+// Position of the ankle relative to the ball for a sole with the pitch `pitch` (0 flat, positive =
+// heel up): (forward, up), metres.
 Eigen::Vector2d ankle_from_ball(const BodyLengths& lengths, double pitch);
 
-// The pitch at which the ball lies straight between the ankle and the ball's place on the ground:
-// its inverse where the distance is the foot's.
+// The pitch at which the ball is on the line from the ankle to the ball's position on the ground:
+// the inverse function if the distance is the foot's.
 double sole_pitch(const BodyLengths& lengths, const Eigen::Vector2d& ankle_from_ball);
 
-// Puts the pose's `side` ankle over the foot's place, the ground below its ball, at
-// `ankle_from_ball` along the foot (forward, up), and turns the foot to have its ball there: sets
-// the root and that ankle's dorsiflexion.
+// Sets the root and the ankle's dorsiflexion so that the ankle of `side` is at `ankle_from_ball`
+// along the foot (forward, up) from the foot's position, which is the ground below its ball, and
+// the ball is there.
 void stand_on(const Body& body, Side side, const Eigen::Vector3d& ball,
               const Eigen::Vector2d& ankle_from_ball, Pose& pose);
 

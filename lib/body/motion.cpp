@@ -14,10 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Rows are written with at most 1e-5 s, so times nearer than this are the same instant.
+// Rows are written with at most 1e-5 s, so that times nearer than this are equal.
 constexpr double kSameTime = 2e-5;
 
-// Slope (per second) at row i by the rows around it, NaN if one of them is unknown or missing.
+// Slope (per second) at row i from the rows around it; NaN if one of them is unknown or missing.
 Vector3d central_slope(const Motion& motion, Joint joint, size_t i) {
   if (i == 0 || i + 1 >= motion.time.size())
     return Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -25,7 +25,7 @@ Vector3d central_slope(const Motion& motion, Joint joint, size_t i) {
          (motion.time[i + 1] - motion.time[i - 1]);
 }
 
-// Between rows i and i + 1 at the share s in (0, 1).
+// Interpolates between rows i and i + 1 at the share s in (0, 1).
 Vector3d between(const Motion& motion, Joint joint, size_t i, double s) {
   const Vector3d& from = motion.joints[i][joint];
   const Vector3d& to = motion.joints[i + 1][joint];
@@ -33,7 +33,7 @@ Vector3d between(const Motion& motion, Joint joint, size_t i, double s) {
   Vector3d start = step * central_slope(motion, joint, i);
   Vector3d end = step * central_slope(motion, joint, i + 1);
   if (!known(start) && !known(end)) return (1 - s) * from + s * to;
-  // With one slope unknown, the parabola through both points with the other slope.
+  // If one slope is unknown, the parabola through both points with the other slope.
   if (!known(start)) start = 2 * (to - from) - end;
   if (!known(end)) end = 2 * (to - from) - start;
   const double s2 = s * s, s3 = s2 * s;

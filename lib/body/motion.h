@@ -1,5 +1,5 @@
-// A motion: joint centres over time, as joints.csv holds it. It is what is tracked, rendered and
-// evaluated; what nobody knows is NaN.
+// A motion: joint centres over time, as in joints.csv, which is tracked, rendered and evaluated.
+// Unknown values are NaN.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,8 @@ struct Motion {
 
 inline bool known(const Eigen::Vector3d& point) { return point.allFinite(); }
 
-// Motions over the same times that are as likely as another one, handed out one at a time: each is
-// as long as the video.
+// Motions over the same times that are as likely as another one, returned one at a time, because
+// each is as long as the video.
 struct Ensemble {
   size_t size = 0;
   std::function<Motion(size_t index)> member{};
@@ -34,14 +34,14 @@ JointPositions unknown_joints();
 // Median time between rows, s. Throws InputError for fewer than two rows.
 double sample_period(const Motion& motion);
 
-// The stature whose thighs and shanks are as long as the motion's; the default subject's if none is
-// known. Metres.
+// The stature, in metres, that fits the lengths of the motion's thighs and shanks; the default
+// subject's if none is known.
 double stature_of(const Motion& motion);
 
-// The motion at other times (increasing): each joint by the cubic through its two known neighbours
-// with slopes of central differences (Catmull & Rom 1974), by the line through them where a slope
-// is unknown. A row of the motion at one of the times comes through unchanged. Unknown outside the
-// motion and between rows further apart than `longest_gap` seconds.
+// The motion at other times (increasing): each joint is interpolated by the cubic through its two
+// known neighbours with central differences as slopes (Catmull & Rom 1974), or linearly if a slope
+// is unknown. A row of the motion at one of the times is not changed. Unknown outside the motion
+// and between rows further apart than `longest_gap` seconds.
 Motion resampled(const Motion& motion, std::span<const double> times, double longest_gap);
 
 }  // namespace body

@@ -1,15 +1,14 @@
-// One pose of the body in 3-D and the joints that it puts where.
+// One pose of the body in 3-D, and its joints.
 //
 // Sixteen numbers: root position (3), heading, list and tilt, and for each leg hip flexion,
-// abduction and rotation, knee flexion, ankle dorsiflexion. While a foot stands, the root's
-// position follows from the foot (body/kinematics.h), so 13 of them and the foot's place are free.
-// Arms are an optional group. body/pose_numbers.h has them all in a table.
+// abduction and rotation, knee flexion, ankle dorsiflexion. While a foot is on the ground, the
+// root's position follows from the foot (body/kinematics.h), so that 13 of them and the foot's
+// position are free. Arms are an optional group. body/pose_numbers.h has a table of all numbers.
 //
 //   world_from_pelvis = Rz(heading) Rx(list) Ry(tilt)      world_from_trunk = Rz(heading) Ry(tilt)
-//   pelvis_from_thigh = Rx(o * abduction) Ry(-hip_flexion) Rz(-o * rotation), o = +1 left, -1
-//   right:
-//                       abduction moves the foot outwards on either side, rotation > 0 turns the
-//                       toes inwards
+//   pelvis_from_thigh = Rx(o * abduction) Ry(-hip_flexion) Rz(-o * rotation),
+//                       o = +1 left, -1 right: abduction moves the foot outwards on either side,
+//                       rotation > 0 turns the toes inwards
 //   thigh_from_shank  = Ry(knee_flexion)
 //   shank_from_foot   = Ry(-dorsiflexion)
 // Angles in radians, positions in metres, world axes (core/conventions.h).
@@ -27,7 +26,7 @@ enum class Side { kLeft = 0, kRight = 1 };
 
 inline constexpr Side other(Side side) { return side == Side::kLeft ? Side::kRight : Side::kLeft; }
 
-// Which way is outwards for a side: +1 is left.
+// The sign of y on that side of the body: +1 is left.
 inline constexpr double outward(Side side) { return side == Side::kLeft ? 1.0 : -1.0; }
 
 struct LegPose {

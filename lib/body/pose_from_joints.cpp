@@ -15,10 +15,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kFootWeight = 0.3;     // equals a knee flexed by 17 degrees
-constexpr double kShortestBone = 1e-6;  // m; below it a direction means nothing
+constexpr double kFootWeight = 0.3;     // as much as a knee that is flexed by 17 degrees
+constexpr double kShortestBone = 1e-6;  // m; below it a direction is undefined
 
-// Signed angle from a to b seen along the unit vector `axis`.
+// Signed angle from a to b about the unit vector `axis`.
 double angle_about(const Vector3d& axis, const Vector3d& a, const Vector3d& b) {
   return std::atan2(axis.dot(a.cross(b)), a.dot(b) - axis.dot(a) * axis.dot(b));
 }
@@ -47,8 +47,8 @@ void set_leg(const JointPositions& joints, const BodyLengths& lengths, Side side
   set_hip(world_from_pelvis.transpose() * frame(thigh, axis), side, leg);
   leg.knee_flexion = angle_about(axis, thigh, shank);
   if (!known(joints[toe(side)])) return;
-  // Dorsiflexion lifts the toes: a turn about the right-pointing axis from where the foot points
-  // when it is neutral.
+  // Dorsiflexion lifts the toes: it is a rotation about the right-pointing axis from the neutral
+  // direction of the foot.
   const Vector3d ball = joints[toe(side)] - joints[ankle(side)];
   const double neutral =
       std::atan2(lengths.ball_height - lengths.ankle_height, lengths.ball_forward);

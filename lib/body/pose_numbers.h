@@ -1,5 +1,5 @@
-// A pose as a vector: the one table of its numbers. What goes over all numbers of a pose, to weigh,
-// smooth, fit or compare it, goes over this table.
+// A pose as a vector: the table of its numbers. Code that weights, smooths, fits or compares all
+// numbers of a pose iterates over this table.
 #pragma once
 
 #include <array>
@@ -19,19 +19,19 @@ enum class Limb { kTrunk, kLeg, kArm };
 struct PoseNumber {
   std::string_view name;
   Unit unit = Unit::kRadian;
-  // How far a person's number is from that of the walker that fits them: standard deviation, in the
-  // unit. By hand; all halved 13.1 mm and all doubled 14.5 mm on the made walks
-  // (tracker/reports/reported_pose.md).
+  // Standard deviation of the difference between a person's number and that of the walker that fits
+  // them, in the unit. By hand; with all halved the error is 13.1 mm and with all doubled 14.5 mm
+  // on the generated walks (tracker/reports/reported_pose.md).
   double spread = 0;
-  // Root mean square of its acceleration in people who walk, unit / s^2: of the eight walks of
-  // motion capture that development used (tracker/reports/reported_pose.md). Hips' rotation and
-  // arms by hand.
+  // Root mean square of its acceleration in people who walk, unit / s^2: from the eight walks of
+  // motion capture that were used for development (tracker/reports/reported_pose.md). Hips'
+  // rotation and arms by hand.
   double acceleration = 0;
   bool sideways = false;  // leaves the upright plane of the heading
-  bool turns = false;     // values a whole turn apart are the same
+  bool turns = false;     // values that differ by a whole turn are equal
   double lowest = -std::numeric_limits<double>::infinity();
 
-  // Where it is in a pose: of one of these.
+  // Its member in a pose: one of these.
   int axis = 0;
   double Pose::*trunk = nullptr;
   double LegPose::*leg = nullptr;
@@ -47,7 +47,7 @@ struct PoseNumber {
     if (arm != nullptr) return pose.arms[static_cast<size_t>(side)].*arm;
     return trunk != nullptr ? pose.*trunk : pose.root[axis];
   }
-  // From one value of the number to another, by the shorter way.
+  // The difference between two values of the number, the smaller one for angles that turn.
   double difference(double from, double to) const {
     return turns ? std::remainder(to - from, 2 * kPi) : to - from;
   }
@@ -98,14 +98,14 @@ constexpr PoseNumber arm(std::string_view name, Side side, double ArmPose::*angl
 }  // namespace pose_numbers
 
 inline constexpr std::array kPoseNumbers{
-    // What there is once: name, axis or angle, spread, acceleration, sideways.
+    // Single numbers: name, axis or angle, spread, acceleration, sideways.
     pose_numbers::root("root_x", 0, .02, 2.7),
     pose_numbers::root("root_y", 1, .02, 2.7),
     pose_numbers::root("root_z", 2, .01, 2.5),
     pose_numbers::heading(.09, 4),
     pose_numbers::trunk("list", &Pose::list, .035, 5, true),
     pose_numbers::trunk("tilt", &Pose::tilt, .05, 5, false),
-    // Of each side: name, side, angle, spread, acceleration, sideways.
+    // Numbers of each side: name, side, angle, spread, acceleration, sideways.
     pose_numbers::leg("lhip_flexion", Side::kLeft, &LegPose::hip_flexion, .09, 20),
     pose_numbers::leg("lhip_abduction", Side::kLeft, &LegPose::hip_abduction, .05, 10, true),
     pose_numbers::leg("lhip_rotation", Side::kLeft, &LegPose::hip_rotation, .09, 10, true),

@@ -9,11 +9,11 @@ namespace {
 
 using namespace anthropometry;
 
-// Further shares of the stature; see the header for the sources. The ball stands at 72 % of the
-// foot's length from the heel and the ankle at 23 % (Winter fig. 4.1 and table 4.1); C7 lies .040 H
-// above the shoulders' height .818 H, the head's centre midway between chin .870 H and vertex
-// (Drillis & Contini). Hip centres: Seidel et al., J. Biomech. 28 (1995), 14 % of the pelvic width
-// inside the anterior iliac spines, about .100 H apart.
+// Further shares of the stature; see the header for the sources. The ball is at 72 % of the foot's
+// length from the heel and the ankle at 23 % (Winter fig. 4.1 and table 4.1); C7 is .040 H above
+// the shoulders' height .818 H, the head's centre is midway between chin .870 H and vertex (Drillis
+// & Contini). Hip centres: Seidel et al., J. Biomech. 28 (1995), 14 % of the pelvic width inside
+// the anterior iliac spines, about .100 H apart.
 constexpr double kFoot = .152;
 constexpr double kBallForward = .49, kBallHeight = .0125;
 constexpr double kHipWidth = .100, kNeckAboveTrunk = .040, kHeadAboveTrunk = .117;

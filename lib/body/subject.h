@@ -1,4 +1,4 @@
-// The subject who is tracked: stature and mass give every segment.
+// The subject who is tracked. Stature and mass determine every segment.
 //
 // Segment lengths: core/anthropometry.h, and Winter, "Biomechanics and Motor Control of Human
 // Movement", 4th ed. 2009, table 4.1 (Dempster) and fig. 4.1 (Drillis & Contini).
@@ -11,7 +11,7 @@
 namespace walktrack {
 inline namespace body {
 
-// Lengths that a scene may state; the others follow from the stature. Metres.
+// Lengths that a scene may state, metres; the others follow from the stature.
 struct SubjectLengths {
   std::optional<double> thigh, shank, foot, ankle_height, trunk, hip_width, shoulder_width,
       upper_arm, forearm;
@@ -42,7 +42,7 @@ struct BodyLengths {
 
 BodyLengths body_lengths(const Subject& subject);
 
-// Length of the straight leg from the hip centre to the sole: the unit of dimensionless gait.
+// Length of the straight leg from the hip centre to the sole, the unit of dimensionless gait.
 double leg_length(const BodyLengths& lengths);
 
 }  // namespace body

@@ -19,16 +19,15 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A model that behaves up to this normalised radius (85 degrees off the axis) is trusted
+// A lens model that is one to one up to this normalised radius (85 degrees off the axis) is used
 // everywhere.
 constexpr double kLargestRadius = 11.4;
-// Where the bent radius grows slower or faster than this per radius, the model is about to fold or
-// near a pole.
+// Limits of the slope of the distorted radius, near which the model folds over or has a pole.
 constexpr double kSmallestSlope = 0.05;
 constexpr double kLargestSlope = 10;
 constexpr double kRadiusStep = 0.002;
 
-// cv::detail::computeTiltProjectionMatrix: the sensor turned by tau_x, tau_y about its axes.
+// cv::detail::computeTiltProjectionMatrix: the sensor rotated by tau_x, tau_y about its axes.
 Matrix3d tilt_matrix(double tau_x, double tau_y) {
   const double cx = std::cos(tau_x), sx = std::sin(tau_x);
   const double cy = std::cos(tau_y), sy = std::sin(tau_y);
@@ -113,11 +112,12 @@ Bent bend_everywhere(const Camera& camera, const Vector2d& point) {
           rim.point * unit.transpose() / camera.trusted_radius + rim.jacobian * across};
 }
 
-// Whether the lens still spreads the rays at this radius: along sixteen spokes (one of a fisheye,
-// which is the same all around), the bent point moves outwards with the point, and neither folds
-// (slope 0) nor flies to a pole (slope infinite).
+// Whether the lens model is one to one at this radius: along sixteen spokes (one for a fisheye,
+// which is symmetric), the distorted point moves outwards with the point, and its slope is neither
+// near 0 nor near infinity.
 bool spreads(const Camera& camera, double radius) {
-  // The tangent of an angle flattens by nature; of a fisheye it counts that the angle grows.
+  // The slope of an arc tangent is small by nature; for a fisheye the growth of the angle is
+  // tested.
   const bool fisheye = camera.lens == Lens::kFisheye;
   const double stretch = fisheye ? 1 + radius * radius : 1;
   const int spokes = fisheye ? 1 : 16;
@@ -193,7 +193,7 @@ Vector2d distort_any(const Camera& camera, const Vector2d& point, Matrix2d* d_di
 
 std::optional<Vector2d> undistort(const Camera& camera, const Vector2d& distorted) {
   if (camera.lens == Lens::kPinhole) return distorted;
-  // Damped Newton; the map is one to one, so a handful of steps does. 1e-12 normalised is 1e-9 px.
+  // Damped Newton; the map is one to one, so that few steps suffice. 1e-12 normalised is 1e-9 px.
   constexpr int kMaxSteps = 50;
   constexpr double kTolerance = 1e-12;
   Vector2d point = distorted;
@@ -219,7 +219,7 @@ std::optional<Vector2d> undistort(const Camera& camera, const Vector2d& distorte
     }
     if (!better) break;
   }
-  // Rounding may stop the steps a little above the tolerance; a real miss is far larger.
+  // Rounding may stop the steps slightly above the tolerance; a real failure is far larger.
   if (!(miss < 1e-9 * (1 + distorted.norm()))) return std::nullopt;
   return point;
 }

@@ -15,14 +15,15 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kPlacesAlongASide = 32;  // of the grid of pixels that a place to stand is sought on
-constexpr int kBorderPoints = 16;      // a side
+constexpr int kPlacesAlongASide = 32;  // of the grid of pixels on which a place to stand is
+                                       // searched
+constexpr int kBorderPoints = 16;      // on each side
 
 Vector2d last_pixel(const Camera& camera) {
   return {camera.width_px - 1.0, camera.height_px - 1.0};
 }
 
-// The point on the ground under a pixel, if it is not further than kFarthestGround.
+// The point on the ground below a pixel, if it is not further than kFarthestGround.
 std::optional<Vector2d> near_ground(const Camera& camera, const Vector2d& pixel) {
   const auto point = ground_point(camera, pixel);
   if (!point || (*point - camera_centre(camera)).norm() > kFarthestGround) return std::nullopt;

@@ -1,5 +1,5 @@
-// What a calibration says about where a camera stands and what it sees, in words that a person can
-// compare with the room.
+// Describes a calibrated camera, its position and its view, in numbers that a person can compare
+// with the room.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,12 @@ inline namespace camera {
 struct CameraInspection {
   Eigen::Vector3d centre;      // world, m
   double tilt = 0;             // of the optical axis below the horizon, rad
-  double roll = 0;             // turn of the image about the axis, rad; pi = upside down
-  double horizontal_view = 0;  // angle between the middles of the left and right edge, rad
-  double vertical_view = 0;    // of the upper and lower edge, rad
-  std::vector<Eigen::Vector2d> footprint;  // ground seen along the image's border, m; may be empty
-  // Where on the ground a person is seen whole, about in the middle of the image and half as high
-  // as it; nullopt if nowhere within kFarthestGround.
+  double roll = 0;             // rotation of the image about the axis, rad; pi = upside down
+  double horizontal_view = 0;  // angle between the middles of the left and right edges, rad
+  double vertical_view = 0;    // of the upper and lower edges, rad
+  std::vector<Eigen::Vector2d> footprint;  // ground along the image's border, m; may be empty
+  // A place on the ground at which a person is completely visible, near the middle of the image and
+  // half as high as it; nullopt if there is none within kFarthestGround.
   std::optional<Eigen::Vector2d> standing_place;
   double person_px = 0;  // height of the person there in the image
 };
@@ -30,7 +30,7 @@ inline constexpr double kFarthestGround = 100;  // m from the camera
 // `person_height` in metres.
 CameraInspection inspect_camera(const Camera& camera, double person_height);
 
-// Whether a person who stands there is seen from the feet to the top of the head.
+// Whether a person who stands there is visible from the feet to the top of the head.
 bool sees_person(const Camera& camera, const Eigen::Vector2d& place, double person_height);
 
 // Whether the lens model is one to one over the whole image.

@@ -20,14 +20,14 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// height (m), tilt, roll (rad), logarithms of the focal length's and the stature's shares of what
-// was assumed
+// height (m), tilt, roll (rad), logarithms of the ratios of focal length and stature to the assumed
+// ones
 enum Unknown : Eigen::Index { kHeight, kTilt, kRoll, kLogFocal, kLogStature, kUnknowns };
 using Place = Eigen::Matrix<double, kUnknowns, 1>;
 
-// Of what cannot be seen, a residual that no place wants, standard deviations.
+// Residual of impossible values, in standard deviations.
 constexpr double kImpossible = 1e9;
-// What is certain is as good as this, share.
+// Smallest relative standard deviation, for values that are stated as certain.
 constexpr double kCertain = 1e-6;
 
 double focal_of(const Place& place, const ViewAssumptions& given) {
@@ -52,7 +52,7 @@ Camera camera_at(const Place& place, const ViewAssumptions& given) {
   return camera;
 }
 
-// The row of the head of somebody whose feet are there.
+// The row of the head of a person whose feet are there.
 std::optional<double> head_row(const Camera& camera, const SeenStature& seen, double stature) {
   const auto foot = ground_point(camera, {seen.u_px, seen.bottom_px});
   if (!foot) return std::nullopt;
@@ -62,14 +62,15 @@ std::optional<double> head_row(const Camera& camera, const SeenStature& seen, do
 
 double size_px(const SeenStature& seen) { return seen.bottom_px - seen.top_px; }
 
-// How much longer the floor's length is than it should be, m; nothing above the horizon.
+// The difference between the computed and the stated length on the floor, m; nullopt above the
+// horizon.
 std::optional<double> excess(const Camera& camera, const FloorLength& length) {
   const auto from = ground_point(camera, length.from_px), to = ground_point(camera, length.to_px);
   if (!from || !to) return std::nullopt;
   return (*to - *from).norm() - length.metres;
 }
 
-// Misses of rows and lengths and of what was assumed, in standard deviations.
+// Residuals of rows, lengths and assumptions, in standard deviations.
 struct Misses {
   std::span<const SeenStature> positions;
   const ViewAssumptions& given;
@@ -88,7 +89,7 @@ struct Misses {
     for (Eigen::Index i = 0; i < lengths; ++i) {
       const FloorLength& length = given.floor[static_cast<size_t>(i)];
       const auto longer = excess(camera, length);
-      // Two points, each off by as much, along the line between them.
+      // Both points have independent errors along the line between them.
       const double sd = std::numbers::sqrt2 * given.point_sd_px * length.metres /
                         (length.to_px - length.from_px).norm();
       out[rows + i] = longer ? *longer / sd : kImpossible;
@@ -107,7 +108,7 @@ struct Fit {
   double residual = 0;
 };
 
-// From a level camera.
+// Begins with a level camera.
 std::optional<Fit> fit(std::span<const SeenStature> positions, const ViewAssumptions& given) {
   const Misses misses{positions, given};
   const SeenStature& middle = positions[positions.size() / 2];
@@ -115,7 +116,7 @@ std::optional<Fit> fit(std::span<const SeenStature> positions, const ViewAssumpt
   Place place = Place::Zero();
   place[kHeight] = given.stature * std::max(0.05, (middle.bottom_px - horizon) / size_px(middle));
   place[kTilt] = given.tilt;
-  // Feet above the assumed horizon: the camera looks further down than was thought.
+  // Feet are above the assumed horizon: the camera is tilted further down than assumed.
   for (double down = 0; !misses.possible(place) && down < 3; down += 0.5)
     place[kTilt] = given.tilt + down * given.tilt_sd;
   if (!misses.possible(place)) return std::nullopt;
@@ -150,7 +151,7 @@ double floor_rms(const Camera& camera, const std::vector<FloorLength>& floor) {
   return floor.empty() ? 0 : std::sqrt(sum / static_cast<double>(floor.size()));
 }
 
-// A length that is not below the horizon of a camera as assumed cannot be on the floor.
+// Refuses lengths that are not below the horizon of the assumed camera, and cannot be on the floor.
 void check_floor(const ViewAssumptions& given) {
   Place place = Place::Zero();
   place[kHeight] = 1;
@@ -178,8 +179,8 @@ WalkerView view_from_walker(std::span<const SeenStature> positions, const ViewAs
         middle.bottom_px, 0.5 * (given.height_px - 1) - given.focal_px * std::tan(given.tilt)));
   const Numbers values = numbers_of(best->place, middle, given);
   Numbers variances = Numbers::Zero();
-  // What rows and lengths leave open, along the axes of its covariance.
-  constexpr double kSmall = 0.1;  // of a deviation, for which all is linear
+  // The uncertainty that rows and lengths leave, along the axes of its covariance.
+  constexpr double kSmall = 0.1;  // share of a deviation for which functions are nearly linear
   const Eigen::MatrixXd root = best->covariance.llt().matrixL();
   for (int k = 0; k < kUnknowns; ++k)
     variances +=

@@ -14,8 +14,8 @@ WorldFrame world_frame_on_ground(const Eigen::Vector3d& normal, double offset) {
   }
   const Eigen::Vector3d up = normal / length;
   WorldFrame frame;
-  // FromTwoVectors leaves the axis open when the normal points straight down: take x, so that
-  // y and z change sign.
+  // FromTwoVectors does not determine the axis if the normal points straight down: x is chosen, so
+  // that y and z change sign.
   if (up.z() < -1 + 1e-12) {
     frame.rotation = Eigen::Vector3d(1, -1, -1).asDiagonal();
   } else {

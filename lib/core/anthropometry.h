@@ -1,5 +1,5 @@
 // Average proportions of an adult, as shares of the stature H, of the body mass M, or of a
-// segment's length. One copy for the walkers, the drawn body and the forces.
+// segment's length, for the walkers, the drawn body and the forces.
 //
 // Sources: lengths, Drillis & Contini 1966, in Winter, "Biomechanics and Motor Control of Human
 // Movement", 4th ed. 2009, fig. 4.1; masses, centres of mass (from the proximal end) and radii of
@@ -10,7 +10,7 @@ namespace walktrack {
 inline namespace core {
 namespace anthropometry {
 
-// Lengths, shares of H. The ankle's is its height over the sole.
+// Lengths, shares of H; kAnkleHeight is the height above the sole.
 inline constexpr double kThigh = .245, kShank = .246, kAnkleHeight = .039, kTrunk = .288;
 
 struct SegmentShares {
@@ -28,11 +28,11 @@ inline constexpr SegmentShares kUpperArmShares{.028, .436, .322};
 inline constexpr SegmentShares kForearmAndHand{.022, .682, .468};
 inline constexpr SegmentShares kWholeArm{.050, .530, .368};
 
-// m/s where nothing else is known. By hand; adults choose 1.2 to 1.5 (Bohannon 1997, Age and Ageing
-// 26, 15-19).
+// m/s, used if nothing else is known. By hand; adults choose 1.2 to 1.5 (Bohannon 1997, Age and
+// Ageing 26, 15-19).
 inline constexpr double kUsualSpeed = 1.25;
 
-// Knee flexion at which the heel meets the thigh, degrees. By hand; passive limits are 140 to 155
+// Knee flexion at which the heel touches the thigh, degrees. By hand; passive limits are 140 to 155
 // (Roach & Miles 1991, Physical Therapy 71, 656-665). Walking stays below 70.
 inline constexpr double kDeepestKneeBendDeg = 150;
 

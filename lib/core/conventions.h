@@ -1,7 +1,7 @@
-// The conventions of the whole library, in one place.
+// The conventions of the whole library.
 //
 // World (right-handed, metres, seconds, kilograms, radians), ground plane z = 0, z up. Calibration
-// files may use other axes; they are turned into these on reading and back on writing.
+// files may use other axes, which are converted on reading and on writing.
 //
 //        z up                     Body frame of a part: x forward, y left, z up along the part.
 //        |   y left
@@ -11,8 +11,8 @@
 //                                   w(a) = ( cos a, -sin a) forward of the part
 //
 // Walking forward has positive rates. Knee flexion = shank angle - thigh angle >= 0. Hip flexion =
-// torso angle - thigh angle. A slope tilts gravity, never the ground: g (sin s, -cos s), s > 0
-// down.
+// torso angle - thigh angle. A slope tilts gravity, not the ground: g (sin s, -cos s), where s > 0
+// is downhill.
 //
 // Transforms are named target_from_source (x_camera = camera_from_world * x_world). Other units
 // than SI are in the name: _deg, _mm, _px, _ms.
@@ -28,7 +28,7 @@ inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kStandardGravity = 9.80665;  // m/s^2
 inline constexpr double kMetresPerMillimetre = 1e-3;
 
-// A number that is not known: an empty cell of a table, a joint that nobody saw.
+// Stands for an unknown number: an empty cell of a table, a joint that was not tracked.
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 inline constexpr double deg_from_rad(double angle) { return angle * (180.0 / kPi); }

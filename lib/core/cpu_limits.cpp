@@ -31,7 +31,7 @@ std::optional<double> positive(std::string_view word) {
   return static_cast<double>(number);
 }
 
-// Up to the first `at`, which goes, too.
+// Cuts off and returns the text before the first `at`, which is removed as well.
 std::string_view cut(std::string_view& text, char at) {
   const std::string_view before = text.substr(0, text.find(at));
   text.remove_prefix(std::min(before.size() + 1, text.size()));
@@ -51,7 +51,7 @@ void add_with_parents(const fs::path& hierarchy, const fs::path& group,
   out.push_back(hierarchy);
 }
 
-// Empty where there is no such file.
+// The content of the file; empty if there is no such file.
 std::string text_of(const fs::path& path) {
   std::ifstream stream(path);
   return {std::istreambuf_iterator<char>(stream), {}};
@@ -90,7 +90,7 @@ std::vector<fs::path> cpu_groups(std::string_view proc_self_cgroup) {
     const std::string_view controllers = cut(line, ':');
     if (second_version && controllers.empty()) {
       add_with_parents(mounted, line, out);
-      add_with_parents(mounted / "unified", line, out);  // beside groups of version 1
+      add_with_parents(mounted / "unified", line, out);  // present beside groups of version 1
     } else if (limits_cpu(controllers)) {
       add_with_parents(mounted / controllers, line, out);
     }

@@ -20,7 +20,7 @@ namespace {
 using Residuals = std::function<VectorXd(const VectorXd&)>;
 
 constexpr int kMostEvaluations = 200;
-constexpr double kDifference = 1e-5;  // of slopes: the cube root of what a double resolves
+constexpr double kDifference = 1e-5;  // step for slopes: the cube root of the precision of a double
 
 MatrixXd slopes(const Residuals& residuals, const VectorXd& x) {
   MatrixXd out;
@@ -35,7 +35,7 @@ MatrixXd slopes(const Residuals& residuals, const VectorXd& x) {
   return out;
 }
 
-// As Eigen's solver wants its problem.
+// The problem in the form that Eigen's solver expects.
 struct Problem {
   const Residuals& of;
   Eigen::Index count;

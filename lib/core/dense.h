@@ -1,5 +1,5 @@
 // Solvers for small dense systems. Eigen's are templates, which take seconds to compile for every
-// size of matrix and every source; these are compiled once, for all sizes.
+// size of matrix in every source; these are compiled once, for all sizes.
 #pragma once
 
 #include <functional>
@@ -13,28 +13,28 @@ inline namespace core {
 // & Van Loan 2013, 5.5.2).
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
-// The matrix that takes every b there.
+// The pseudo-inverse, which maps any b to that x.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
 
-// Of a square matrix, the largest absolute value first, of a conjugate pair that with the positive
-// imaginary part.
+// The eigenvalues of a square matrix, the largest absolute value first, and of a conjugate pair the
+// one with the positive imaginary part first.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a);
 
-// Orthonormal columns that span the x with a x = 0. All of space where `a` has no rows.
+// Orthonormal columns that span the solutions of a x = 0. All of space if `a` has no rows.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& a);
 
-// Where a sum of squares is least.
+// The minimum of a sum of squares.
 struct LeastSquaresFit {
   Eigen::VectorXd x, residuals;
   Eigen::MatrixXd jacobian;  // d residuals / d x
 
-  // (J^T J)^-1: of x, where residuals are in standard deviations (Gauss & Markov).
+  // (J^T J)^-1: the covariance of x if residuals are in standard deviations (Gauss & Markov).
   Eigen::MatrixXd covariance() const;
 };
 
-// The x near `start` at which the squares of residuals(x) add up to the least (Levenberg 1944,
-// Marquardt 1963; MINPACK's, Moré 1978, in Eigen), with slopes by central differences: unknowns are
-// to be of the order of 1. There are at least as many residuals as unknowns, always as many.
+// The x near `start` that minimises the sum of squares of residuals(x) (Levenberg 1944, Marquardt
+// 1963; MINPACK's, Moré 1978, in Eigen), with slopes by central differences: unknowns should be of
+// the order of 1. The number of residuals is constant, and not less than that of unknowns.
 LeastSquaresFit minimise_squares(
     const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& residuals,
     const Eigen::VectorXd& start);

@@ -15,7 +15,8 @@ std::string describe(const InputPlace& place, std::string_view found, std::strin
   if (!place.key.empty()) text += fmt::format("{}: ", place.key);
   text += fmt::format("found {}", found);
   if (!allowed.empty()) text += fmt::format(", allowed: {}", allowed);
-  // One line, which does nothing to a terminal, whatever was found.
+  // Replaces line breaks and control characters, so that the message is one line and does no harm
+  // to a terminal.
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
   return text;
@@ -23,7 +24,7 @@ std::string describe(const InputPlace& place, std::string_view found, std::strin
 
 namespace {
 
-// Letters inserted, left out, replaced, or exchanged with their neighbour.
+// Counts letters that are inserted, left out, replaced, or swapped with their neighbour.
 size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   std::iota(last.begin(), last.end(), size_t{0});
@@ -47,7 +48,8 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   std::string best;
   size_t best_distance = std::max<size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    // Lengths bound the distance from below: words of a megabyte, say, are near to nothing.
+    // The difference of lengths is a lower bound of the distance, which excludes very long words
+    // quickly.
     const size_t longer = std::max(word.size(), candidate.size());
     const size_t shorter = std::min(word.size(), candidate.size());
     if (longer - shorter >= best_distance) continue;

@@ -1,5 +1,5 @@
-// Errors that a user can cause and cure. The library throws them; only main() and the batch loop
-// catch. The exit code of the program follows from the type (see apps/main.cpp).
+// Errors that a user can cause and correct. The library throws them; only main() and the batch loop
+// catch them. The exit code of the program follows from the type (see apps/main.cpp).
 #pragma once
 
 #include <stdexcept>
@@ -22,18 +22,18 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Where a bad value stands. Empty or zero parts are left out of the message.
+// The place of a wrong value. Empty or zero parts are left out of the message.
 struct InputPlace {
   std::string file;
   int line = 0;     // counted from 1
   std::string key;  // dotted path inside the file, e.g. "cameras[0].video"
 };
 
-// "file:line: key: found X, allowed Y" - the one shape of every message about an input.
+// "file:line: key: found X, allowed Y", the form of every message about an input.
 std::string describe(const InputPlace& place, std::string_view found, std::string_view allowed);
 
-// The candidate nearest to `word` by edit distance (neighbours exchanged are one edit), or "" when
-// none is within a third of its length.
+// The candidate nearest to `word` by edit distance (swapped neighbours are one edit), or "" if none
+// is within a third of its length.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace core

@@ -1,5 +1,6 @@
-// How a long job talks to whoever started it: it reports how far it is and asks whether it should
-// stop. Both are optional; a job that is told to stop keeps what it has done and says so.
+// The communication of a long job with its caller: it reports its progress and asks whether it
+// should stop. Both are optional; a job that is interrupted keeps the part that it has done and
+// reports it.
 #pragma once
 
 #include <atomic>
@@ -13,12 +14,12 @@ inline namespace core {
 struct Progress {
   std::string_view what;  // e.g. "tracking"
   size_t done = 0;
-  size_t total = 0;  // 0 = not known
+  size_t total = 0;  // 0 = unknown
 };
 
 struct JobControl {
   std::function<void(const Progress&)> report{};    // may be empty
-  std::function<void(std::string_view)> message{};  // one line worth knowing; may be empty
+  std::function<void(std::string_view)> message{};  // a remark of one line; may be empty
   const std::atomic<bool>* stop_request = nullptr;
 
   void progress(std::string_view what, size_t done, size_t total) const {

@@ -1,4 +1,4 @@
-// The logarithm of the gamma function for several threads at once: std::lgamma writes a global.
+// The logarithm of the gamma function, thread-safe: std::lgamma writes a global variable.
 #pragma once
 
 #include <math.h>

@@ -1,6 +1,6 @@
-// Weights of particles, kept as logarithms: image likelihoods differ by thousands of nats, which
-// no product of doubles survives. -infinity is a legal weight (a dead particle); NaN and
-// +infinity are broken preconditions.
+// Weights of particles as logarithms: image likelihoods differ by thousands of nats, which exceeds
+// the range of double. -infinity is a valid weight (a dead particle); NaN and +infinity are errors
+// of the caller.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ std::vector<double> normalised_weights(std::span<const double> log_weights);
 // are dead.
 double effective_sample_size(std::span<const double> log_weights);
 
-// Effective sample size of weights raised to `exponent`: what annealing needs to choose a layer.
+// Effective sample size of weights raised to `exponent`, from which annealing chooses its layers.
 double effective_sample_size(std::span<const double> log_weights, double exponent);
 
 }  // namespace core

@@ -20,8 +20,9 @@ inline namespace core {
 
 namespace {
 
-// TBB's library is not built for the thread sanitizer, which therefore sees none of its hand-overs.
-// Told of the two that parallel_ranges() relies on, it still sees races between ranges.
+// TBB's library is not built for the thread sanitizer, which therefore does not see its
+// synchronisation. With annotations of the two cases on which parallel_ranges() relies, it still
+// finds races between ranges.
 #ifdef __SANITIZE_THREAD__
 char begin_tag, end_tag;
 void tell_begin() { __tsan_release(&begin_tag); }
@@ -35,9 +36,9 @@ void tell_range_ends() {}
 void tell_end() {}
 #endif
 
-// Calls f where no more than so many threads help: among those around if they are few enough, for
-// to gather others costs time. Who waits takes up nothing but what it waits for, as its own scratch
-// is in use.
+// Calls f with at most this number of threads: in the present arena if it is small enough, because
+// a new one costs time. The calling thread is isolated while it waits, so that it does not take
+// other tasks that would use its scratch memory.
 template <typename F>
 void in_arena(int threads, const F& f) {
   if (tbb::this_task_arena::max_concurrency() <= threads) return tbb::this_task_arena::isolate(f);
@@ -60,15 +61,15 @@ void parallel_ranges(size_t n, int threads, void (*body)(void*, size_t, size_t),
     body(context, 0, n);
     return;
   }
-  // Small ranges balance uneven work (a particle in mid-air costs less than one at a strike);
-  // 8 a thread keep the hand-over cost far below the work.
+  // Small ranges balance uneven work (a particle in mid-air costs less than one at a heel strike);
+  // 8 for each thread keep the overhead small.
   const size_t grain = std::max<size_t>(1, n / (static_cast<size_t>(threads) * 8));
   tell_begin();
   in_arena(threads, [&] {
     tbb::parallel_for(
         tbb::blocked_range<size_t>(0, n, grain),
-        // What it captures was written by TBB's task, whose hand-over the thread sanitizer does not
-        // see; what `body` does, it does.
+        // The captured variables were written by TBB's task, whose synchronisation the thread
+        // sanitizer does not see; it does see that of `body`.
         [&](const tbb::blocked_range<size_t>& range) __attribute__((no_sanitize("thread"))) {
           tell_range_begins();
           body(context, range.begin(), range.end());
@@ -103,7 +104,7 @@ void run_beside(int threads, const std::function<void()>& here,
       tell_range_ends();
     });
     attempt(here);
-    // Done here if no other thread was free.
+    // Runs here if no other thread was free.
     attempt([&] { group.wait(); });
   });
   tell_end();

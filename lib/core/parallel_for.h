@@ -1,11 +1,11 @@
-// The two threading primitives, neither of which lets results depend on the number of threads.
-// Exceptions of what is called reach the caller.
+// The two threading primitives, for both of which results do not depend on the number of threads.
+// Exceptions are passed on to the caller.
 //
 // parallel_for: f(i) for every i in [0, n), each index exactly once. A call must write only what
 // belongs to its index; sums are taken in index order afterwards.
 //
-// run_beside: here() and beside(), both once; neither may read what the other one writes. Threads
-// that are done with one help with the parallel_for of the other.
+// run_beside: calls here() and beside() in parallel; neither may read what the other one writes.
+// Threads that have finished one help with the parallel_for of the other.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,10 @@
 namespace walktrack {
 inline namespace core {
 
-// Threads of this machine that the process may use (core/cpu_limits.h), at least 1.
+// Number of threads of this machine that the process may use (core/cpu_limits.h), at least 1.
 int hardware_threads();
 
-// As many as are wanted; 0: all that the process may use.
+// The wanted number; 0: all that the process may use.
 int thread_count(int wanted);
 
 // Calls body(context, begin, end) on disjoint ranges that cover [0, n).

@@ -2,7 +2,8 @@
 // numbers: as easy as 1, 2, 3", SC 2011). A stream is a pure function of its key, so a draw never
 // depends on how many threads there are or in which order they run.
 //
-// Uniform and normal variates are our own: those of the standard library differ between vendors.
+// Uniform and normal variates are generated here, because those of the standard library differ
+// between vendors.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@ inline namespace core {
 // Ten rounds of Philox on one 128-bit counter and a 64-bit key.
 std::array<uint32_t, 4> philox4x32(std::array<uint32_t, 4> counter, std::array<uint32_t, 2> key);
 
-// What a stream is drawn for. Streams with different purposes are independent.
+// The purpose of a stream. Streams with different purposes are independent.
 enum class Purpose : uint32_t {
   kResampling = 1,
   kInitialisation,

@@ -1,5 +1,5 @@
-// Memory for the short-lived arrays of one call (std::pmr::vector): on the stack while they are
-// small, from the heap beyond. Freed all at once when it goes out of scope.
+// Memory for short-lived arrays of one call (std::pmr::vector): on the stack while they are small,
+// otherwise on the heap. It is freed when this object goes out of scope.
 #pragma once
 
 #include <array>

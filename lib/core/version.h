@@ -1,4 +1,4 @@
-// Which program this is: printed by --version, kept in every run.json.
+// The version of the program, for --version and run.json.
 #pragma once
 
 #include <string_view>

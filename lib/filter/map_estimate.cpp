@@ -15,12 +15,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kSpread = 1.7320508075688772;
-constexpr double kFirstSpread = 0.5;  // of the prior's, before anything is known
-constexpr double kEnough = 0.1;       // nats; a smaller gain is the last one
-constexpr double kNarrower = 0.5;     // spread after a round without a better step
+constexpr double kFirstSpread = 0.5;  // relative to the prior's, at first
+constexpr double kEnough = 0.1;       // nats; iteration ends after a smaller gain
+constexpr double kNarrower = 0.5;     // factor of the spread after a round without a better step
 constexpr std::array kDampings{0.0, 3.0, 30.0, 300.0};  // in precisions of the spread
 
-// x, then both sides of it along every column of `root`, then every pair's sum.
+// x, then points on both sides of it along every column of `root`, then the sum of every pair.
 std::vector<VectorXd> sigma_points(const VectorXd& x, const MatrixXd& root) {
   const Eigen::Index n = x.size();
   std::vector<VectorXd> points;
@@ -35,7 +35,7 @@ std::vector<VectorXd> sigma_points(const VectorXd& x, const MatrixXd& root) {
   return points;
 }
 
-// Of the log-likelihood, in coordinates along the columns of the root.
+// Derivatives of the log-likelihood, in coordinates along the columns of the root.
 struct Shape {
   VectorXd gradient;
   MatrixXd curvature;  // positive semidefinite: of its concave part
@@ -91,7 +91,8 @@ MapEstimate map_estimate(const VectorXd& mean, const VectorXd& sd, int rounds,
     const VectorXd slope =
         likelihood.gradient - root.transpose() * precision.cwiseProduct(out.at - mean);
     around = root * posterior.ldlt().solve(MatrixXd(root.transpose()));
-    // The columns of the root are orthogonal: its inverse is its transpose over their squares.
+    // The columns of the root are orthogonal, so that its inverse is its transpose over their
+    // squares.
     const MatrixXd inverse =
         root.colwise().squaredNorm().cwiseInverse().asDiagonal() * root.transpose();
     out.information = inverse.transpose() * likelihood.curvature * inverse;
@@ -109,7 +110,7 @@ MapEstimate map_estimate(const VectorXd& mean, const VectorXd& sd, int rounds,
       break;
     }
     out.covariance = around;
-    // No step is better where sigma points lie too far apart to see the shape of the peak.
+    // If no step is better, the sigma points are too far apart for the width of the peak.
     if (gained == 0) around *= kNarrower * kNarrower;
     if (gained > 0 && gained < kEnough) break;
   }

@@ -9,8 +9,8 @@
 // body motion capture by stochastic search", IJCV 61, 2005). With `max_layers` = 1 and `moves` = 0
 // it is the plain bootstrap filter (Gordon, Salmond & Smith 1993).
 //
-// The filter knows nothing of walkers or images. Its model is three callables, each a pure function
-// of its arguments (so that the result does not depend on threads):
+// The filter is independent of walkers and images. Its model consists of three callables, each a
+// pure function of its arguments (so that the result does not depend on threads):
 //   propagate(state, index)            one frame forward, noise drawn; false = the particle died
 //   log_likelihood(state)              of this frame's evidence, any finite value: a double, or by
 //                                      stages (StagedLikelihood)
@@ -18,8 +18,8 @@
 //                                      prior of this frame; scale in (0, 1] is its step_size,
 //                                      adapted from layer to layer towards the acceptance of
 //                                      kWantedAcceptance
-// A dead particle has weight -infinity until resampling replaces it. All dead is reported; the
-// caller must start anew.
+// A dead particle has the weight -infinity until resampling replaces it. If all particles are dead,
+// this is reported, and the caller must start again.
 #pragma once
 
 #include <algorithm>
@@ -41,10 +41,10 @@
 namespace walktrack {
 inline namespace filter {
 
-// A likelihood that is a product of factors which can be had one after the other. A move is put to
-// them in turn and is rejected by the first that is against it, the others unasked: delayed
-// acceptance (Christen & Fox, "Markov chain Monte Carlo using an approximation", JCGS 14, 2005;
-// Banterle, Grazian, Lee & Robert, "Accelerating Metropolis-Hastings algorithms by delayed
+// A likelihood that is a product of factors which are computed one after the other. A move is
+// tested with each of them in turn and rejected by the first one without computing the others:
+// delayed acceptance (Christen & Fox, "Markov chain Monte Carlo using an approximation", JCGS 14,
+// 2005; Banterle, Grazian, Lee & Robert, "Accelerating Metropolis-Hastings algorithms by delayed
 // acceptance", 2019). It leaves the same distribution invariant, with fewer moves accepted.
 inline constexpr int kMaxStages = 2;
 
@@ -57,9 +57,9 @@ concept StagedLikelihood = requires(const L& likelihood, const State& state) {
 struct FilterConfig {
   int particles = 200;
   double resample_below = 0.5;  // resample when ESS / particles falls below this
-  double layer_ess = 0.5;  // ESS / particles that an increment of the exponent may cost down to
-  int max_layers = 8;      // the last layer takes whatever exponent is left
-  int moves = 4;           // Metropolis-Hastings steps a particle and layer
+  double layer_ess = 0.5;       // ESS / particles after each increment of the exponent
+  int max_layers = 8;           // the last layer takes the rest of the exponent
+  int moves = 4;                // Metropolis-Hastings steps for each particle and layer
 };
 
 template <typename State>
@@ -69,7 +69,7 @@ struct ParticleSet {
   std::vector<double> log_likelihoods;  // of the present frame
 };
 
-// All that a filter's next frame depends on.
+// Everything on which a filter's next frame depends.
 template <typename State>
 struct FilterState {
   ParticleSet<State> set;
@@ -80,7 +80,7 @@ struct FilterReport {
   double log_evidence = 0;  // log p(this frame | frames before), estimated
   double ess = 0;           // before the last resampling of the frame, in particles
   int layers = 0;
-  int dead = 0;           // particles that propagation lost or the evidence rules out
+  int dead = 0;           // particles that died in the propagation or have zero likelihood
   double accepted = 0;    // share of moves accepted, 0 when there were none
   bool all_dead = false;  // every weight is -infinity: start anew
 };
@@ -100,8 +100,8 @@ class ParticleFilter {
     set_.states = std::move(states);
   }
 
-  // A filter that takes the state of another one of the same configuration and seed goes on as that
-  // one.
+  // A filter that takes the state of another one with the same configuration and seed continues in
+  // the same way.
   FilterState<State> state() const { return {set_, scale_}; }
   void resume(FilterState<State> state) {
     set_ = std::move(state.set);
@@ -123,9 +123,9 @@ class ParticleFilter {
     });
   }
 
-  // The same for states that are moved faster together: propagate(first, states, alive) takes
-  // `group` of them (the last ones: or fewer), of which states[0] is number `first`, and says who
-  // is still alive. Where groups begin must not change what becomes of a state.
+  // The same for states that are faster to propagate in groups: propagate(first, states, alive)
+  // takes `group` of them (or fewer at the end), of which states[0] is number `first`, and sets
+  // which ones are alive. The result for a state must not depend on the groups.
   template <typename Propagate>
   void predict_groups(size_t group, const Propagate& propagate) {
     alive_.resize(size());
@@ -139,13 +139,13 @@ class ParticleFilter {
       if (!alive_[i]) set_.log_weights[i] = kDead;
   }
 
-  // The second half: the prediction meets the frame's evidence.
+  // The second half: the prediction is weighted with the frame's evidence.
   template <typename LogLikelihood, typename Move>
   FilterReport update(uint32_t frame, const LogLikelihood& log_likelihood, const Move& move) {
     FilterReport report;
     Rng rng(seed_, Purpose::kResampling, frame);
     weigh(log_likelihood, report);
-    // Also when those that this frame leaves alive had died before, and were not replaced yet.
+    // Also true if the particles that are alive in this frame had been dead before.
     if (log_sum_exp(set_.log_weights) == kDead) {
       report.all_dead = true;
       report.log_evidence = kDead;
@@ -170,8 +170,8 @@ class ParticleFilter {
 
  private:
   static constexpr double kDead = -std::numeric_limits<double>::infinity();
-  // Random-walk proposals in many dimensions explore fastest near this rate (Roberts, Gelman &
-  // Gilks 1997 derive .234; blocks of few dimensions do better with more).
+  // Random-walk proposals in many dimensions are most efficient near this rate (Roberts, Gelman &
+  // Gilks 1997 derive .234; for blocks of few dimensions a higher rate is better).
   static constexpr double kWantedAcceptance = 0.3;
   static constexpr double kMinStepSize = 0.02;
 
@@ -186,7 +186,7 @@ class ParticleFilter {
     return 1;
   }
 
-  // Asks one stage after the other, until `go_on(stage, value)` has heard enough.
+  // Computes one stage after the other while `go_on(stage, value)` is true.
   template <typename LogLikelihood, typename GoOn>
   static bool ask(const LogLikelihood& log_likelihood, const State& state, const GoOn& go_on) {
     if constexpr (StagedLikelihood<LogLikelihood, State>) {

@@ -13,7 +13,7 @@ bool systematic_resample(std::span<const double> log_weights, double u,
   const double total = log_sum_exp(log_weights);
   if (total == -std::numeric_limits<double>::infinity()) return false;
   const double n = static_cast<double>(parents.size());
-  // The last living particle takes what rounding leaves of the cumulated sum.
+  // The last living particle takes the rounding error of the cumulative sum.
   size_t last = log_weights.size() - 1;
   while (log_weights[last] == -std::numeric_limits<double>::infinity()) --last;
   size_t chosen = 0;

@@ -1,6 +1,6 @@
 // Systematic resampling (Kitagawa 1996): one uniform draw, N equally spaced pointers into the
-// cumulated weights. Unbiased: particle i is chosen N * p_i times on average, and never more than
-// one time away from that.
+// cumulative weights. Unbiased: particle i is chosen N * p_i times on average, and the number
+// differs from that by less than one.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@ namespace walktrack {
 inline namespace gait {
 namespace {
 
-constexpr double kDifference = 1e-5;    // the map's error of 1e-12 then costs 1e-7
+constexpr double kDifference = 1e-5;    // with the map's error of 1e-12 the error is 1e-7
 constexpr double kKneeStraight = 1e-6;  // rad; by hand, far above rounding
 
 std::optional<CycleResidual> residual_of(const KneedModel& model, const GaitVector& gait,

@@ -1,4 +1,4 @@
-// Cyclic gaits: controls and a state after transfer that one step maps onto itself at a wanted
+// Cyclic gaits: controls and a state after transfer that one step maps to itself, with a given
 // speed and step length. Units L = M = g = 1 (walker_units.h).
 #pragma once
 
@@ -20,8 +20,8 @@ using CycleResidual = Eigen::Matrix<double, kResidualSize, 1>;
 using CycleJacobian = Eigen::Matrix<double, kResidualSize, kGaitSize>;
 using SectionMatrix = Eigen::Matrix<double, kSectionSize, kSectionSize>;
 
-// One step of a gait vector; nullopt where it cannot start, does not end in a transfer, or ends off
-// the section (the swing knee not yet straight at the strike).
+// One step of a gait vector; nullopt if it cannot start, does not end with a transfer, or ends off
+// the section (the swing knee is not straight at the strike).
 std::optional<WalkedStep> step_of(const KneedModel& model, const GaitVector& gait,
                                   double max_step = kFineStep);
 
@@ -31,15 +31,16 @@ CycleResidual cycle_residual(const GaitVector& gait, const WalkedStep& step,
 // Central differences of the residual (which does not depend on the target).
 std::optional<CycleJacobian> cycle_jacobian(const KneedModel& model, const GaitVector& gait);
 
-// Minimum-norm Gauss-Newton from `guess` to the exact cycle (residual below 1e-9); nullopt where it
-// does not get there.
+// Minimum-norm Gauss-Newton from `guess` to the exact cycle (residual below 1e-9); nullopt if it
+// does not converge.
 std::optional<GaitVector> find_cycle(const KneedModel& model, const GaitVector& guess,
                                      const GaitTarget& target);
 
 // The unit walker (walker_units.h) on the target's slope; the model of all functions here.
 KneedModel unit_model(const GaitTarget& target);
 
-// Along the straight line between two targets in as few steps as the Newton iteration bears.
+// Continues a cycle along the straight line between two targets in as few steps as Newton's method
+// allows.
 std::optional<GaitVector> continue_cycle(const GaitVector& gait, const GaitTarget& from,
                                          const GaitTarget& to);
 

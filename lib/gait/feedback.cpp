@@ -8,7 +8,7 @@ inline namespace gait {
 using Eigen::MatrixXd;
 
 MatrixXd regulator_gain(const LinearStep& step, double effort) {
-  // Of the Riccati equation, and the change at which it has settled; by hand.
+  // Limits of the iteration of the Riccati equation; by hand.
   constexpr int kMaxIterations = 500;
   constexpr double kSettled = 1e-10;
   const auto& [a, b, c, d] = step;

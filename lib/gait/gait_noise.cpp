@@ -9,7 +9,7 @@ namespace walktrack {
 inline namespace gait {
 namespace {
 
-// Deviations beyond which noise is drawn again: one draw in 370. By hand.
+// Draws beyond so many standard deviations are repeated: one draw in 370. By hand.
 constexpr double kTruncation = 3;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 

@@ -1,4 +1,4 @@
-// Newton's method and continuation for cycles of whatever walker; internal to lib/gait.
+// Newton's method and continuation for cycles of any walker; internal to lib/gait.
 #pragma once
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 namespace walktrack {
 inline namespace gait {
 
-// Minimum-norm Gauss-Newton from `guess` to a residual below 1e-9; nullopt where it does not get
-// there. residual(gait) and jacobian(gait) give optional matrices: nothing where no step is walked.
+// Minimum-norm Gauss-Newton from `guess` to a residual below 1e-9; nullopt if it does not converge.
+// residual(gait) and jacobian(gait) return optional matrices: nullopt if no step is walked.
 template <typename Gait, typename Residual, typename Jacobian>
 std::optional<Gait> newton(const Gait& guess, const Residual& residual, const Jacobian& jacobian) {
-  // By hand: a step that is still too far after seven halvings leads nowhere.
+  // By hand: a step that does not reduce the residual after seven halvings has failed.
   constexpr double kConverged = 1e-9;
   constexpr int kMaxIterations = 15;
   constexpr int kMaxHalvings = 7;
@@ -25,7 +25,7 @@ std::optional<Gait> newton(const Gait& guess, const Residual& residual, const Ja
     const auto slope = jacobian(at);
     if (!slope) return std::nullopt;
     const Gait step = least_squares(*slope, -*now);
-    // The first of the halved steps that lowers the residual.
+    // The first of the halved steps that reduces the residual.
     double share = 1;
     auto next = now;
     for (int k = 0; k < kMaxHalvings; ++k, share /= 2) {
@@ -39,11 +39,13 @@ std::optional<Gait> newton(const Gait& guess, const Residual& residual, const Ja
   return std::nullopt;
 }
 
-// Along the straight line between two targets in as few steps as find(guess, target) bears.
+// Continues along the straight line between two targets in as few steps as find(guess, target)
+// allows.
 template <typename Gait, typename Find>
 std::optional<Gait> continued(Gait at, const GaitTarget& from, const GaitTarget& to,
                               const Find& find) {
-  constexpr double kSmallestShare = 1.0 / 64;  // of the way, then the gait is given up; by hand
+  constexpr double kSmallestShare = 1.0 / 64;  // share of the way below which the gait is given up;
+                                               // by hand
   double done = 0, share = 1;
   while (done < 1) {
     const double next = std::min(1.0, done + share);

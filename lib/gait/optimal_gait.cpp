@@ -12,17 +12,18 @@ inline namespace gait {
 namespace {
 
 constexpr int kFree = kGaitSize - kResidualSize;
-constexpr double kControlDifference = 1e-5;  // of a control: the root of the residual's accuracy
+constexpr double kControlDifference = 1e-5;  // step of a control: the square root of the residual's
+                                             // accuracy
 constexpr double kOnCycle = 1e-7;            // residual at which the objective is evaluated
-constexpr int kMaxChordSteps = 12;  // with one Jacobian, then it is worked out anew; by hand
+constexpr int kMaxChordSteps = 12;  // with one Jacobian, before it is computed again; by hand
 
 double square(double x) { return x * x; }
 double excess(double value, double limit, double scale) {
   return square(std::max(0.0, value - limit) / scale);
 }
 
-// The step matrix by one-sided differences: half the price, and its error is far below what the
-// stability term resolves.
+// The step matrix by one-sided differences, which take half the time; their error is far below the
+// resolution of the stability term.
 std::optional<SectionMatrix> cheap_step_matrix(const KneedModel& model, const GaitVector& gait,
                                                const WalkedStep& step) {
   SectionMatrix matrix;

@@ -21,7 +21,8 @@ struct Sample {
 
 Sample sample(const KneedModel& model, const KneedControls& controls, const KneedState& s) {
   const Vector5 t = kneed_torques(controls, s.q, s.qd);
-  // kneed_torques sums the joints' torques over the parts they act on; take them apart again.
+  // kneed_torques() sums the joints' torques over the parts on which they act; this separates them
+  // again.
   const double torso = t[kTorso], stance_knee = t[kStanceShank], swing_knee = t[kSwingShank];
   const double hip = t[kSwingThigh] + swing_knee;
   const std::array<double, 4> torque{torso, hip, stance_knee, swing_knee};
@@ -39,19 +40,6 @@ Sample sample(const KneedModel& model, const KneedControls& controls, const Knee
 }
 
 }  // namespace
-
-ControlVector control_vector(const KneedControls& controls) {
-  KneedControls copy = controls;
-  ControlVector v;
-  int i = 0;
-  for (const SpringDamper* joint : joints(copy)) {
-    v[i++] = std::sqrt(joint->stiffness);
-    v[i++] = std::sqrt(joint->damping);
-    v[i++] = joint->rest;
-  }
-  v[i] = controls.toe_off_impulse;
-  return v;
-}
 
 KneedControls controls_from(const ControlVector& v) {
   KneedControls c;
@@ -73,8 +61,8 @@ SectionVector section_of(const KneedState& s) {
 }
 
 std::optional<KneedState> state_from(const KneedModel& model, const SectionVector& v) {
-  // Height of the swing foot, hip_z - l_t cos q2 - (l_s - h) cos q4 - f sin q4 - R = 0; of the two
-  // angles of the shank the one with the flexed knee.
+  // Solves the height of the swing foot, hip_z - l_t cos q2 - (l_s - h) cos q4 - f sin q4 - R = 0;
+  // of the two angles of the shank the one with a flexed knee is chosen.
   const KneedParameters& p = model.parameters;
   const double shank = p.shank_length - p.foot_up, forward = p.foot_forward;
   KneedState s;
@@ -107,7 +95,7 @@ std::optional<WalkedStep> walk_step(const KneedModel& model, const KneedControls
     if (run.event == KneedEvent::kFallen || run.event == KneedEvent::kDiverged) return std::nullopt;
     m.period += run.elapsed;
     const bool ended = run.event == KneedEvent::kTransfer;
-    // The last piece is shorter than the others; its first sample stands for it.
+    // The last piece is shorter than the others; its first sample represents it.
     const Sample after = ended ? before : sample(model, controls, state);
     m.positive_work += 0.5 * run.elapsed * (before.power + after.power);
     m.squared_torque += 0.5 * run.elapsed * (before.square + after.square);

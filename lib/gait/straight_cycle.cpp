@@ -14,7 +14,7 @@ namespace {
 constexpr double kLongestStraightStep = 8;    // 2.5 s for an adult
 constexpr double kSubStep = 0.005;            // 1.5 ms for an adult: cycles are exact to 1e-9
 constexpr double kForceInterval = 0.02;       // 6 ms: ground forces change over some 100 ms
-constexpr double kStraightDifference = 1e-5;  // the map's error of 1e-12 then costs 1e-7
+constexpr double kStraightDifference = 1e-5;  // with the map's error of 1e-12 the error is 1e-7
 
 // (section, advance, period) after a step of each gait.
 template <size_t kCount>

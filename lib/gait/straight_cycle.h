@@ -1,11 +1,11 @@
 // Cyclic gaits of the anthropomorphic walker with Kuo's proportions (StraightLeggedParameters), in
 // units L = M = g = 1.
 //
-// Just after a transfer both feet are on the ground, so the legs' angles are opposite and three
-// numbers fix the state: the section (angle of the swing leg, the rates of stance and swing leg).
-// Two controls are free, stiffness and toe-off impulse: with the section five numbers, for the five
-// conditions that the section returns at a wanted step length and period. Nothing is left to
-// optimise; what can be chosen is which of several answers (straight_prior.h).
+// Just after a transfer both feet are on the ground, so that the legs' angles are opposite and
+// three numbers determine the state: the section (angle of the swing leg, rates of stance and swing
+// leg). Two controls are free, stiffness and toe-off impulse. With the section these are five
+// numbers, for the five conditions that the section repeats with a given step length and period.
+// Nothing is left to optimise, but there are several solutions (straight_prior.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@ inline constexpr int kStraightGaitSize = kStraightControlSize + kStraightSection
 // Stiffness, toe-off impulse, then the section.
 using StraightGaitVector = Eigen::Matrix<double, kStraightGaitSize, 1>;
 using StraightSection = Eigen::Matrix<double, kStraightSectionSize, 1>;
-// Of (section after a step - section before, advance, period) by the gait.
+// Derivatives of (section after a step - section before, advance, period) by the gait.
 using StraightJacobian = Eigen::Matrix<double, kStraightGaitSize, kStraightGaitSize>;
 using StraightStepMatrix = Eigen::Matrix<double, kStraightSectionSize, kStraightSectionSize>;
 
@@ -42,11 +42,11 @@ struct StraightStep {
   bool old_foot_lifts = true;  // at the transfer
 };
 
-// nullopt when the walker falls, diverges or takes longer than any step.
+// nullopt if the walker falls, diverges or takes longer than any step.
 std::optional<StraightStep> straight_step(const StraightModel& model,
                                           const StraightGaitVector& gait);
 
-// Section, step length and period after a step minus what the target wants.
+// Section, step length and period after a step minus those of the target.
 StraightGaitVector cycle_residual(const StraightGaitVector& gait, const StraightStep& step,
                                   const GaitTarget& target);
 
@@ -55,11 +55,11 @@ std::optional<StraightJacobian> cycle_jacobian(const StraightModel& model,
                                                const StraightGaitVector& gait);
 
 StraightStepMatrix step_matrix(const StraightJacobian& jacobian);
-// Largest absolute eigenvalue of it.
+// Its largest absolute eigenvalue.
 double largest_multiplier(const StraightJacobian& jacobian);
 
 // The cycle at a target near `guess`, of the family whose Jacobian has a negative determinant;
-// nullopt where Newton's method finds none.
+// nullopt if Newton's method finds none.
 std::optional<StraightGaitVector> find_straight_cycle(const StraightGaitVector& guess,
                                                       const GaitTarget& target);
 

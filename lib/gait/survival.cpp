@@ -10,10 +10,10 @@ namespace walktrack {
 inline namespace gait {
 namespace {
 
-// Walkers that go together: many vectors, and still enough groups for every thread.
+// Walkers that are advanced together: many vectors, and still enough groups for every thread.
 constexpr size_t kGroup = 64;
 
-// What the two walkers call by different names.
+// Common names for what the two walkers call differently.
 struct KneedCrowd {
   using Gait = PriorGait;
   using State = KneedState;
@@ -55,8 +55,8 @@ struct Walkers {
   std::vector<typename Crowd::Controls> controls;
   std::vector<typename Crowd::Torque> torques;
   std::vector<typename Crowd::Run> runs;
-  std::vector<double> left;  // s, of the present piece of time
-  std::vector<double> fell;  // s
+  std::vector<double> left;  // s, of the present interval
+  std::vector<double> fell;  // s, time of the fall
 };
 
 template <typename Crowd>
@@ -76,7 +76,7 @@ Walkers<Crowd> starting_walkers(const Crowd& crowd, const typename Crowd::Gait& 
   return w;
 }
 
-// Moves all who have time left to its end or to their fall; `end` is when the piece ends.
+// Advances all walkers with time left to the end of the interval or to their fall.
 template <typename Crowd>
 void walk_piece(const Crowd& crowd, const typename Crowd::Gait& gait, const SurvivalTrial& trial,
                 double end, Walkers<Crowd>& w) {
@@ -103,7 +103,7 @@ void walk_piece(const Crowd& crowd, const typename Crowd::Gait& gait, const Surv
   }
 }
 
-// When each of `count` walkers fell, s, or `longest`.
+// The time at which each of `count` walkers fell, s, or `longest`.
 template <typename Crowd>
 std::vector<double> walking_times(const Crowd& crowd, const typename Crowd::Gait& gait,
                                   const SurvivalTrial& trial, size_t first, size_t count,

@@ -1,4 +1,4 @@
-// How long sampled walkers keep walking: the width of a gait's basin under noise.
+// How long sampled walkers keep walking, which measures the basin of a gait under noise.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,16 @@ inline namespace gait {
 
 struct SurvivalTrial {
   double speed = 1.3;      // m/s
-  double step_length = 0;  // m; 0 takes the one that people prefer at the speed
+  double step_length = 0;  // m; 0: the one that people prefer at the speed
   GaitNoise noise;
-  double feedback = 1;            // strength, 0 switches it off
-  double torque_step = 1.0 / 30;  // s for which a torque is held
+  double feedback = 1;            // strength, 0: none
+  double torque_step = 1.0 / 30;  // s for which a torque is constant
   size_t walkers = 1000;
   uint64_t seed = 1;
 };
 
-// Share of walkers alive after each of the times (s, ascending), from uniformly distributed phases.
+// Share of walkers that still walk after each of the times (s, ascending), from uniformly
+// distributed phases.
 std::vector<double> survival(const GaitPrior& prior, const KneedParameters& parameters,
                              const SurvivalTrial& trial, const std::vector<double>& times,
                              int threads);

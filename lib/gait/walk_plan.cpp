@@ -6,11 +6,11 @@ namespace walktrack {
 inline namespace gait {
 namespace {
 
-// Distances of sections, in units L = M = g = 1: from the gait aimed at, and between two transfers,
-// up to which a walker may be slowed down. The table's gaits are 0.05 to 0.25 apart for 0.1 m/s; on
-// slopes between its nodes a walker settles up to 0.4 from the interpolated gait, so that the first
-// alone would hold it for ever. Of 84 changes between seven speeds on the level and 6 % uphill none
-// falls, of 42 downhill two to 0.5 m/s do.
+// Distances of sections, in units L = M = g = 1, up to which a walker may be slowed down: from the
+// intended gait, and between two transfers. The table's gaits are 0.05 to 0.25 apart for 0.1 m/s.
+// On slopes between its nodes a walker settles up to 0.4 from the interpolated gait, so that the
+// first limit alone would hold it for ever. Of 84 changes between seven speeds on level ground and
+// 6 % uphill none leads to a fall, of 42 downhill two to 0.5 m/s do.
 constexpr double kLag = 0.15;
 constexpr double kSettled = 0.02;
 

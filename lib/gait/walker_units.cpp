@@ -11,9 +11,9 @@ namespace {
 
 using namespace anthropometry;
 
-// The roll-over shape of the human foot: its radius, of the leg length (Adamczyk, Collins & Kuo
-// 2006, J. Exp. Biol. 209), and how far its centre lies ahead of the ankle, of the stature (by
-// hand).
+// The rolling foot: its radius as a share of the leg length, with which the centre of pressure of
+// people progresses (Adamczyk, Collins & Kuo 2006, J. Exp. Biol. 209, 3953-3963), and the distance
+// of its centre in front of the ankle as a share of the stature (by hand).
 constexpr double kArcRadius = 0.3;
 constexpr double kArcForward = 0.05 / 1.75;
 

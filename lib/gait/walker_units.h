@@ -1,10 +1,11 @@
-// The walker of an average adult and the units that make gaits of all bodies one: lengths by the
-// leg length L (hip to sole), times by sqrt(L/g), masses by the body mass M, hence torques by M g L
-// and impulses by M sqrt(g L).
+// The walker of an average adult, and units in which the gaits of all bodies are the same: lengths
+// by the leg length L (hip to sole), times by sqrt(L/g), masses by the body mass M, and therefore
+// torques by M g L and impulses by M sqrt(g L).
 //
 // Segments: Winter, "Biomechanics and Motor Control of Human Movement", 4th ed. 2009, table 4.1 and
-// fig. 4.1 (head, arms and trunk as one; shank and foot as one). The rolling foot (arc radius 0.3
-// L, centre 5 cm ahead of the shank at a stature of 1.75 m) is ours; McGeer found 0.3 as well.
+// fig. 4.1 (head, arms and trunk as one; shank and foot as one). The rolling foot has
+// an arc radius of 0.3 L and its centre 5 cm in front of the shank at a stature of 1.75 m
+// (walker_units.cpp).
 #pragma once
 
 #include "walker/kneed/kneed_walker.h"
@@ -32,7 +33,7 @@ KneedParameters unit_walker(double slope = 0);
 // Units of any walker: L is the standing hip height.
 WalkerUnits walker_units(const KneedParameters& parameters);
 
-// Controls and states between units: from `from`, to `to`.
+// Converts controls and states from the units `from` to `to`.
 KneedControls scaled(const KneedControls& controls, const WalkerUnits& from, const WalkerUnits& to);
 KneedState scaled(const KneedState& state, const WalkerUnits& from, const WalkerUnits& to);
 

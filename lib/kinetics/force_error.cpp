@@ -26,8 +26,8 @@ double rate_of(const std::vector<double>& time) {
   return time.size() < 2 ? 0 : static_cast<double>(time.size() - 1) / (time.back() - time.front());
 }
 
-// Each stretch of known rows by itself; its ends, where smoothing leans on what it does not know,
-// become unknown.
+// Smooths each interval of known rows by itself; its ends, where smoothing depends on unknown
+// values, become unknown.
 void smooth(std::vector<Vector3d>& values, double rate, double cutoff_hz) {
   const auto is_known = [](const Vector3d& value) { return value.allFinite(); };
   const auto margin = static_cast<std::ptrdiff_t>(std::ceil(0.5 * rate / cutoff_hz));
@@ -49,7 +49,7 @@ void smooth(std::vector<Vector3d>& values, double rate, double cutoff_hz) {
 
 Vector3d at_time(const std::vector<double>& times, const std::vector<Vector3d>& values,
                  double time) {
-  constexpr double kRounding = 1e-6;  // s, of tables
+  constexpr double kRounding = 1e-6;  // s, precision of tables
   const auto after = std::lower_bound(times.begin(), times.end(), time - kRounding);
   if (after == times.end()) return kUnknown;
   const auto i = static_cast<size_t>(after - times.begin());

@@ -1,9 +1,9 @@
-// How far estimated ground reactions are from true ones.
+// Errors of estimated ground reactions.
 //
-// What counts is the sum over both feet: how feet share it follows from rules, not from the motion
-// (ground_contact.h). Truth has the frequencies of strikes, which no estimate from motion has, so
-// the truth is smoothed as motions are (smoothing.h) before the two are compared; half a period of
-// the cut-off at either end of it is left out.
+// Only the sum over both feet is compared: its distribution between the feet follows from rules,
+// not from the motion (ground_contact.h). The truth has the high frequencies of strikes, which no
+// estimate from motion has, so that it is smoothed in the same way as motions (smoothing.h) before
+// the comparison; half a period of the cut-off frequency is left out at either end.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct ForceErrors {
   double horizontal_rms = 0;  // N, length of its horizontal error
 };
 
-// The estimate is taken at the truth's times, between neighbouring rows. `cutoff_hz` > 0.
+// The estimate is interpolated at the truth's times. `cutoff_hz` > 0.
 ForceErrors force_errors(const GroundForces& truth, const GroundForces& estimate, double cutoff_hz);
 
 }  // namespace kinetics

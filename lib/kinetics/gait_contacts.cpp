@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kUsualDoubleSupport = 0.12;  // s
 
-// Mean time from a strike to the other foot's toe-off, where both are events.
+// Mean time from a strike to the other foot's toe-off, if both are events.
 double double_support(const Gait& gait) {
   double sum = 0;
   size_t count = 0;

@@ -1,4 +1,4 @@
-// When a gait's feet are on the ground.
+// The intervals in which a gait's feet are on the ground.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 namespace walktrack {
 inline namespace kinetics {
 
-// The stances as contacts. A stance that an end of the motion cuts, while the other foot's event
-// shows that both stood, is taken to share the ground as long as feet did elsewhere in the motion,
-// or 0.12 s (a walk at 1.3 m/s) if nowhere.
+// The stances as contacts. If an end of the motion cuts a stance while the other foot's event shows
+// double support, its duration is taken from the rest of the motion, or is 0.12 s (a walk at 1.3
+// m/s) if there is none.
 std::vector<FootContact> foot_contacts(const Gait& gait);
 
 }  // namespace kinetics

@@ -13,10 +13,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kLeastLoad = 1;  // N; below it a centre of pressure means nothing
+constexpr double kLeastLoad = 1;  // N; below it a centre of pressure is undefined
 
-// The leading foot's share of the load at the share `x` of double support: halfway between a
-// straight line and the smooth step, as force plates show it (tests/jobs/force_plates_test.cpp).
+// The leading foot's share of the load at the share `x` of double support: half way between a
+// straight line and the smooth step, as force plates measure it (tests/jobs/force_plates_test.cpp).
 double leading_share(double x) { return 0.5 * (x + x * x * (3 - 2 * x)); }
 
 const FootContact* standing(std::span<const FootContact> contacts, Side side, double t) {
@@ -31,9 +31,9 @@ LoadShares all_on(Side side) {
   return out;
 }
 
-// The point nearest to `centre` within a sole. Heel and tip lie .47 and .57 of the way from ankle
-// to ball behind and ahead of it (body/subject.cpp: ankle at 23 %, ball at 72 % of the foot). Half
-// the width of a sole, m, is set by hand.
+// The point within a sole that is nearest to `centre`. Heel and tip are .47 and .57 of the distance
+// between ankle and ball behind the ankle and in front of the ball (body/subject.cpp: ankle at 23
+// %, ball at 72 % of the foot). Half the width of a sole, m, is set by hand.
 Vector2d within_sole(const FootPlace& place, const Vector2d& centre) {
   constexpr double kBehind = .47, kAhead = 1.57, kHalfWidth = .05;
   const Vector2d bone = place.ball - place.ankle;
@@ -45,8 +45,8 @@ Vector2d within_sole(const FootPlace& place, const Vector2d& centre) {
          left * std::clamp(left.dot(from), -kHalfWidth, kHalfWidth);
 }
 
-// The trailing foot stands on its ball, the leading one lands near its ankle; a foot that stands
-// alone is shifted to wherever the whole's centre is.
+// The trailing foot is on its ball, the leading one lands near its ankle; a single supporting foot
+// is shifted to the centre of pressure of the whole.
 std::array<Vector2d, 2> centres_to_start_from(Side leading,
                                               const std::array<FootPlace, 2>& places) {
   if (leading == Side::kLeft) return {places[0].ankle, places[1].ball};

@@ -1,15 +1,15 @@
-// One ground reaction, two feet: who carries how much of it, and where.
+// Distributes one ground reaction over two feet.
 //
-// A motion determines the sum of all ground forces and their moment, not how two feet share them.
-// While one foot stands it takes all. While both stand (from the leading foot's strike to the
-// trailing foot's toe-off):
+// A motion determines the sum of all ground forces and their moment, not their distribution over
+// two feet. In single support one foot takes all. In double support (from the leading foot's strike
+// to the trailing foot's toe-off):
 //   vertical    the leading foot's share of the load rises from 0 to 1 (load_shares)
 //   centres     start from the trailing foot's ball and the leading foot's ankle and move together,
 //               so that their weighted mean is the centre of pressure of the whole
 //   horizontal  each force points from its foot to the body's centre of mass, as forces in walking
 //               nearly do; what is then missing from the sum is added by the shares
 //   free moment about the vertical, by the shares
-// Each rule joins without a step to the single stances before and after. World axes, ground z = 0.
+// Each rule is continuous with single support before and after. World axes, ground z = 0.
 #pragma once
 
 #include <array>
@@ -31,11 +31,11 @@ struct FootContact {
 
 struct LoadShares {
   std::array<double, 2> of;  // the vertical load, by Side; sum 1
-  Side leading;              // the foot that came down last
+  Side leading;              // the foot that landed last
 };
 
-// nullopt in flight. In a gap shorter than kShortestFlight between two contacts (an event read too
-// early or too late) the nearer foot carries all.
+// nullopt in flight. In a gap shorter than kShortestFlight between two contacts (an event that was
+// detected too early or too late) the nearer foot carries all.
 inline constexpr double kShortestFlight = 0.1;  // s; walking has none
 std::optional<LoadShares> load_shares(std::span<const FootContact> contacts, double t);
 
@@ -57,11 +57,12 @@ struct FootLoad {
 
 struct GroundLoads {
   std::array<FootLoad, 2> feet;  // by Side
-  double unexplained = 0;        // N m, the moment that soles of human length cannot give
+  double unexplained = 0;        // N m, the part of the moment that soles of human length cannot
+                                 // transmit
 };
 
-// The feet's loads that sum to `whole`, but for the unexplained moment. Centres of pressure are
-// kept within the soles (heel to toes, five centimetres to either side).
+// The loads of the feet whose sum is `whole`, except for the unexplained moment. Centres of
+// pressure are limited to the soles (heel to toes, five centimetres to either side).
 GroundLoads shared_loads(const Wrench& whole, const LoadShares& shares,
                          const std::array<FootPlace, 2>& places, const Eigen::Vector3d& com);
 

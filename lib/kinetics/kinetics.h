@@ -1,16 +1,16 @@
-// Forces behind a motion, by inverse dynamics: what the ground must have done, which moments the
-// joints, how much work.
+// Forces of a motion by inverse dynamics: ground reactions, joint moments, and work.
 //
 // Joint centres are smoothed (smoothing.h), the subject becomes a tree of links that fits them
 // (linked_body.h), and recursive Newton-Euler (mechanics/articulated_dynamics.h) gives the wrench
-// that is missing at the root: the ground reaction. It is shared between the feet
-// (ground_contact.h), put back as their loads, and the recursion then gives the joints' moments.
+// that is missing at the root: the ground reaction. It is distributed over the feet
+// (ground_contact.h) and applied to them as loads; the recursion then gives the joint moments.
 //
-// Signs: a moment is that of the muscles and ligaments, positive the way its angle is (hip flexion,
-// abduction; knee flexion; ankle dorsiflexion), so a calf pushing off has a negative ankle moment.
-// Power is moment . relative angular velocity in all three axes; positive power does work on the
-// body. What is between two feet in double support follows from the stated rules, not from the
-// motion; co-contraction and soft tissue are not seen. World axes, ground z = 0, SI.
+// Signs: a moment is that of the muscles and ligaments, positive in the direction of its angle (hip
+// flexion, abduction; knee flexion; ankle dorsiflexion), so that a calf that pushes off has a
+// negative ankle moment. Power is moment . relative angular velocity in all three axes; positive
+// power does work on the body. The distribution in double support follows from the stated rules,
+// not from the motion; co-contraction and soft tissue are not modelled. World axes, ground z = 0,
+// SI.
 #pragma once
 
 #include <array>
@@ -44,21 +44,21 @@ struct LegLoads {
 };
 
 struct KineticsFrame {
-  bool known = false;   // false where a joint was unknown or a span too short
+  bool known = false;   // false if a joint was unknown or an interval too short
   Eigen::Vector3d com;  // m
-  Wrench ground;        // of the ground on the body, as the motion demands it
+  Wrench ground;        // of the ground on the body, as required by the motion
   std::array<FootLoad, 2> feet;
   std::array<LegLoads, 2> legs;
-  double unexplained_force = 0;                     // N: demanded while no foot was on the ground
-  double unexplained_moment = 0;                    // N m: beyond what soles can give
+  double unexplained_force = 0;                     // N: required while no foot was on the ground
+  double unexplained_moment = 0;                    // N m: the part that soles cannot transmit
   double kinetic_energy = 0, potential_energy = 0;  // J; potential 0 at the ground
 };
 
 struct KineticsTotals {
   double distance = 0;           // m, of the centre of mass over the ground
-  double positive_work = 0;      // J, of hips, knees and ankles; every joint by itself
+  double positive_work = 0;      // J, of hips, knees and ankles, summed over joints
   double negative_work = 0;      // J, <= 0
-  double cost_of_transport = 0;  // positive_work / (mass g distance); NaN without way
+  double cost_of_transport = 0;  // positive_work / (mass g distance); NaN without distance
   double peak_load = 0;          // largest vertical load of a foot, body weights
 };
 
@@ -68,7 +68,7 @@ struct Kinetics {
   KineticsTotals totals;
 };
 
-// Spans of at least this many rows in which the body is known are worth differentiating.
+// Shortest interval of rows with a known body that is differentiated.
 inline constexpr size_t kShortestSpan = 8;
 
 // `gravity` in m/s^2; a slope tilts it.

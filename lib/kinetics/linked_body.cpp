@@ -18,9 +18,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Shares of the subject's mass (of the stature: heights and lengths). Trunk: thorax and abdomen,
-// their centre such that trunk and pelvis together have theirs halfway up to the shoulders. The
-// whole arm reaches to the wrist.
+// Shares of the subject's mass (of the stature: heights and lengths). The trunk is thorax and
+// abdomen, with its centre such that the centre of trunk and pelvis together is half way up to the
+// shoulders. The length of the whole arm is that to the wrist.
 constexpr double kPelvisMass = .142, kTrunkMass = .355, kHeadMass = .081;
 constexpr double kPelvisHeight = .063, kTrunkHeight = .1764, kHeadHeight = .405;
 constexpr double kArmLength = .332;
@@ -37,13 +37,13 @@ Vector3d top_of_trunk(const JointPositions& joints) {
   return known(joints[Joint::kNeck]) ? joints[Joint::kNeck] : joints[Joint::kHead];
 }
 
-// From shoulder to shoulder where they are known: trunks turn and lean against pelvises.
+// From shoulder to shoulder if they are known, because trunks rotate and lean relative to pelvises.
 Vector3d left_of_trunk(const JointPositions& joints) {
   const Vector3d left = joints[Joint::kLeftShoulder] - joints[Joint::kRightShoulder];
   return known(left) ? left : Vector3d(joints[Joint::kLeftHip] - joints[Joint::kRightHip]);
 }
 
-// The pelvis keeps its own left exactly, the trunk its own up.
+// The pelvis keeps its own left axis exactly, the trunk its own up axis.
 Matrix3d pelvis_frame(const JointPositions& joints) {
   const Vector3d left = (joints[Joint::kLeftHip] - joints[Joint::kRightHip]).normalized();
   const Vector3d up = top_of_trunk(joints) - joints[Joint::kPelvis];
@@ -99,13 +99,13 @@ Matrix3d link_axes(const JointPositions& joints, Segment segment) {
   return along(arm.elbow, arm.wrist, left);
 }
 
-// `solid`, scaled to `mass` and moved so that its centre lies at `centre`.
+// `solid`, scaled to `mass` and moved so that its centre is at `centre`.
 MassProperties weighing(const MassProperties& solid, double mass, const Vector3d& centre) {
   return {mass, centre, solid.inertia * (mass / solid.mass)};
 }
 
-// A rod-like limb: `radius` of gyration across it; along it, which walking hardly turns, that of a
-// cylinder a quarter as wide as long.
+// A rod-like limb: `radius` of gyration about axes across it; about its own axis, about which
+// walking hardly rotates it, that of a cylinder a quarter as wide as long.
 MassProperties limb(double mass, double length, const Vector3d& centre, double radius,
                     Eigen::Index axis) {
   MassProperties out{mass, centre, Matrix3d::Zero()};
@@ -170,7 +170,7 @@ bool is_foot(Segment segment) {
   return segment == Segment::kLeftFoot || segment == Segment::kRightFoot;
 }
 
-// Mean over the rows of `point` seen from a link.
+// Mean over the rows of `point` in the axes of a link.
 Vector3d mean_place(std::span<const JointPositions> rows, const Link& link, Joint point) {
   Vector3d sum = Vector3d::Zero();
   for (const JointPositions& joints : rows)
@@ -200,13 +200,13 @@ size_t index_of(const std::vector<Link>& links, Segment segment) {
   return static_cast<size_t>(found - links.begin());
 }
 
-// Rotation vector of the turn from one orientation to another, in the axes of either.
+// Rotation vector from one orientation to another, in the axes of either.
 Vector3d turn(const Matrix3d& from, const Matrix3d& to) {
   const Eigen::AngleAxisd rotation(from.transpose() * to);
   return rotation.angle() * rotation.axis();
 }
 
-// Every link's orientation against its parent's; the root's against the world.
+// Every link's orientation relative to its parent's; the root's relative to the world.
 std::vector<Matrix3d> joint_rotations(const LinkedBody& body, const JointPositions& joints) {
   std::vector<Matrix3d> world, out;
   for (const Link& link : body.links) world.push_back(link_axes(joints, link.segment));

@@ -1,12 +1,13 @@
 // A subject as a tree of rigid links that fits a motion: pelvis, trunk with head, thighs, shanks,
-// feet and, where the motion knows them, upper arms and forearms with hands; ball joints between
-// them. Its states follow from joint centres; mechanics/articulated_dynamics.h does the rest.
+// feet and, if the motion has them, upper arms and forearms with hands, connected by ball joints.
+// Its states follow from joint centres and are used by mechanics/articulated_dynamics.h.
 //
 // Masses, centres of mass and radii of gyration: Winter, "Biomechanics and Motor Control of Human
 // Movement", 4th ed. 2009, table 4.1; solids where the table has no radius (trunk, pelvis, head).
-// Arms that nobody tracked hang from the trunk. Lengths are the motion's own (means over its rows).
-// Link axes: z up along the link, y to the left, x forward; a foot's x points from ankle to toe.
-// The root is the pelvis, its origin the midpoint of the hips. Metres, kilograms, world axes.
+// Arms that were not tracked hang from the trunk. Lengths are the motion's own (means over its
+// rows). Link axes: z up along the link, y to the left, x forward; a foot's x points from ankle to
+// toe. The root is the pelvis, with its origin at the midpoint of the hips. Metres, kilograms,
+// world axes.
 #pragma once
 
 #include <vector>
@@ -31,10 +32,10 @@ struct LinkedBody {
   size_t index(Segment segment) const;
 };
 
-// Whether the joints that links are made of are known: pelvis, neck or head, hips to toes.
+// Whether the joints that links need are known: pelvis, neck or head, hips to toes.
 bool linkable(const JointPositions& joints);
 
-// `joints`: at least one row, all linkable. Arms are links of their own if every row knows them.
+// `joints`: at least one row, all with these joints. Arms are separate links if every row has them.
 LinkedBody linked_body(const Subject& subject, std::span<const JointPositions> joints);
 
 // Position, velocity and acceleration of every row by central differences of second order; the

@@ -22,7 +22,7 @@ Butterworth butterworth(double rate, double cutoff_hz) {
   return {w * w * scale, 2 * (w * w - 1) * scale, (1 - std::sqrt(2.0) * w + w * w) * scale};
 }
 
-// In place, as if the first value had stood for ever.
+// Filters in place, as if the first value had been constant before.
 void run(const Butterworth& f, std::vector<double>& x) {
   double x1 = x[0], x2 = x[0], y1 = x[0], y2 = x[0];
   for (double& each : x) {
@@ -40,7 +40,7 @@ void run(const Butterworth& f, std::vector<double>& x) {
 std::vector<double> low_pass(std::span<const double> values, double rate, double cutoff_hz) {
   const size_t n = values.size();
   if (cutoff_hz <= 0 || cutoff_hz >= 0.5 * rate || n < 4) return {values.begin(), values.end()};
-  constexpr double kSettled = 2;  // periods of the cut-off after which the filter has forgotten
+  constexpr double kSettled = 2;  // periods of the cut-off after which initial values have decayed
   const size_t pad = std::min(n - 1, static_cast<size_t>(std::ceil(kSettled * rate / cutoff_hz)));
   std::vector<double> x;
   x.reserve(n + 2 * pad);

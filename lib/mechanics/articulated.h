@@ -34,7 +34,7 @@ struct ArticulatedPart {
 // Part 0 is the root; parents come before their children.
 class ArticulatedBody {
  public:
-  // std::invalid_argument where the tree is not ordered or a hinge axis is not of unit length.
+  // Throws std::invalid_argument if the tree is not ordered or a hinge axis is not of unit length.
   explicit ArticulatedBody(std::vector<ArticulatedPart> parts);
 
   const std::vector<ArticulatedPart>& parts() const { return parts_; }
@@ -60,7 +60,7 @@ class ArticulatedBody {
   double mass_ = 0;
 };
 
-// Where a part is and how it moves, in world axes at the part's origin. The accelerations are the
+// The pose and motion of a part, in world axes at the part's origin. The accelerations are the
 // convective ones (u_dot = 0) unless stated otherwise.
 struct PartMotion {
   Eigen::Vector3d origin, velocity, acceleration;

@@ -75,7 +75,7 @@ std::vector<PartMotion> convective_motions(const ArticulatedBody& body, const Ve
 
 void project(const ArticulatedBody& body, std::span<const Attachment> attachments,
              ArticulatedState& state) {
-  // The drift of one step is small: Newton's second step already reaches rounding.
+  // The drift of one step is small: the second Newton step already reaches rounding.
   constexpr int kNewtonSteps = 3;
   for (int i = 0; i < kNewtonSteps; ++i) {
     const TmtSystem system = assemble(body, state.q, state.u, {});
@@ -126,7 +126,7 @@ InverseDynamics inverse_dynamics(const ArticulatedBody& body, const VectorXd& q,
     result.joint_force[applied.part] -= applied.force;
     result.joint_moment[applied.part] -= applied.torque + arm.cross(applied.force);
   }
-  // From the leaves to the root: what a part needs, it takes from its parent.
+  // From the leaves to the root: forces on a part act on its parent in the opposite direction.
   for (size_t i = parts.size(); i-- > 0;) {
     const MassProperties& mass = parts[i].mass;
     const Vector3d arm = motions[i].rotation * mass.com;

@@ -1,6 +1,6 @@
 // Dynamics of an articulated body (articulated.h): forward by the TMT assembly with attachment
-// constraints as an augmented system on top, inverse by recursive Newton-Euler. The two are
-// independent routes; tests hold one against the other and both against Simbody.
+// constraints as an augmented system, inverse by recursive Newton-Euler. The two are independent
+// derivations; tests compare them with each other and both with Simbody.
 #pragma once
 
 #include <optional>
@@ -19,19 +19,19 @@ inline namespace mechanics {
 // A force on a part, world axes.
 struct PartForce {
   size_t part = 0;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();   // where it acts, part's frame, m
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();   // point of application, part's frame, m
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // N
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  // a couple besides, N m
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  // an additional couple, N m
 };
 
-// A point of a part held at a point of the world (a hand on a rail, a foot on the ground).
+// A point of a part that is held at a point of the world (a hand on a rail, a foot on the ground).
 struct Attachment {
   size_t part = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();   // part's frame, m
   Eigen::Vector3d target = Eigen::Vector3d::Zero();  // world, m
 };
 
-// Everything that acts on the body besides its own inertia.
+// All forces on the body except its own inertia.
 struct BodyLoad {
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -kStandardGravity);  // m/s^2
   Eigen::VectorXd joint_forces;  // tau, size of u; empty: zero
@@ -56,8 +56,8 @@ ForwardDynamics forward_dynamics(const ArticulatedBody& body, const Eigen::Vecto
 
 struct InverseDynamics {
   // tau that produces u_dot together with load.forces and gravity. The first three entries are the
-  // force and the next three the torque (root axes, about the root's origin) missing at the root:
-  // the ground reaction, when no other force was given.
+  // force and the next three the torque (root axes, about the root's origin) that are missing at
+  // the root: the ground reaction, if no other force was given.
   Eigen::VectorXd tau;
   // Force and moment of the parent on each part at its joint, world axes; for the root the missing
   // force and moment.

@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Solves [M E^T; E 0][x; y] = [a; b]. Rows and columns are scaled to unit size first, so that mass
-// ratios do not spoil the rank decision of the complete orthogonal decomposition.
+// ratios do not affect the rank decision of the complete orthogonal decomposition.
 ConstrainedMotion solve_saddle(const MatrixXd& mass, const MatrixXd& E, const VectorXd& a,
                                const VectorXd& b) {
   const Index n = mass.rows(), m = E.rows();

@@ -13,11 +13,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Newton on m = y + dt/2 f(m) stops when an update no longer changes m beyond rounding; an update
-// that stalls above kStalled is a failure.
+// Newton on m = y + dt/2 f(m) stops when an update changes m by no more than rounding; if updates
+// stop decreasing above kStalled, the step has failed.
 constexpr double kConverged = 4 * std::numeric_limits<double>::epsilon();
 constexpr double kStalled = 1e-10;
-// Fixed-point steps halve a smooth residual and are cheap; what they leave is Newton's. By hand.
+// Fixed-point steps halve a smooth residual and are cheap; Newton's method does the rest. By hand.
 constexpr int kMaxFixedPoint = 8;
 constexpr int kMaxNewton = 40;
 
@@ -47,7 +47,8 @@ double relative_size(const VectorXd& update, const VectorXd& m) {
   return update.lpNorm<Eigen::Infinity>() / std::max(1.0, m.lpNorm<Eigen::Infinity>());
 }
 
-// The midpoint m = y + dt/2 f(m): by plain iteration where that contracts fast, else by Newton.
+// The midpoint m = y + dt/2 f(m), by fixed-point iteration if that converges fast, otherwise by
+// Newton's method.
 std::optional<VectorXd> solve_midpoint(const Derivative& f, double t, double dt,
                                        const VectorXd& y) {
   VectorXd m = y + dt / 2 * f(t, y);

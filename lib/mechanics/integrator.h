@@ -1,4 +1,4 @@
-// One step of an ordinary differential equation dy/dt = f(t, y), for every model of the library.
+// One step of an ordinary differential equation dy/dt = f(t, y), for all models of the library.
 //
 //   kEuler     explicit Euler, order 1: the lecture's integrator.
 //   kRk4       the classical Runge-Kutta method, order 4: the default.
@@ -20,8 +20,8 @@ enum class Integrator { kEuler, kRk4, kMidpoint };
 
 using Derivative = std::function<Eigen::VectorXd(double time, const Eigen::VectorXd& y)>;
 
-// y(time + dt). nullopt where the step diverged: the result is not finite, or the implicit
-// equations of the midpoint rule could not be solved.
+// y(time + dt). nullopt if the step diverged: the result is not finite, or the implicit equations
+// of the midpoint rule could not be solved.
 std::optional<Eigen::VectorXd> integrate_step(Integrator integrator, const Derivative& derivative,
                                               double time, double dt, const Eigen::VectorXd& y);
 

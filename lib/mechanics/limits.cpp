@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A row counts as violated when it is so beyond rounding of the terms it is summed from.
+// A row counts as violated if it exceeds the rounding error of its terms.
 constexpr double kRounding = 1e-13;
 
 // Solves A_pp x_p = -b_p on the rows in use, 0 elsewhere.
@@ -30,7 +30,7 @@ VectorXd solve_on(const MatrixXd& A, const VectorXd& b, const std::vector<bool>&
   return x;
 }
 
-// The unused unilateral row that is violated most, -1 when none is.
+// The unused unilateral row with the largest violation; -1 if there is none.
 Index most_violated(const MatrixXd& A, const VectorXd& b, const VectorXd& rho,
                     const std::vector<bool>& used) {
   const VectorXd gap = A * rho + b;
@@ -43,8 +43,8 @@ Index most_violated(const MatrixXd& A, const VectorXd& b, const VectorXd& rho,
   return worst;
 }
 
-// Moves rho towards `target` until the first unilateral row in use reaches zero and drops it.
-// False when the target is feasible (then rho = target).
+// Moves rho towards `target` until the first unilateral row in use reaches zero, and removes that
+// row. Returns false if the target is feasible (then rho = target).
 bool blocked(const VectorXd& target, const std::vector<bool>& equality, VectorXd& rho,
              std::vector<bool>& used) {
   double step = 1;
@@ -71,7 +71,7 @@ VectorXd solve_complementarity(const MatrixXd& A, const VectorXd& b,
                                const std::vector<bool>& equality) {
   std::vector<bool> used = equality;
   VectorXd rho = solve_on(A, b, used);
-  const Index rounds = 4 * b.size() + 4;  // the method is finite; this bounds rounding cycles
+  const Index rounds = 4 * b.size() + 4;  // the method is finite; this limits cycles by rounding
   for (Index round = 0; round < rounds; ++round) {
     const Index worst = most_violated(A, b, rho, used);
     if (worst < 0) break;

@@ -1,9 +1,9 @@
-// Inequality constraints a^T q >= b on generalised coordinates, one mechanism for knee stops,
-// latches and parts that may not pass each other:
+// Inequality constraints a^T q >= b on generalised coordinates, for knee stops, latches and parts
+// that cannot pass each other:
 //   motion   M q_ddot = f + A^T rho,   rho >= 0,  A q_ddot >= 0,  rho^T A q_ddot = 0
 //   impact   M (qd+ - qd-) = A^T rho,  rho >= 0,  A qd+ >= 0,     rho^T A qd+ = 0   (plastic)
-// where A stacks the rows that act. A latched row acts in both directions: its rho has any sign.
-// Simultaneous rows are solved together; dependent rows share the load.
+// where A contains the active rows. A latched row acts in both directions: its rho has any sign.
+// Simultaneous rows are solved together; dependent rows share the force.
 #pragma once
 
 #include <span>
@@ -19,15 +19,15 @@ struct Limit {
   double bound = 0;     // b
 };
 
-// How a limit takes part in one solve.
+// The role of a limit in one solve.
 enum class LimitRole { kFree, kStop, kLatched };
 
 struct LimitedMotion {
   Eigen::VectorXd rate;   // q_ddot or qd+
-  Eigen::VectorXd force;  // rho per limit, 0 where free
+  Eigen::VectorXd force;  // rho for each limit, 0 if free
 };
 
-// `momentum` is f (motion) or M qd- (impact). Sizes of limits and roles agree.
+// `momentum` is f (motion) or M qd- (impact). Limits and roles have equal sizes.
 LimitedMotion solve_limited(const Eigen::MatrixXd& mass, const Eigen::VectorXd& momentum,
                             std::span<const Limit> limits, std::span<const LimitRole> roles);
 

@@ -19,7 +19,8 @@ struct Linear {
   double at_0, at_1;
 };
 
-// int_0^1 of a product of linear functions: multiply the polynomials out, integrate term by term.
+// int_0^1 of a product of linear functions: the polynomials are multiplied and integrated term by
+// term.
 double integral_of_product(std::initializer_list<Linear> factors) {
   std::vector<double> coefficients{1.0};
   for (const Linear& factor : factors) {
@@ -82,8 +83,8 @@ MassProperties capsule(double density, double length, double radius) {
   const double r2 = radius * radius;
   const double cylinder = density * kPi * r2 * length;
   const double half_sphere = density * 2.0 / 3.0 * kPi * r2 * radius;
-  // Centre of a half sphere 3r/8 from its flat face, its second moments 2/5, 1/5 m r^2 about
-  // the centre of the sphere.
+  // The centre of a half sphere is 3r/8 from its flat face, its second moments are 2/5, 1/5 m r^2
+  // about the centre of the sphere.
   const double along = cylinder * length * length / 12 +
                        2 * half_sphere * (r2 / 5 + length * length / 4 + 3.0 / 8 * length * radius);
   const double across = cylinder * r2 / 4 + 2 * half_sphere * r2 / 5;

@@ -109,7 +109,7 @@ PlanarMomentum momentum(const std::vector<PlanarPart>& parts, const VectorXd& q,
   const Vector2d mean_velocity = sum.linear / sum.mass;
   for (size_t i = 0; i < parts.size(); ++i) {
     const Vector2d r = positions[i] - sum.com, v = velocities[i] - mean_velocity;
-    // y component of r x v in 3-D, r = (x, 0, z): positive turns z towards x, that is forward.
+    // The y component of r x v in 3-D, r = (x, 0, z): positive rotates z towards x, i.e. forward.
     sum.angular += parts[i].mass * (r.y() * v.x() - r.x() * v.y());
     if (parts[i].angle >= 0) sum.angular += parts[i].inertia * qd(parts[i].angle);
   }

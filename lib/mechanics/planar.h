@@ -2,8 +2,8 @@
 // as in core/conventions.h. Every point of every planar walker has the form
 //   p(q) = constant + sum_i [ along_i u(q_i) + across_i w(q_i) + linear_i q_i ],
 //   u(a) = (sin a, cos a),  w(a) = (cos a, -sin a):
-// `linear` carries a translating coordinate (the hip in flight) or a rolling foot (R, 0). Points
-// add and subtract, so a chain is written as it is read: knee = ankle + shank.
+// `linear` contains translating coordinates (the hip in flight) and a rolling foot (R, 0). Points
+// can be added and subtracted, so that a chain is written as knee = ankle + shank.
 #pragma once
 
 #include <vector>
@@ -32,7 +32,7 @@ PlanarPoint bar(Eigen::Index coordinates, Eigen::Index i, double along, double a
 
 Eigen::Vector2d position(const PlanarPoint& point, const Eigen::VectorXd& q);
 Eigen::Matrix2Xd jacobian(const PlanarPoint& point, const Eigen::VectorXd& q);
-// Acceleration of the point while q_ddot = 0.
+// Acceleration of the point for q_ddot = 0.
 Eigen::Vector2d convective(const PlanarPoint& point, const Eigen::VectorXd& q,
                            const Eigen::VectorXd& qd);
 
@@ -40,16 +40,16 @@ struct PlanarPart {
   double mass = 0;     // kg
   double inertia = 0;  // kg m^2, about its centre of mass
   PlanarPoint com;
-  Eigen::Index angle = -1;  // coordinate that turns the part; -1: none
+  Eigen::Index angle = -1;  // the coordinate that is the part's angle; -1: none
 };
 
-// Mass matrix and gravity and centrifugal forces of the parts; add generalised forces to `force`.
-// `gravity` is the acceleration vector, m/s^2.
+// Mass matrix, and gravity and centrifugal forces of the parts; generalised forces are to be added
+// to `force`. `gravity` is the acceleration vector, m/s^2.
 TmtSystem assemble(const std::vector<PlanarPart>& parts, const Eigen::Vector2d& gravity,
                    const Eigen::VectorXd& q, const Eigen::VectorXd& qd);
 
-// Velocities of the parts' coordinates (x, z, angle for each part in order) and their masses: what
-// an impact map carries from one set of coordinates to another.
+// Velocities of the parts' coordinates (x, z, angle for each part in order) and their masses, with
+// which an impact map converts between sets of coordinates.
 Eigen::MatrixXd part_jacobian(const std::vector<PlanarPart>& parts, const Eigen::VectorXd& q);
 Eigen::VectorXd part_masses(const std::vector<PlanarPart>& parts);
 
@@ -69,7 +69,7 @@ struct PlanarEnergy {
 PlanarEnergy mechanical_energy(const std::vector<PlanarPart>& parts, const Eigen::Vector2d& gravity,
                                const Eigen::VectorXd& q, const Eigen::VectorXd& qd);
 
-// sum m (a - g): the resultant of all outer forces but gravity, i.e. the ground reaction, N.
+// sum m (a - g): the resultant of all external forces except gravity, i.e. the ground reaction, N.
 Eigen::Vector2d outer_force(const std::vector<PlanarPart>& parts, const Eigen::Vector2d& gravity,
                             const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                             const Eigen::VectorXd& qdd);

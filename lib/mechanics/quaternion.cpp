@@ -42,7 +42,7 @@ Quaternion quaternion_from_rotation(const Matrix3d& rotation) {
 
 Quaternion quaternion_from_vector(const Vector3d& v) {
   const double angle = v.norm();
-  // sin(angle / 2) / angle; its Taylor series where the quotient would be 0 / 0.
+  // sin(angle / 2) / angle, by its Taylor series near 0.
   const double factor = angle > 1e-8 ? std::sin(angle / 2) / angle : 0.5 - angle * angle / 48.0;
   Quaternion q;
   q << std::cos(angle / 2), factor * v;

@@ -1,7 +1,7 @@
 // Rotations as unit quaternions, scalar first: q = (w, x, y, z). With q = world_from_body,
 //   (0, v_world) = q o (0, v_body) o conj(q),
 //   dq/dt = 1/2 (0, omega_world) o q = 1/2 q o (0, omega_body).
-// Plain 4-vectors, because integrators add them; whoever integrates calls normalised() afterwards.
+// They are plain 4-vectors, because integrators add them; the caller has to normalise afterwards.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ using Quaternion = Eigen::Vector4d;
 
 inline Quaternion identity_quaternion() { return {1, 0, 0, 0}; }
 
-// p o q, the rotation q followed by p.
+// p o q: the rotation q followed by p.
 Quaternion product(const Quaternion& p, const Quaternion& q);
 
 // Q(q) with Q(q) p = q o p. For a unit q it is orthogonal: Q(q)^T = Q(conj q).

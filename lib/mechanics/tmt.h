@@ -1,8 +1,8 @@
 // Generalised coordinates u (the TMT method): parts' coordinates x = x(u), T = dx/du, constant part
 // masses M,
 //   (T^T M T) u_ddot = T^T (f - M Td ud) + generalised forces.
-// One assembly for every model of the library: planar.h fills T for planar linkages, articulated.h
-// for bodies in 3-D.
+// All models of the library use this assembly: planar.h computes T for planar linkages,
+// articulated.h for bodies in 3-D.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,8 @@ struct TmtSystem {
 TmtSystem assemble_tmt(const Eigen::MatrixXd& part_mass, const Eigen::MatrixXd& T,
                        const Eigen::VectorXd& convective, const Eigen::VectorXd& part_force);
 
-// M^-1 f for a symmetric positive definite M, also a badly graded one (parts of very unequal mass).
+// M^-1 f for a symmetric positive definite M, which may be badly scaled (parts of very unequal
+// mass).
 Eigen::VectorXd solve_mass(const Eigen::MatrixXd& mass, const Eigen::VectorXd& force);
 
 }  // namespace mechanics

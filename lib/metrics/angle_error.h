@@ -1,5 +1,5 @@
 // Errors of the pose angles that follow from true and estimated joint centres
-// (body/pose_from_joints.h), both read with the same standard foot.
+// (body/pose_from_joints.h), both computed with the same standard foot.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace walktrack {
 inline namespace metrics {
 
-// Those of trunk and legs; arms are rarely measured.
+// Numbers of trunk and legs; arms are rarely measured.
 constexpr bool is_compared(const PoseNumber& number) {
   return number.unit == Unit::kRadian && number.limb() != Limb::kArm;
 }
@@ -33,11 +33,11 @@ std::array<double, kAngleCount> angles_of(const Pose& pose);
 struct AngleError {
   size_t count = 0;  // frames in which both are known
   double mean_absolute = 0, rms = 0;
-  double bias = 0;  // mean of estimate minus truth; sources put the toe at different points, so the
-                    // ankle has one that is no error
+  double bias = 0;  // mean of estimate minus truth; sources define the toe differently, so that a
+                    // bias of the ankle is not an error
 };
 
-// By kAngleNames, rad. Frames with unknown joints do not count.
+// By kAngleNames, rad. Frames with unknown joints are not counted.
 std::array<AngleError, kAngleCount> angle_errors(const Motion& truth, const Motion& estimate);
 
 }  // namespace metrics

@@ -21,7 +21,7 @@ double value_at(std::span<const double> time, std::span<const double> values, do
   return values[i - 1] + share * (values[i] - values[i - 1]);
 }
 
-// Share of the stride at which its foot leaves the ground.
+// The share of the stride at which its foot leaves the ground.
 double toe_off_of(const Gait& gait, const Stride& stride) {
   for (const GaitEvent& event : gait.events) {
     if (event.side == stride.side && event.kind == GaitEventKind::kToeOff &&

@@ -1,5 +1,5 @@
-// Curves over the gait cycle: a signal cut at the strikes of one foot, each stride stretched to
-// 0-100 %, and what the strides have in common.
+// Curves over the gait cycle: a signal is cut at the foot strikes of one side, each stride is
+// scaled to 0-100 %, and strides are averaged.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@ inline namespace metrics {
 inline constexpr size_t kCyclePoints = 101;  // 0 %, 1 %, ..., 100 %
 using CycleCurve = std::array<double, kCyclePoints>;
 
-// From one strike of a foot to its next.
+// From one strike of a foot to its next one.
 struct Stride {
   Side side;
   double from, to;     // s
-  double toe_off = 0;  // share of the stride at which the foot leaves the ground; 0 = not known
+  double toe_off = 0;  // share of the stride; 0 = unknown
 };
 
-// In order of time. A stride longer than `longest` seconds is two with an event missed between
-// them, and left out.
+// In order of time. A stride longer than `longest` seconds contains an event that was missed, and
+// is left out.
 std::vector<Stride> strides_of(const Gait& gait, double longest = 3.0);
 
 // The signal over the stride, linear between samples; NaN within a gap (samples that are NaN) and
@@ -32,7 +32,7 @@ CycleCurve over_stride(std::span<const double> time, std::span<const double> val
                        const Stride& stride);
 
 // Mean and standard deviation (n - 1; 0 for one curve) at every per cent, over the curves without a
-// gap; NaN without any.
+// gap; NaN if there are none.
 struct CycleBand {
   CycleCurve mean, sd;
   size_t count = 0;

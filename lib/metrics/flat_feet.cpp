@@ -21,8 +21,8 @@ struct Span {
   double from, to;  // s
 };
 
-// `usual`: s that a stance lasts. Who has stood for longer than that at the motion's beginning has
-// his sole on the ground from the beginning on, and likewise at its end.
+// `usual`: duration of a stance, s. A foot that has been on the ground for longer than that at the
+// beginning of the motion is flat from the beginning on, and likewise at the end.
 Span flat_part(const Stance& stance, double usual) {
   const double seen = stance.off - stance.on;
   const bool whole = stance.starts_in_motion && stance.ends_in_motion;

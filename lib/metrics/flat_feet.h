@@ -1,4 +1,4 @@
-// Where a gait's feet lie flat on the ground.
+// The intervals in which the feet of a gait are flat on the ground.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@
 namespace walktrack {
 inline namespace metrics {
 
-// The rows of the motion in which soles lie flat (metrics/gait.h: kFlatFrom, kFlatTo). Of a stance
-// that an end of the motion cuts, the rows in which they would if it lasted as long as the whole
-// ones do on average; none where there is no whole one.
+// The rows of the motion in which soles are flat (metrics/gait.h: kFlatFrom, kFlatTo). For a stance
+// that is cut by an end of the motion, they are computed with the mean duration of complete
+// stances; there are none if no stance is complete.
 std::vector<FlatFoot> flat_feet(const Motion& motion, const Gait& gait);
 
 }  // namespace metrics

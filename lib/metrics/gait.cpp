@@ -12,14 +12,17 @@ namespace {
 
 using Eigen::Vector2d;
 
-// By hand, but for the retraction.
-constexpr double kPathWindow = 0.5;      // s; about a step, so that sway and bounce average out
+// By hand, except for the retraction.
+constexpr double kPathWindow = 0.5;      // s; about a step, so that sway and vertical motion are
+                                         // averaged out
 constexpr double kMatchWithin = 0.25;    // s; under half of the shortest usual stride
-constexpr double kRetraction = 0.045;    // of the stride, from the turning point; see the header
-constexpr double kUsualStride = 1.1;     // s, where a motion has one turning point
-constexpr double kLeastProgress = 0.15;  // m/s; slower than any walk, the direction means nothing
+constexpr double kRetraction = 0.045;    // share of the stride after the turning point; see the
+                                         // header
+constexpr double kUsualStride = 1.1;     // s, for a motion with one turning point
+constexpr double kLeastProgress = 0.15;  // m/s; slower than any walk, so that the direction is
+                                         // undefined
 
-// Consecutive rows [begin, end) in which pelvis and feet are known and somebody walks.
+// Consecutive rows [begin, end) in which pelvis and feet are known and the subject walks.
 struct Run {
   size_t begin, end;
 };
@@ -31,7 +34,7 @@ bool usable(const JointPositions& joints) {
 
 Vector2d ground(const Eigen::Vector3d& point) { return point.head<2>(); }
 
-// Whether somebody stands in row i: the pelvis does not get on in the second around it, as far as
+// Whether the subject stands in row i: the pelvis hardly moves in the second around it, as far as
 // that is known.
 bool stands(const Motion& motion, size_t i) {
   constexpr double kAround = 0.5;  // s; by hand
@@ -58,7 +61,7 @@ std::vector<Run> walking_runs(const Motion& motion) {
   return runs;
 }
 
-// Rows of the run within half of kPathWindow around row i, cut symmetrically at the ends.
+// Rows of the run within half of kPathWindow around row i, symmetric also at the ends.
 Run window_around(const Motion& motion, const Run& run, size_t i) {
   size_t reach = 0;
   while (i >= run.begin + reach + 1 && i + reach + 1 < run.end &&
@@ -67,7 +70,7 @@ Run window_around(const Motion& motion, const Run& run, size_t i) {
   return {i - reach, i + reach + 1};
 }
 
-// The pelvis on the ground, averaged over kPathWindow.
+// The position of the pelvis on the ground, averaged over kPathWindow.
 std::vector<Vector2d> smoothed_path(const Motion& motion, const Run& run) {
   std::vector<Vector2d> path;
   for (size_t i = run.begin; i < run.end; ++i) {
@@ -80,7 +83,8 @@ std::vector<Vector2d> smoothed_path(const Motion& motion, const Run& run) {
   return path;
 }
 
-// Unit direction of walking at each row of the run: from kPathWindow / 2 before to as much after.
+// Unit direction of walking at each row of the run, from kPathWindow / 2 before to the same time
+// after it.
 std::vector<Vector2d> directions(const Motion& motion, const Run& run,
                                  const std::vector<Vector2d>& path) {
   std::vector<Vector2d> out;
@@ -107,7 +111,7 @@ double refined_time(const Motion& motion, const Run& run, const std::vector<doub
          shift * (motion.time[row + (shift > 0)] - motion.time[row - (shift <= 0)]);
 }
 
-// Maxima of the signal that it has risen to and fallen from by at least kLeastSwing.
+// Maxima of the signal before and after which it changes by at least kLeastSwing.
 std::vector<size_t> maxima(const std::vector<double>& signal) {
   std::vector<size_t> found;
   size_t low = 0, high = 0;
@@ -131,7 +135,8 @@ std::vector<size_t> maxima(const std::vector<double>& signal) {
   return found;
 }
 
-// How far the ankle is ahead of the pelvis and the toe behind it, along the direction of walking.
+// Distances of the ankle in front of the pelvis and of the toe behind it, along the direction of
+// walking.
 struct FootSignals {
   std::vector<double> ankle_ahead, toe_behind;
 };
@@ -149,7 +154,7 @@ FootSignals foot_signals(const Motion& motion, const Run& run,
   return out;
 }
 
-// Twice the mean time between turning points of the two feet in turn.
+// Twice the mean time between successive turning points of opposite feet.
 double stride_time(const std::vector<GaitEvent>& turns) {
   if (turns.size() < 2) return kUsualStride;
   return 2 * (turns.back().time - turns.front().time) / static_cast<double>(turns.size() - 1);
@@ -181,7 +186,8 @@ std::vector<GaitEvent> events_of(const Motion& motion, const Run& run,
   return events;
 }
 
-// Mean of the foot over the flat part of the stance, or over all of it if that part has no row.
+// Mean position of the foot in the flat part of the stance, or in all of it if that part has no
+// row.
 Vector2d stance_place(const Motion& motion, const Run& run, const Stance& stance) {
   const double length = stance.off - stance.on;
   for (const auto& [from, to] : {std::pair{kFlatFrom, kFlatTo}, std::pair{0.0, 1.0}}) {
@@ -223,7 +229,7 @@ void add_stances(const Motion& motion, const Run& run, const std::vector<GaitEve
   if (on) close(end, false);
 }
 
-// Direction of walking between two stances: that of the pelvis over the time between them.
+// Direction of walking between two stances: that of the pelvis between their times.
 Vector2d direction_between(const Motion& motion, double from, double to) {
   const auto row = [&](double t) {
     const auto at = std::lower_bound(motion.time.begin(), motion.time.end(), t);

@@ -1,16 +1,17 @@
 // Gait from joint centres: foot strikes, toe-offs, stances, speed and steps.
 //
-// A foot leaves the ground where its toe is furthest behind the pelvis along the direction of
-// walking, and strikes after its ankle was furthest ahead (Zeni, Richards & Higginson, Gait &
-// Posture 27, 2008, with the ankle for the heel): from that turning point on the foot moves back
-// with the pelvis until it stands. This takes 4.5 % of a stride: force plates feel it 3.1 to 5.2 %
-// later (four strikes of two trials); heels of made walks (lib/synth/made_walk.h) come down 2.8 %
-// later at 0.6 m/s, 3.8 % at 1.8. How far the foot has slowed down would say it more directly,
-// but a tracked foot lands more slowly than the person's (README.md).
-// Rows in which the pelvis gets on by less than 15 cm a second are standing: they belong to no
-// walk, neither to its events nor to its speed. Turning points count when the foot has swung by at
-// least kLeastSwing, so someone who stands or sways has no gait. Times are refined between rows.
-// Metres, seconds; the ground is z = 0.
+// A foot leaves the ground when its toe is furthest behind the pelvis along the direction of
+// walking, and strikes after its ankle was furthest in front (Zeni, Richards & Higginson, Gait &
+// Posture 27, 2008, with the ankle instead of the heel): from that turning point on the foot moves
+// back with the pelvis until it is on the ground. This takes 4.5 % of a stride: force plates
+// measure it 3.1 to 5.2 % later (four strikes of two trials); heels of generated walks
+// (lib/synth/made_walk.h) touch the ground 2.8 % later at 0.6 m/s, 3.8 % at 1.8. The deceleration
+// of the foot would be a more direct sign, but a tracked foot lands more slowly than the person's
+// (README.md).
+// Rows in which the pelvis moves by less than 15 cm per second are standing: they belong to no
+// walk, neither to its events nor to its speed. Turning points count if the foot has swung by at
+// least kLeastSwing, so that a person who stands or sways has no gait. Times are interpolated
+// between rows. Metres, seconds; the ground is z = 0.
 #pragma once
 
 #include <optional>
@@ -23,7 +24,7 @@
 namespace walktrack {
 inline namespace metrics {
 
-inline constexpr double kLeastSwing = 0.12;  // m; a third of the shuffling gait's 0.4 m steps
+inline constexpr double kLeastSwing = 0.12;  // m; a third of the steps of a shuffling gait, 0.4 m
 
 enum class GaitEventKind { kFootStrike, kToeOff };
 
@@ -37,13 +38,13 @@ struct GaitEvent {
 struct Stance {
   Side side;
   double on, off;                         // s
-  bool starts_in_motion, ends_in_motion;  // whether on and off are events or ends of the motion
-  Eigen::Vector2d place;  // where (ankle + toe) / 2 stands: mean over the middle of the stance
+  bool starts_in_motion, ends_in_motion;  // whether on and off are events, not ends of the motion
+  Eigen::Vector2d place;                  // mean of (ankle + toe) / 2 over the middle of the stance
 };
 
-// From a stance to the next one of the other foot; indices of Gait::stances. Only between strikes
-// that were both seen: where a foot stood whose stance the motion's beginning cuts is not known
-// well enough.
+// From a stance to the next one of the other foot; indices of Gait::stances. Steps exist only
+// between strikes that are both in the motion: the position of a foot whose stance is cut by the
+// beginning of the motion is not accurate enough.
 struct Step {
   size_t from, to;
   double length, width;  // m, along and across the direction of walking
@@ -53,17 +54,17 @@ struct Step {
 struct Gait {
   std::vector<GaitEvent> events;  // by time
   std::vector<Stance> stances;    // by time of `on`, then `off`
-  double speed = 0;  // m/s, length of the smoothed path of the pelvis over its time, walking
+  double speed = 0;  // m/s, length of the pelvis' smoothed path over its duration while walking
   std::vector<Step> steps;
   double mean_step_length = 0;  // m, along the direction of walking; 0 without steps
   double mean_step_time = 0;    // s, between their strikes; 0 without
   double mean_step_width = 0;   // m, across the direction of walking
-  double stance_share = 0;      // of the stride, over strides with both ends seen; 0 without
+  double stance_share = 0;      // of the stride, over complete strides; 0 without
 };
 
 Gait gait_from_motion(const Motion& motion);
 
-// The part of a stance in which the sole lies flat: 15 % to 60 % of it. By hand.
+// The part of a stance in which the sole is flat: 15 % to 60 % of it. By hand.
 inline constexpr double kFlatFrom = 0.15, kFlatTo = 0.60;
 
 // The middle of the foot, (ankle + toe) / 2.
@@ -72,7 +73,7 @@ inline Eigen::Vector3d foot_point(const JointPositions& joints, Side side) {
 }
 
 // Differences between the events of two gaits of one walk, matched by side and kind to the nearest
-// within a quarter of a second.
+// one within a quarter of a second.
 struct EventErrors {
   size_t matched = 0, missed = 0, extra = 0;
   double mean_late = 0;      // s, estimate minus truth

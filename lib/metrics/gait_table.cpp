@@ -15,20 +15,20 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // By hand.
 constexpr double kSameContact = 0.25;  // s; under half of the shortest usual stride
-constexpr size_t kLeastForSpread = 3;  // steps; two say more of chance than of the walker
-constexpr size_t kLeastASide = 2;      // contacts of either side for a symmetry
-constexpr size_t kLeastMembers = 5;    // for a 5 % and a 95 % point that are not two members
+constexpr size_t kLeastForSpread = 3;  // steps; two depend on chance too much
+constexpr size_t kLeastASide = 2;      // contacts of either side, for a symmetry
+constexpr size_t kLeastMembers = 5;    // for 5 % and 95 % quantiles that are more than two members
 
 using Values = std::array<double, kContactColumnCount>;
 
-// A reading of one motion, without bands.
+// The gait of one motion, without bands.
 struct Contact {
   Side side;
-  double time;  // for matching: the strike, else the toe-off; NaN if cut at both ends
+  double time;  // for matching: the strike, otherwise the toe-off; NaN if cut at both ends
   Values at;
 };
 
-struct Reading {
+struct MotionGait {
   std::vector<Contact> contacts;
   double speed = kNone;
 };
@@ -39,7 +39,7 @@ Values nothing() {
   return out;
 }
 
-// How long the other foot stands as well during [from, to).
+// Duration for which the other foot is on the ground as well during [from, to).
 double shared_time(const Gait& gait, const Stance& stance, double from, double to) {
   double sum = 0;
   for (const Stance& each : gait.stances) {
@@ -66,9 +66,9 @@ void set_stride(const Gait& gait, size_t index, Values& at) {
   at[kDoubleSupportShare] = 100 * shared_time(gait, stance, stance.on, next->on) / time;
 }
 
-Reading read(const Motion& motion) {
+MotionGait read(const Motion& motion) {
   const Gait gait = gait_from_motion(motion);
-  Reading out;
+  MotionGait out;
   if (gait.speed > 0) out.speed = gait.speed;
   for (size_t i = 0; i < gait.stances.size(); ++i) {
     const Stance& stance = gait.stances[i];
@@ -102,20 +102,21 @@ double deviation(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-std::vector<double> column(const Reading& reading, std::optional<Side> side, ContactColumn which) {
+std::vector<double> column(const MotionGait& gait_of_motion, std::optional<Side> side,
+                           ContactColumn which) {
   std::vector<double> out;
-  for (const Contact& contact : reading.contacts) {
+  for (const Contact& contact : gait_of_motion.contacts) {
     if (side && contact.side != *side) continue;
     if (std::isfinite(contact.at[which])) out.push_back(contact.at[which]);
   }
   return out;
 }
 
-std::array<double, kSummaryColumnCount> summarised(const Reading& reading,
+std::array<double, kSummaryColumnCount> summarised(const MotionGait& gait_of_motion,
                                                    std::optional<Side> side) {
-  const auto values = [&](ContactColumn which) { return column(reading, side, which); };
+  const auto values = [&](ContactColumn which) { return column(gait_of_motion, side, which); };
   std::array<double, kSummaryColumnCount> out;
-  out[kSpeed] = side ? mean(values(kStrideSpeed)) : reading.speed;
+  out[kSpeed] = side ? mean(values(kStrideSpeed)) : gait_of_motion.speed;
   out[kMeanStepLength] = mean(values(kStepLength));
   out[kMeanStepWidth] = mean(values(kStepWidth));
   out[kMeanStepTime] = mean(values(kStepTime));
@@ -130,18 +131,18 @@ std::array<double, kSummaryColumnCount> summarised(const Reading& reading,
   return out;
 }
 
-std::array<double, kSymmetryCount> symmetries(const Reading& reading) {
+std::array<double, kSymmetryCount> symmetries(const MotionGait& gait_of_motion) {
   const auto asymmetry = [&](ContactColumn which) {
-    const auto left = column(reading, Side::kLeft, which),
-               right = column(reading, Side::kRight, which);
+    const auto left = column(gait_of_motion, Side::kLeft, which),
+               right = column(gait_of_motion, Side::kRight, which);
     if (std::min(left.size(), right.size()) < kLeastASide) return kNone;
     return 200 * (mean(left) - mean(right)) / (mean(left) + mean(right));
   };
   return {asymmetry(kStepLength), asymmetry(kStepTime), asymmetry(kStanceShare)};
 }
 
-// `value` with the 5 and 95 % points of the finite ones among `others`, if they are at least half
-// of them and kLeastMembers; stretched to hold the value.
+// `value` with the 5 and 95 % quantiles of the finite values among `others`, if they are at least
+// half of them and at least kLeastMembers; the band always contains the value.
 Banded banded(double value, const std::vector<double>& others) {
   std::vector<double> finite;
   std::copy_if(others.begin(), others.end(), std::back_inserter(finite),
@@ -154,10 +155,10 @@ Banded banded(double value, const std::vector<double>& others) {
   return out;
 }
 
-// The member's reading of the same contact.
-const Contact* find_contact(const Reading& reading, const Contact& wanted) {
+// The member's contact that corresponds to this one.
+const Contact* find_contact(const MotionGait& gait_of_motion, const Contact& wanted) {
   const Contact* best = nullptr;
-  for (const Contact& each : reading.contacts) {
+  for (const Contact& each : gait_of_motion.contacts) {
     const double apart = std::abs(each.time - wanted.time);
     if (each.side != wanted.side || !(apart < kSameContact)) continue;
     if (!best || apart < std::abs(best->time - wanted.time)) best = &each;
@@ -165,9 +166,9 @@ const Contact* find_contact(const Reading& reading, const Contact& wanted) {
   return best;
 }
 
-ContactRow contact_row(const Contact& contact, const std::vector<Reading>& members) {
+ContactRow contact_row(const Contact& contact, const std::vector<MotionGait>& members) {
   std::vector<const Contact*> same;
-  for (const Reading& member : members) same.push_back(find_contact(member, contact));
+  for (const MotionGait& member : members) same.push_back(find_contact(member, contact));
   ContactRow row;
   row.side = contact.side;
   for (size_t k = 0; k < kContactColumnCount; ++k) {
@@ -188,12 +189,12 @@ void set_transfer(std::span<const SupportTransfer> transfers, ContactRow& row) {
   }
 }
 
-// A motion's reading and a member's, both cut down to what both know of the same contacts.
+// The gaits of a motion and of a member, both reduced to the contacts that both have.
 struct Common {
-  Reading motion, member;
+  MotionGait motion, member;
 };
 
-Common common_of(const Reading& motion, const Reading& member) {
+Common common_of(const MotionGait& motion, const MotionGait& member) {
   Common out{motion, motion};
   out.member.speed = member.speed;
   for (size_t i = 0; i < motion.contacts.size(); ++i) {
@@ -206,13 +207,14 @@ Common common_of(const Reading& motion, const Reading& member) {
   return out;
 }
 
-// f's numbers of the motion, with bands over the members. A member that lacks a contact, or has one
-// too many, must not look like a walker of other steps: what counts is by how much it differs from
-// the motion over the contacts that both have.
+// The numbers of the motion that f computes, with bands over the members. A member that lacks a
+// contact, or has an additional one, would have other step lengths; therefore the difference
+// between member and motion over the contacts that both have is used.
 template <size_t N>
-std::array<Banded, N> banded_all(const Reading& reading, const std::vector<Common>& members,
-                                 const std::function<std::array<double, N>(const Reading&)>& f) {
-  const std::array<double, N> values = f(reading);
+std::array<Banded, N> banded_all(const MotionGait& gait_of_motion,
+                                 const std::vector<Common>& members,
+                                 const std::function<std::array<double, N>(const MotionGait&)>& f) {
+  const std::array<double, N> values = f(gait_of_motion);
   std::array<std::vector<double>, N> others;
   for (const Common& common : members) {
     const std::array<double, N> ours = f(common.motion), theirs = f(common.member);
@@ -227,26 +229,26 @@ std::array<Banded, N> banded_all(const Reading& reading, const std::vector<Commo
 
 GaitTable gait_table(const Motion& motion, const Ensemble& members,
                      std::span<const SupportTransfer> transfers) {
-  const Reading reading = read(motion);
-  std::vector<Reading> others;
+  const MotionGait gait_of_motion = read(motion);
+  std::vector<MotionGait> others;
   for (size_t m = 0; m < members.size; ++m) others.push_back(read(members.member(m)));
   GaitTable table;
-  for (const Contact& contact : reading.contacts) {
+  for (const Contact& contact : gait_of_motion.contacts) {
     table.contacts.push_back(contact_row(contact, others));
     set_transfer(transfers, table.contacts.back());
   }
-  table.steps = column(reading, std::nullopt, kStepLength).size();
-  table.strides = column(reading, std::nullopt, kStrideLength).size();
+  table.steps = column(gait_of_motion, std::nullopt, kStepLength).size();
+  table.strides = column(gait_of_motion, std::nullopt, kStrideLength).size();
   std::vector<Common> common;
-  for (const Reading& member : others) common.push_back(common_of(reading, member));
+  for (const MotionGait& member : others) common.push_back(common_of(gait_of_motion, member));
   const auto summary = [&](std::optional<Side> side) {
     return banded_all<kSummaryColumnCount>(
-        reading, common, [side](const Reading& each) { return summarised(each, side); });
+        gait_of_motion, common, [side](const MotionGait& each) { return summarised(each, side); });
   };
   table.both = summary(std::nullopt);
   table.left = summary(Side::kLeft);
   table.right = summary(Side::kRight);
-  table.symmetry = banded_all<kSymmetryCount>(reading, common, symmetries);
+  table.symmetry = banded_all<kSymmetryCount>(gait_of_motion, common, symmetries);
   return table;
 }
 

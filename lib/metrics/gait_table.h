@@ -49,7 +49,7 @@ enum ContactColumn {
   kStrideSpeed,
   kStanceShare,
   kSwingShare,
-  kDoubleSupportShare,  // both ends of the stance together
+  kDoubleSupportShare,  // before and after single support together
   kContactColumnCount
 };
 inline constexpr std::array<std::string_view, kContactColumnCount> kContactColumns{
@@ -92,7 +92,7 @@ inline constexpr std::array<std::string_view, kSymmetryCount> kSymmetryColumns{
 
 struct GaitTable {
   std::vector<ContactRow> contacts;  // by time
-  size_t steps = 0, strides = 0;     // that have a length
+  size_t steps = 0, strides = 0;     // those with a length
   Summary both, left, right;         // left: steps that end with the left foot
   std::array<Banded, kSymmetryCount> symmetry;
 };

@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 using ScoredPoints = Eigen::Matrix<double, 3, kScoredJoints.size()>;
 
 // By hand.
-constexpr double kAnklesApart = 0.25;  // m; closer together, sides are not told apart
+constexpr double kAnklesApart = 0.25;  // m; if they are closer together, sides are not
+                                       // distinguished
 constexpr double kLongestGap = 1.5;    // sample periods; a missing row is a gap
 
 ScoredPoints scored_points(const JointPositions& joints) {
@@ -30,7 +31,7 @@ double mean_distance(const ScoredPoints& a, const ScoredPoints& b) {
   return (a - b).colwise().norm().mean();
 }
 
-// The similarity that moves the estimate onto the truth best.
+// The similarity transform that fits the estimate to the truth best.
 Eigen::Affine3d similarity(const ScoredPoints& truth, const ScoredPoints& estimate) {
   return Eigen::Affine3d(Eigen::umeyama(estimate, truth, true));
 }
@@ -48,7 +49,7 @@ bool swapped(const JointPositions& truth, const JointPositions& estimate) {
   return false;
 }
 
-// Distances of all frames so far.
+// Distances in all frames so far.
 struct Distances {
   std::vector<double> absolute, pelvis_relative, procrustes;
 };
@@ -71,10 +72,10 @@ JointErrors::OfJoint statistics_of(Distances distances) {
           error_statistics(std::move(distances.procrustes))};
 }
 
-// The horizontal direction in which the pelvis goes in the second about a row; nullopt where it
-// hardly does.
+// The horizontal direction in which the pelvis moves in the second around a row; nullopt if it
+// hardly moves.
 std::optional<Vector3d> way_at(const Motion& motion, size_t row) {
-  constexpr double kHalfWindow = 0.5;  // s; a stride, so that sway does not count
+  constexpr double kHalfWindow = 0.5;  // s; together a stride, so that sway is averaged out
   constexpr double kLeastWay = 0.1;    // m; by hand
   std::optional<Vector3d> first, last;
   const double now = motion.time[row];
@@ -101,7 +102,7 @@ double leg_length(const JointPositions& joints) {
   return sum;
 }
 
-// Signed errors, which random errors do not hide.
+// Signed errors, in which random errors cancel.
 class SignedErrors {
  public:
   void add(const Motion& truth, size_t row, const JointPositions& estimate) {

@@ -1,9 +1,9 @@
 // Distances between estimated and true joint centres, and how often left and right were swapped.
 //
-// Sources put neck, head and toes at different points of the body, so the headline figures count
-// the seven joints that all define alike: pelvis, hips, knees and ankles. A truth frame is filled
-// when the estimate knows all seven; scoring starts at the first filled frame (initialisation).
-// The estimate is resampled at the truth's times. Metres, seconds.
+// Sources define neck, head and toes differently, so that the main errors use the seven joints that
+// all define alike: pelvis, hips, knees and ankles. A frame of the truth is filled if the estimate
+// knows all seven; evaluation starts at the first filled frame (initialisation). The estimate is
+// resampled at the truth's times. Metres, seconds.
 #pragma once
 
 #include <array>
@@ -26,34 +26,34 @@ struct JointErrors {
   double start = std::numeric_limits<double>::quiet_NaN();  // s, first filled truth frame
   size_t frames = 0;                                        // truth frames from then on
   double filled_share = 0;                                  // of those
-  // Share of the filled frames in which a knee and its ankle are both nearer the other side's truth
-  // while the ankles are more than 0.25 m apart.
+  // Share of the filled frames in which a knee and its ankle are both nearer to the other side's
+  // truth while the ankles are more than 0.25 m apart.
   double swapped_share = 0;
-  // Over frames, of the mean over the seven joints: as they are; after moving the estimated pelvis
-  // onto the true one; after the similarity (rotation, translation, scale) that fits the seven best
-  // in each frame (Procrustes; Umeyama 1991).
+  // Statistics over frames of the mean over the seven joints: without alignment; after moving the
+  // estimated pelvis to the true one; after the similarity (rotation, translation, scale) that fits
+  // the seven best in each frame (Procrustes; Umeyama 1991).
   ErrorStatistics absolute, pelvis_relative, procrustes;
-  // The same of each joint; count 0 where never both known.
+  // The same for each joint; count 0 if never both are known.
   struct OfJoint {
     ErrorStatistics absolute, pelvis_relative, procrustes;
   };
   std::array<OfJoint, kJointCount> by_joint;
   // The absolute error of each frame, NaN where it is not filled.
   std::vector<double> time, by_frame;
-  // Mean of estimated minus true pelvis: along the true way of walking, to its left, up. The way is
-  // that of a second of the pelvis; NaN if nobody comes forward in it.
+  // Mean of estimated minus true pelvis: along the true direction of walking, to its left, up. The
+  // direction is that of the pelvis over a second; NaN if it hardly moves.
   Eigen::Vector3d mean_offset = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   // Estimated over true length of thighs and shanks, mean over frames; NaN without frames.
   double leg_length_ratio = std::numeric_limits<double>::quiet_NaN();
 };
 
-// Throws InputError if no truth frame knows the seven joints.
+// Throws InputError if the seven joints are known in no frame of the truth.
 JointErrors joint_errors(const Motion& truth, const Motion& estimate);
 
 bool scored_joints_known(const JointPositions& joints);
 
 // An estimate at the truth's times: interpolated between neighbouring rows; across a missing row it
-// stays unknown.
+// is unknown.
 Motion at_times_of(const Motion& truth, const Motion& estimate);
 
 }  // namespace metrics

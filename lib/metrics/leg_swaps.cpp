@@ -17,8 +17,8 @@ bool legs_known(const JointPositions& joints) {
          std::all_of(kRight.begin(), kRight.end(), [&](Joint j) { return known(joints[j]); });
 }
 
-// Distance from where the joints `bound` go, by rows i - 2 and i - 1, to the joints `found` in row
-// i.
+// Distance between the positions of the joints `bound` that follow from rows i - 2 and i - 1, and
+// the joints `found` in row i.
 double miss(const Motion& motion, size_t i, const std::array<Joint, 2>& bound,
             const std::array<Joint, 2>& found) {
   double sum = 0;
@@ -41,7 +41,7 @@ size_t leg_swaps(const Motion& motion) {
     const double swapped = miss(motion, i, kLeft, kRight) + miss(motion, i, kRight, kLeft);
     if (swapped + kClearly >= kept) continue;
     ++swaps;
-    run = 1;  // the jump itself is no velocity to go on with
+    run = 1;  // the jump itself cannot be used as a velocity
   }
   return swaps;
 }

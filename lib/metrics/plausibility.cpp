@@ -11,12 +11,12 @@ inline namespace metrics {
 namespace {
 
 // By hand.
-constexpr double kPenetrates = 0.005;  // m; less is the noise of any measurement
-constexpr size_t kFewestTimes = 3;     // of steps, that have a usual one
+constexpr double kPenetrates = 0.005;  // m; less is within the noise of any measurement
+constexpr size_t kFewestTimes = 3;     // of steps, for a median
 constexpr double kRegular = 0.01;      // relative; rows further from equal steps are a gap
 
-// Largest distance on the ground between two places of the foot in the flat part; < 0 if the foot
-// is seen less than twice.
+// Largest distance on the ground between two positions of the foot in the flat part; < 0 if the
+// foot is known less than twice.
 double slide(const Motion& motion, const Stance& stance) {
   const double length = stance.off - stance.on;
   std::vector<Eigen::Vector2d> places;
@@ -85,7 +85,7 @@ double mean_jerk(const Motion& motion) {
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
-// Where the pelvis is over the ground, linearly between rows; NaN beside a row that is not known.
+// The position of the pelvis over the ground, linear between rows; NaN beside an unknown row.
 Eigen::Vector2d pelvis_at(const Motion& motion, double time) {
   const auto row = [&](size_t i) { return motion.joints[i][Joint::kPelvis].head<2>(); };
   const auto after = std::lower_bound(motion.time.begin(), motion.time.end(), time);
@@ -111,8 +111,8 @@ void add_steps(const Motion& motion, const Gait& gait, Plausibility& out) {
   out.steps_off_way = way > 0 ? std::abs(steps / way - 1) : 1;
 }
 
-// Legs that change places while somebody walks on make a step that takes no time, or one foot
-// strike twice running.
+// If legs are swapped while the subject walks on, a step takes no time, or one foot strikes twice
+// in succession.
 double quickest_step(const Gait& gait) {
   std::vector<double> times;
   const GaitEvent* last = nullptr;

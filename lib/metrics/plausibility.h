@@ -9,25 +9,24 @@ namespace walktrack {
 inline namespace metrics {
 
 struct Plausibility {
-  // Largest horizontal travel of (ankle + toe) / 2 in the flat part of a stance that lies wholly in
-  // the motion: mean and worst over stances, m. 0 without such a stance. Measured people: up to 12
-  // mm.
+  // Largest horizontal displacement of (ankle + toe) / 2 in the flat part of a complete stance:
+  // mean and worst over stances, m. 0 without such a stance. Measured people: up to 12 mm.
   double mean_foot_slide = 0, worst_foot_slide = 0;
   size_t stances = 0;  // that were counted
-  // Deepest ankle or toe below the ground, and the share of rows with one deeper than 5 mm.
+  // Largest depth of an ankle or toe below the ground, and the share of rows with more than 5 mm.
   double penetration = 0;
   double penetrating_share = 0;
   // Mean magnitude of the third derivative of the seven scored joints, m/s^3.
   double jitter = 0;
-  // Along the walk, m; 0 without steps.
+  // Along the direction of walking, m; 0 without steps.
   double longest_step = 0, shortest_step = 0;
-  // The shortest time from one strike to the next, as a share of the median one; from one to the
-  // next of the same foot counts as two. 1 with less than three times.
+  // The shortest time from one strike to the next, as a share of the median one; the time to the
+  // next strike of the same foot counts as two. 1 with less than three times.
   double quickest_step = 1;
-  // |sum of the steps' lengths / way of the pelvis between the same strikes - 1|: 0 where the feet
-  // go as far as the body, and without steps.
+  // |sum of the steps' lengths / path of the pelvis between the same strikes - 1|: 0 if the feet
+  // move as far as the body, and without steps.
   double steps_off_way = 0;
-  // Of the pelvis over the ground in the fastest half second of known rows, m/s.
+  // Speed of the pelvis over the ground in the fastest half second of known rows, m/s.
   double fastest = 0;
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFoundWithin = 0.25;  // m; a third of a usual step
 constexpr double kSameInstant = 1e-4;  // s; times come from frame numbers with a few decimals
 
-// Mean |x - place| of that foot over [on, off]; NaN where it is never known.
+// Mean |x - place| of that foot over [on, off]; NaN if it is never known.
 double mean_offset(const Motion& motion, Side side, double place, double on, double off) {
   double sum = 0;
   size_t count = 0;

@@ -1,5 +1,5 @@
-// Scores against what people can measure by hand in a video: foot plants and ground points.
-// Metres, seconds.
+// Errors relative to measurements that people make by hand in a video: foot plants and ground
+// points. Metres, seconds.
 #pragma once
 
 #include <limits>
@@ -13,7 +13,7 @@
 namespace walktrack {
 inline namespace metrics {
 
-// A foot on the ground from `on` to `off`, the middle of the foot at x = `place` (the walk goes
+// A foot on the ground from `on` to `off`, with the middle of the foot at x = `place` (the walk is
 // along x).
 struct FootPlant {
   Side side;
@@ -25,7 +25,7 @@ struct FootPlantError {
   // The plant's foot is within 0.25 m of it over the stance, and nearer than the other foot.
   bool found = false;
   // Mean of |x of (ankle + toe) / 2 - place| over the stance without `trim` at either end. NaN if
-  // that leaves nothing or nothing of it is known.
+  // nothing of it is left or known.
   double error = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -35,7 +35,7 @@ struct FootPlantErrors {
   double mean_error = std::numeric_limits<double>::quiet_NaN();  // over plants that have one
 };
 
-// `trim`: seconds at either end of a stance that are not scored (heel strike and heel-off).
+// `trim`: seconds at either end of a stance that are not used (heel strike and heel-off).
 FootPlantErrors foot_plant_errors(const std::vector<FootPlant>& truth, const Motion& estimate,
                                   double trim);
 

@@ -17,10 +17,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kHingeWeight = 0.3;  // of the trunk's left against a bent elbow's own axis
+constexpr double kHingeWeight = 0.3;  // weight of the trunk's left axis relative to a bent elbow's
+                                      // own axis
 
-// Axes of a foot: x along the sole. The ball's height under the ankle is the body's, so the line
-// from ankle to ball is turned by the angle that it has to the sole.
+// Axes of a foot with x along the sole. The ball's height below the ankle is the body's, so that
+// the line from ankle to ball is rotated by its angle to the sole.
 Matrix3d foot_axes(const Body& body, const Vector3d& ankle_to_ball, const Vector3d& left) {
   const double drop = body.lengths.ankle_height - body.lengths.ball_height;
   const double reach = ankle_to_ball.norm();
@@ -83,7 +84,7 @@ Vector3d trunk_left(const JointPositions& joints, const Vector3d& hips_left) {
   return known(shoulders) ? Vector3d(hips_left + shoulders.normalized()) : hips_left;
 }
 
-// Median of a length over the rows that know it.
+// Median of a length over the rows in which it is known.
 std::optional<double> median_length(const Motion& motion, Joint from, Joint to) {
   std::vector<double> lengths;
   for (const JointPositions& joints : motion.joints) {
@@ -165,7 +166,8 @@ std::optional<Skeleton> skeleton_from_joints(const Body& body, const JointPositi
   const Vector3d spine = joints[Joint::kNeck] - out.joints[Joint::kPelvis];
   const Vector3d up = known(spine) ? spine : Vector3d(Vector3d::UnitZ());
   axes_of(out, Segment::kTrunk) = axes_with_z(up, trunk_left(joints, left));
-  // The pelvis keeps its own left: the trunk's direction leans it, the hips list it.
+  // The pelvis keeps its own left axis: the trunk's direction determines its tilt, the hips its
+  // list.
   Matrix3d& pelvis = axes_of(out, Segment::kPelvis);
   pelvis.col(1) = left;
   pelvis.col(0) = left.cross(up).normalized();

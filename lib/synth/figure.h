@@ -1,4 +1,4 @@
-// A walker as the renderer sees it: joint centres over time, dressed in the parts of a body.
+// A walker for the renderer: joint centres over time, with the parts of a body.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@
 namespace walktrack {
 inline namespace synth {
 
-// One material for each class of body/body.h.
+// One material for each appearance class of body/body.h.
 using Clothes = std::array<Material, kAppearanceCount>;
 
-// A few sets of clothes that differ from each other and from the settings; any index is valid.
+// Several sets of clothes that differ from each other and from the settings; any index is valid.
 Clothes clothes(int index);
 
-// A body of this stature whose bones have the median lengths of the motion, with arms if the motion
-// knows them. Throws InputError if no row knows both legs.
+// A body of this stature with the median lengths of the motion's bones, and with arms if the motion
+// has them. Throws InputError if no row has both legs.
 Body body_from_motion(const Motion& motion, double height);
 
-// The segments' orientations from joint centres: bones run through their joints exactly, a leg's
-// and an arm's hinge axis is common to its two bones, the trunk's left lies between hips' and
-// shoulders'. nullopt if a hip, knee or ankle is unknown, or if the body has arms and a joint of
-// theirs is. Without toes the feet are flat and point where the pelvis does; without a neck the
-// trunk is upright.
+// The segments' orientations from joint centres: bones pass through their joints exactly, the hinge
+// axis of a leg or arm is common to its two bones, and the trunk's left axis is between those of
+// hips and shoulders. nullopt if a hip, knee or ankle is unknown, or if the body has arms and one
+// of their joints is unknown. Without toes the feet are flat and point in the direction of the
+// pelvis; without a neck the trunk is upright.
 std::optional<Skeleton> skeleton_from_joints(const Body& body, const JointPositions& joints);
 
 }  // namespace synth

@@ -8,11 +8,13 @@ inline namespace synth {
 
 namespace {
 
-// Of the foot's length: heel behind the ankle, tip of the toes before the ball (body/subject.cpp).
+// Shares of the foot's length: the heel behind the ankle, the tip of the toes in front of the ball
+// (body/subject.cpp).
 constexpr double kHeelBack = .23, kTipAhead = .28;
-constexpr double kStretched = .26;  // of the swing, when toes are straight; by hand
-constexpr double kLifting = .40;    // of the swing, up and down; by hand
-// Of the foot, where the lowest point changes from tip to heel: 4 cm of a usual one; by hand.
+constexpr double kStretched = .26;  // share of the swing after which toes are straight; by hand
+constexpr double kLifting = .40;    // share of the swing for lifting, and for lowering; by hand
+// Smoothing length where the lowest point changes from tip to heel, share of the foot: 4 cm for a
+// usual one; by hand.
 constexpr double kRounding = .04 / .266;
 
 }  // namespace
@@ -33,7 +35,7 @@ double swinging_ankle(const BodyLengths& lengths, double pitch, double swing, do
   const double tip = lengths.ball_forward * std::sin(pitch) + toes * std::sin(pitch);
   const double heel = -kHeelBack * lengths.foot * std::sin(pitch);
   const double lifted = smooth_step(swing / kLifting) * smooth_step((1 - swing) / kLifting);
-  // The greater one of both, rounded off.
+  // A smooth maximum of both.
   const double below =
       0.5 * (tip + heel + std::hypot(tip - heel, kRounding * lengths.foot * lifted));
   return lengths.ankle_height * std::cos(pitch) + below + clearance * lifted;

@@ -22,13 +22,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Accelerations of the ankle at either end of its swing, in ways by the square of the swing's time:
-// pushed off and braked. Fitted with the angles of walk_style.cpp.
+// Accelerations of the ankle at both ends of its swing (push-off and braking), in units of its way
+// over the square of the swing time. Fitted together with the angles of walk_style.cpp.
 constexpr double kPush = 4.5, kBrake = -5;
-constexpr double kSway = 0.018;  // m, of the pelvis to either side (Perry 1992: 4 cm in all)
-// Of a stride; more change nothing that is seen. By hand.
+constexpr double kSway = 0.018;  // m, amplitude of the pelvis' lateral motion (Perry 1992: 4 cm in
+                                 // all)
+// Per stride; more make no visible difference. By hand.
 constexpr int kHarmonics = 8;  // of the pelvis's height
-constexpr int kInstants = 96;  // at which legs are looked at
+constexpr int kInstants = 96;  // at which legs are evaluated
 
 struct Foot {
   Vector3d ankle;
@@ -61,9 +62,9 @@ class Walker {
     return walk_.heading + walk_.turn_rate / walk_.speed * distance;
   }
 
-  // The path `left` metres beside itself.
+  // The point of the path, shifted to the left by `left` metres.
   Vector2d path_point(double distance, double left) const {
-    // Distances count from where the phase began; the start is where the pelvis is at time 0.
+    // Distances are counted from the beginning of the phase; the pelvis is at the start at time 0.
     const double passed = walk_.speed * 2 * step_time_ * walk_.phase;
     const double d = distance - passed, bend = walk_.turn_rate / walk_.speed;
     const double a = walk_.heading, b = a + bend * d;
@@ -77,7 +78,7 @@ class Walker {
     return path_heading(distance - walk_.speed * 2 * step_time_ * walk_.phase);
   }
 
-  // Foot of footprint `index` (even = left) on the ground, `stride` after its strike.
+  // The foot on footprint `index` (even = left), `stride` after its strike.
   Foot standing(int index, double stride) const {
     const bool left = index % 2 == 0;
     const double step = style_.step_length;
@@ -94,7 +95,7 @@ class Walker {
     return (standing(index, stride + h).ankle - standing(index, stride).ankle).head<2>() / h;
   }
 
-  // Strides since the first strike of that foot.
+  // Number of strides since the first strike of that foot.
   double strides(Side side, double t) const {
     return (t / step_time_ - (side == Side::kLeft ? 0 : 1 + walk_.limp)) / 2;
   }
@@ -116,7 +117,7 @@ class Walker {
             pitch};
   }
 
-  // Root, heading, list and tilt; steps begin with strikes, of the left foot for even ones.
+  // Root, heading, list and tilt; steps begin with strikes, those of the left foot for even ones.
   Pose pelvis_at(double t, double height) const {
     const double steps = t / step_time_;
     const auto stride_wave = [&](double peak) { return std::cos(kPi * (steps - peak)); };
@@ -124,15 +125,16 @@ class Walker {
     const Vector2d ground = path_point(distance, kSway * stride_wave(0.62));
     Pose pose;
     pose.root = {ground.x(), ground.y(), height};
-    // Phases and the third harmonic are those of Conventional Gait Model norms: the pelvis turns
-    // furthest just after a strike, rises on the side that is loaded and stays up until the next.
+    // Phases and the third harmonic are those of the norms of the Conventional Gait Model: the
+    // rotation of the pelvis is largest just after a strike; the pelvis rises on the loaded side
+    // and stays up until the next strike.
     pose.heading = heading_at(distance) - style_.rotation * stride_wave(0.09);
     pose.list = style_.list * (stride_wave(0.45) + 0.4 * std::cos(3 * kPi * (steps - 0.29)));
     pose.tilt = style_.lean;
     return pose;
   }
 
-  // The pelvis's height at which that leg's knee is bent as the style says.
+  // The height of the pelvis for which the knee has the flexion of the style.
   double wanted_height(Side side, double t) const {
     const BodyLengths& l = body_.lengths;
     const Vector3d hip_joint = forward_kinematics(body_, pelvis_at(t, 0)).joints[hip(side)];
@@ -144,17 +146,17 @@ class Walker {
     return ankle_joint.z() + std::sqrt(std::max(0.0, leg2 - away2)) - hip_joint.z();
   }
 
-  // How much of the body that leg bears: taken over while both feet are on the ground.
+  // Share of the body's weight on that leg, which is transferred while both feet are on the ground.
   double bearing(Side side, double t) const {
-    constexpr double kNearlyNothing = 1e-6;  // in a jump
+    constexpr double kNearlyNothing = 1e-6;  // within a jump
     const double cycle = strides(side, t), stride = cycle - std::floor(cycle);
     const double over = style_.lift - 0.5;
     return std::max(kNearlyNothing,
                     smooth_step(stride / over) * smooth_step((style_.lift - stride) / over));
   }
 
-  // How far ahead of the pelvis a foot's place is when it strikes: where both legs want the pelvis
-  // at the same height.
+  // Finds the position of a foot in front of the pelvis at its strike for which both legs give the
+  // same height of the pelvis.
   void find_strike() {
     double low = 0.2 * style_.step_length, high = 0.8 * style_.step_length;
     for (int i = 0; i < 40; ++i) {
@@ -166,7 +168,7 @@ class Walker {
     }
   }
 
-  // Fourier series of the height that the bearing legs want.
+  // Fourier series of the height that the supporting legs give.
   void find_heights() {
     for (int i = 0; i < kInstants; ++i) {
       const double t = 2 * step_time_ * i / kInstants;
@@ -203,7 +205,7 @@ class Walker {
     }
   }
 
-  // Knee, ankle and toe from the hip and the foot, in the plane of hip, ankle and walking
+  // Computes knee, ankle and toe from the hip and the foot, in the plane of hip, ankle and walking
   // direction.
   void bend_leg(const Foot& foot, Side side, JointPositions& joints) const {
     const BodyLengths& l = body_.lengths;
@@ -218,7 +220,8 @@ class Walker {
     const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
     joints[knee(side)] = hip_joint + l.thigh * (std::cos(angle) * down + std::sin(angle) * forward);
     joints[ankle(side)] = foot.ankle;
-    // The foot stays in the leg's plane: `up` is that plane's direction square to the way.
+    // The foot stays in the plane of the leg: `up` is the direction in that plane at right angles
+    // to the direction of walking.
     const Vector3d up = (ahead * ahead.dot(down) - down).normalized();
     const double c = std::cos(foot.pitch), s = std::sin(foot.pitch);
     const double rise = l.ball_height - l.ankle_height;
@@ -237,7 +240,8 @@ class Walker {
     return longest;
   }
 
-  // How much lower the pelvis is, for no leg to be straighter than it may be; by bisection.
+  // Finds by bisection how much the pelvis has to be lowered so that no leg is straighter than
+  // allowed.
   void find_drop() {
     const double leg = body_.lengths.thigh + body_.lengths.shank;
     if (longest_leg() <= walk_.straightest * leg) return;

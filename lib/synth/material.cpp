@@ -9,9 +9,9 @@ inline namespace synth {
 
 namespace {
 
-constexpr int kCells = 32;           // a power of two, so that a mask repeats the lattice
+constexpr int kCells = 32;           // a power of two, so that a bit mask repeats the lattice
 constexpr float kMottling = 0.12f;   // share of the brightness; by hand
-constexpr double kPlankLength = 12;  // in widths
+constexpr double kPlankLength = 12;  // in units of the width
 
 size_t cell(int x, int y, int z) {
   const auto wrap = [](int i) { return static_cast<size_t>(i & (kCells - 1)); };
@@ -23,7 +23,7 @@ Colour mix(const Colour& a, const Colour& b, float share) { return a + share * (
 
 int parity(double x) { return static_cast<int>(std::floor(x)) & 1; }
 
-// Which plank a point lies on, as a shade in [0, 1]; joints between planks are dark.
+// The shade in [0, 1] of the plank at a point; joints between planks are dark.
 float plank_shade(const Eigen::Vector3d& p, const Noise& noise) {
   const double row = std::floor(p.y());
   const double along = p.x() / kPlankLength + 0.37 * row;
@@ -57,7 +57,7 @@ float Noise::rough(const Eigen::Vector3d& point) const {
   Eigen::Vector3d p = point;
   for (int octave = 0; octave < 4; ++octave, weight *= 0.5f) {
     sum += weight * at(p);
-    // Octaves are shifted against each other, or their lattices would line up.
+    // Octaves are shifted relative to each other, so that their lattices do not coincide.
     p = 2.03 * p + Eigen::Vector3d(7.1, 3.3, 5.7);
   }
   return sum / 0.9375f;

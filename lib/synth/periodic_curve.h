@@ -1,4 +1,4 @@
-// A curve over the stride, strike to strike, through a few points of it.
+// A periodic curve over the stride, from strike to strike, through several points.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@ struct CurveKey {
   double value;
 };
 
-// Cubic between keys, with slopes that add no hill or hollow of its own (Fritsch & Butland, SIAM J.
-// Sci. Stat. Comput. 5, 1984): level where keys are.
+// Cubic interpolation between keys with slopes for which it has no extrema except at keys (Fritsch
+// & Butland, SIAM J. Sci. Stat. Comput. 5, 1984).
 class PeriodicCurve {
  public:
   // At least two keys, `at` increasing from 0.
@@ -21,7 +21,7 @@ class PeriodicCurve {
   double operator()(double stride) const;
 
  private:
-  std::vector<CurveKey> keys_;  // the first one again at 1
+  std::vector<CurveKey> keys_;  // the first one is repeated at 1
   std::vector<double> slopes_;  // at the keys
 };
 

@@ -8,7 +8,7 @@ inline namespace synth {
 
 namespace {
 
-// A few halvings bring Newton's method into its basin; from there it doubles the digits.
+// Few bisections suffice for Newton's method to converge; from there it doubles the digits.
 constexpr int kMostIterations = 60;
 constexpr double kUnitRounding = 1e-16;
 
@@ -31,7 +31,7 @@ double slope(const double* c, int degree, double u) {
 }
 
 // The root in [lo, hi] of a polynomial that is monotone there and changes sign: Newton's method,
-// halving where it would leave the bracket.
+// with bisection if it would leave the bracket.
 double bracketed_root(const double* c, int degree, double lo, double hi, double value_lo) {
   double u = 0.5 * (lo + hi);
   for (int i = 0; i < kMostIterations; ++i) {

@@ -11,11 +11,11 @@ inline namespace synth {
 
 namespace {
 
-// Ten bits of a random word choose one of the mid-quantiles of the standard normal; a word serves
-// the three channels of a pixel. The largest is 3.3; the variance falls short by 1 %.
+// Ten bits of a random word select one of the mid-quantiles of the standard normal; one word is
+// used for the three channels of a pixel. The largest value is 3.3; the variance is 1 % too small.
 constexpr size_t kQuantiles = 1024;
 
-// The standard normal's quantile function by bisection of erfc: exact to rounding.
+// The quantile function of the standard normal, by bisection of erfc: exact to rounding.
 double normal_quantile(double p) {
   double low = -10, high = 10;
   for (int i = 0; i < 100; ++i) {

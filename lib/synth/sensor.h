@@ -15,8 +15,9 @@ struct Sensor {
   double flicker = 0;   // relative standard deviation of a frame's brightness
 };
 
-// Blue, green, red bytes, row-major. Noise is Gaussian (1024 quantiles), each pixel and channel by
-// itself, keyed by (seed, stream, frame): the same for any thread count and order of frames.
+// Blue, green, red bytes, row-major. Noise is Gaussian (1024 quantiles), independent for each pixel
+// and channel, and keyed by (seed, stream, frame): it does not depend on the number of threads or
+// the order of frames.
 std::vector<uint8_t> developed(const Plane<Colour>& light, const Sensor& sensor, uint64_t seed,
                                uint32_t stream, uint32_t frame);
 

@@ -14,7 +14,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kRoomHeight = 3.2;     // m
-constexpr uint32_t kPlacement = 0x5e7;  // streams of the placing of things, apart from the noise
+constexpr uint32_t kPlacement = 0x5e7;  // streams for the positions of objects, distinct from those
+                                        // of noise
 
 double between(Rng& rng, double low, double high) { return low + (high - low) * rng.uniform(); }
 
@@ -29,8 +30,8 @@ void add_box(World& world, const Vector3d& low, const Vector3d& high, const Mate
   world.things.push_back({BoxSolid{low, high}, material, casts_shadow});
 }
 
-// A box given by its extent along one wall (from, to), its distance from the wall and its height.
-// `wall` 0 … 3 counts from +x by quarter turns; `half` is the half width of the room.
+// Adds a box given by its extent along one wall (from, to), its distance from the wall and its
+// height. `wall` 0 … 3 counts from +x by quarter turns; `half` is the half width of the room.
 void add_at_wall(World& world, const Vector2d& centre, double half, int wall, double from,
                  double to, double depth_from, double depth_to, double bottom, double top,
                  const Material& material) {
@@ -41,7 +42,7 @@ void add_at_wall(World& world, const Vector2d& centre, double half, int wall, do
   const Vector3d middle(centre.x(), centre.y(), 0);
   const Vector3d low = along_y ? Vector3d(a, from, bottom) : Vector3d(from, a, bottom);
   const Vector3d high = along_y ? Vector3d(b, to, top) : Vector3d(to, b, top);
-  // Walls shut out a sun that is meant as a lamp: nothing at them casts shadows.
+  // Walls would block a sun that represents a lamp, so that objects at walls cast no shadows.
   add_box(world, middle + low, middle + high, material, false);
 }
 

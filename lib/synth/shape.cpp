@@ -9,10 +9,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of a bag, as shares of the trunk's length and of the stature; its ends are rounded by as much.
+// Extent of a bag, as shares of the trunk's length and of the stature; its ends are rounded.
 constexpr double kPackFrom = 0.45, kPackTo = 0.85, kPackWide = 0.09;
-constexpr double kHemFlare = 0.5;   // of the hips' width, at a hem at the knees
-constexpr double kHemSpace = 0.04;  // m about the legs
+constexpr double kHemFlare = 0.5;   // share of the hips' width, for a hem at the knees
+constexpr double kHemSpace = 0.04;  // m around the legs
 
 CrossSection wider(CrossSection section, double factor, double added) {
   return {factor * section.lateral + added, factor * section.forward + added};
@@ -25,7 +25,8 @@ void grow_head(Part& part, double factor) {
     *section = wider(*section, factor, 0);
 }
 
-// Trousers stand off more and more from the knee, the origin of a shank's parts, to the ankle.
+// Distance of trousers from the leg, which grows from the knee, the origin of a shank's parts, to
+// the ankle.
 double stands_off(const Part& part, const Vector3d& end, const Shape& shape, double shank) {
   const bool is_shank = part.segment == Segment::kLeftShank || part.segment == Segment::kRightShank;
   return is_shank ? shape.trousers * -end.z() / shank : 0;
@@ -41,7 +42,7 @@ void grow(Part& part, const Shape& shape, const BodyLengths& lengths) {
   part.at_upper = of(part.at_upper, part.upper);
 }
 
-// The back stays where it is.
+// The surface of the back does not move.
 void add_belly(Part& part, double belly, double waist) {
   if (part.segment != Segment::kTrunk || part.appearance != Appearance::kTrunk) return;
   const auto add = [&](Vector3d& end, CrossSection& section) {
@@ -53,7 +54,7 @@ void add_belly(Part& part, double belly, double waist) {
   add(part.upper, part.at_upper);
 }
 
-// It hangs from the pelvis; legs swing within it and, at long steps, out of it.
+// It is fixed to the pelvis; legs swing within it and, at long steps, out of it.
 Part skirt(const Part& pelvis, const Shape& shape, const BodyLengths& lengths) {
   Part out = pelvis;
   out.lower = {0, 0, -shape.skirt * lengths.thigh};
@@ -77,7 +78,7 @@ Part pack(const Body& body, double depth) {
 }  // namespace
 
 Body shaped(Body body, const Shape& shape) {
-  const double waist = body.parts.at(1).upper.z();  // the trunk's lowest part ends there
+  const double waist = body.parts.at(1).upper.z();  // the trunk's lowest part ends at the waist
   for (Part& part : body.parts) {
     grow(part, shape, body.lengths);
     add_belly(part, shape.belly, waist);

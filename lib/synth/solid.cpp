@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kTube = 1 - 1e-6;
 
-// A ray in the coordinates (x, y, s) of a solid; distances along it are the world's.
+// A ray in the coordinates (x, y, s) of a solid; distances along it are in the world's metres.
 struct LocalRay {
   Vector3d origin, step;
   Vector3d at(double t) const { return origin + t * step; }
@@ -28,8 +28,8 @@ struct Interval {
   double from, to;
 };
 
-// Where the quadratic (x / a)^2 + (y / b)^2 + (s / c)^2 <= 1 holds on the ray; 1 / c = 0 makes it
-// a cylinder.
+// The interval of the ray in which the quadratic (x / a)^2 + (y / b)^2 + (s / c)^2 <= 1 holds; 1 /
+// c = 0 stands for a cylinder.
 std::optional<Interval> inside_quadric(const LocalRay& ray, const Vector3d& inverse_axes,
                                        double centre_s) {
   const Vector3d o = (ray.origin - Vector3d(0, 0, centre_s)).cwiseProduct(inverse_axes);
@@ -74,7 +74,7 @@ std::optional<double> side_entry(const ConeSolid& solid, const LocalRay& ray, In
   return range.from + *u * (range.to - range.from);
 }
 
-// Entry into the half ellipsoid beyond an end: only that half's surface counts.
+// Entry into the half ellipsoid beyond an end, of whose surface only that half counts.
 std::optional<double> cap_entry(const LocalRay& ray, double a, double b, double cap, double end) {
   const auto inside = inside_quadric(ray, Vector3d(1 / a, 1 / b, 1 / cap), end);
   if (!inside) return std::nullopt;
@@ -105,7 +105,7 @@ ConeSolid cone_solid(const PosedPart& part) {
   out.cap0 = 0.5 * (out.a0 + out.b0) / out.length;
   out.cap1 = 0.5 * (out.a1 + out.b1) / out.length;
   out.middle = 0.5 * (part.lower + part.upper);
-  // Oblique axes may add up, so an end reaches no further than its widest semi-axes together.
+  // Oblique axes may add up, so that an end extends at most by the sum of its widest semi-axes.
   const double reach0 = std::max(out.a0, out.b0) + 0.5 * (out.a0 + out.b0);
   const double reach1 = std::max(out.a1, out.b1) + 0.5 * (out.a1 + out.b1);
   out.radius = 0.5 * out.length + std::max(reach0, reach1);
@@ -128,14 +128,14 @@ std::optional<double> entry_distance(const ConeSolid& solid, const Ray& ray, dou
     return std::nullopt;
   const LocalRay local{solid.local_from_world * (ray.origin - solid.lower),
                        solid.local_from_world * ray.direction};
-  // The cylinder of the widest cross-sections, widened so that its surface is never the solid's,
-  // holds the whole solid.
+  // The cylinder of the widest cross-sections contains the whole solid. It is slightly wider, so
+  // that its surface never coincides with the solid's.
   const Vector3d widest(kTube / std::max(solid.a0, solid.a1), kTube / std::max(solid.b0, solid.b1),
                         0);
   const auto tube = inside_quadric(local, widest, 0);
   std::optional<double> best;
   if (tube) keep_nearest(best, side_entry(solid, local, *tube));
-  // A ray along the axis has no tube interval but may meet an end.
+  // A ray along the axis has no interval in the tube but may intersect an end.
   if (tube || local.step.head<2>().isZero()) {
     keep_nearest(best, cap_entry(local, solid.a0, solid.b0, solid.cap0, 0));
     keep_nearest(best, cap_entry(local, solid.a1, solid.b1, solid.cap1, 1));
@@ -165,7 +165,7 @@ std::optional<double> entry_distance(const BoxSolid& box, const Ray& ray, double
     double near = (box.low[i] - ray.origin[i]) / ray.direction[i];
     double far = (box.high[i] - ray.origin[i]) / ray.direction[i];
     if (near > far) std::swap(near, far);
-    // Comparisons in this order ignore the NaN of a ray that runs in a face's plane.
+    // Comparisons in this order ignore the NaN of a ray that is in the plane of a face.
     if (near > from) from = near;
     if (far < to) to = far;
   }

@@ -1,11 +1,11 @@
-// Exact intersection of rays with the solids that the world is made of.
+// Exact intersections of rays with the solids of the world.
 //
 // A cone solid is a body part (body/body.h): with e = upper - lower, the points
 //   lower + s e + x forward + y lateral,   (x / a(s))^2 + (y / b(s))^2 <= 1,
 //   a(s) = (1 - s) a0 + s a1, b(s) likewise, 0 <= s <= 1,
 // and half an ellipsoid beyond either end whose third semi-axis, along e, is the mean of that end's
-// a and b. In the oblique coordinates (x, y, s) a ray is a straight line, so it meets the side in
-// the roots of a quartic and the ends in those of quadratics. Metres, world axes.
+// a and b. In the oblique coordinates (x, y, s) a ray is a straight line, so that it intersects the
+// side at the roots of a quartic and the ends at those of quadratics. Metres, world axes.
 #pragma once
 
 #include <optional>
@@ -35,7 +35,7 @@ ConeSolid cone_solid(const PosedPart& part);
 Eigen::Vector3d local_point(const ConeSolid& solid, const Eigen::Vector3d& world);
 Eigen::Vector3d world_point(const ConeSolid& solid, const Eigen::Vector3d& local);
 
-// Distance along the ray (> 0) to where it enters the solid, if that is nearer than `farthest`.
+// Distance along the ray (> 0) to its entry into the solid, if that is nearer than `farthest`.
 std::optional<double> entry_distance(const ConeSolid& solid, const Ray& ray, double farthest);
 
 // Outward unit normal at a point of the surface given in local coordinates.

@@ -17,11 +17,12 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kLookAtHeight = 0.9;  // m; the middle of a walker
-constexpr double kMargin = 0.6;        // m beside the path that a camera should see
-constexpr double kFieldWidths = 1.05;  // focal length by default, in picture widths
-constexpr double kLongestGap = 2.5;    // sample periods of a motion that are interpolated across
+constexpr double kMargin = 0.6;        // m beside the path that a camera has to see
+constexpr double kFieldWidths = 1.05;  // default focal length, in image widths
+constexpr double kLongestGap = 2.5;    // sample periods; longer gaps of a motion are not
+                                       // interpolated
 
-// Where the walk goes: the box of the pelvis's ground points, and its overall direction.
+// The path of a walk: the bounding box of the pelvis over the ground, and its overall direction.
 struct Path {
   Vector2d low, high;
   double heading;
@@ -87,7 +88,7 @@ Camera place_camera(const RenderCamera& wanted, const Path& path) {
   const Vector3d middle(path.centre().x(), path.centre().y(), kLookAtHeight);
   const Vector3d target = wanted.look_at.value_or(middle);
   if (wanted.position) return look_at(camera, *wanted.position, target);
-  // Across, the path's half length has to fit; up and down, a person of two metres.
+  // Horizontally the path's half length has to fit, vertically a person of two metres.
   const double half_width = 0.5 * wanted.width_px / camera.focal_px.x();
   const double half_height = 0.5 * wanted.height_px / camera.focal_px.y();
   const double fitting = std::max((path.reach() + kMargin) / half_width, 1.3 / half_height);

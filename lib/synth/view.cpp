@@ -15,8 +15,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kSubRays = 3;   // a side: nine rays for a pixel on an edge
-constexpr double kRimPx = 2;  // lens distortion and rounding move a silhouette less
+constexpr int kSubRays = 3;   // on each side: nine rays for a pixel on an edge
+constexpr double kRimPx = 2;  // lens distortion and rounding move a silhouette by less
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Pixels [x0, x1) x [y0, y1).
@@ -24,8 +24,8 @@ struct Rect {
   int x0, y0, x1, y1;
 };
 
-// The ray at an offset (in pixels, within half of one) from a pixel's centre, from those of its
-// neighbours: lens distortion is straight over one pixel to a 1e-6th of it.
+// The ray at an offset (in pixels, within half of one) from a pixel's centre, interpolated from its
+// neighbours' rays: over one pixel lens distortion is linear to 1e-6 of it.
 Ray ray_at(const View& view, int x, int y, double dx, double dy) {
   const auto direction = [&](int px, int py) -> Vector3d {
     return view.directions
@@ -52,7 +52,8 @@ std::array<Vector2d, kSubRays * kSubRays> sub_rays() {
   return out;
 }
 
-// A rectangle that holds the image of a ball; the whole image if the ball is about the camera.
+// Extends the rectangle by the image of a ball; to the whole image if the camera is inside the
+// ball.
 void extend(const View& view, const Vector3d& middle, double radius, Rect& rect, bool& whole) {
   const Vector3d at = camera_point(view.camera, middle);
   if (at.z() < 1.2 * radius + kMinDepth) {
@@ -61,7 +62,7 @@ void extend(const View& view, const Vector3d& middle, double radius, Rect& rect,
   }
   const auto pixel = project_camera_point(view.camera, at);
   if (!pixel) return;
-  // 1.4: a wide lens draws a ball at the corner as an oval.
+  // 1.4: in the corner of a wide-angle image a ball is an oval.
   const Vector2d reach =
       1.4 * view.camera.focal_px * radius / (at.z() - radius) + Vector2d::Constant(kRimPx);
   const auto bounded = [](double value) { return static_cast<int>(std::clamp(value, -1e6, 1e6)); };
@@ -79,7 +80,7 @@ Rect finished(const View& view, Rect rect, bool whole) {
 
 constexpr Rect kNothing{1 << 20, 1 << 20, -(1 << 20), -(1 << 20)};
 
-// Radii of the balls about the two ends of a part that, with all between, hold it.
+// Radii of balls at the two ends of a part whose convex hull contains it.
 double end_radius(double a, double b) { return std::max(a, b) + 0.5 * (a + b); }
 
 Rect image_of(const View& view, const ConeSolid& solid) {
@@ -90,7 +91,7 @@ Rect image_of(const View& view, const ConeSolid& solid) {
   return finished(view, rect, whole);
 }
 
-// A rectangle that holds the part's shadow on the ground.
+// A rectangle that contains the part's shadow on the ground.
 Rect shadow_of(const View& view, const ConeSolid& solid, const Vector3d& sun) {
   Rect rect = kNothing;
   bool whole = false;
@@ -108,7 +109,7 @@ struct Hit {
   double distance = kInfinity;
 };
 
-// The nearest of some parts on a ray, in front of `farthest`.
+// The nearest of several parts on a ray, if it is nearer than `farthest`.
 Hit nearest_part(std::span<const DressedParts> walkers, const Ray& ray, double farthest) {
   Hit hit;
   hit.distance = farthest;
@@ -145,7 +146,8 @@ Colour look_of_part(const World& world, std::span<const DressedParts> walkers, c
   double lit = world.light.sun * incidence;
   if (world.light.shadows && lit > 0 && in_shadow(walkers, point + kShadowGap * normal, sun))
     lit = 0;
-  // Even light from above is weaker below: a half from the ground.
+  // Ambient light from above is weaker on surfaces that face down: half of it comes from the
+  // ground.
   const double ambient = world.light.ambient * (0.75 + 0.25 * normal.z());
   const Vector3d on_part(local.x(), local.y(), local.z() * solid.length);
   const Material& material = (*walker.clothes)[static_cast<size_t>(walker.appearance[p])];
@@ -154,7 +156,7 @@ Colour look_of_part(const World& world, std::span<const DressedParts> walkers, c
          static_cast<float>(ambient + lit);
 }
 
-// Marks which part's image a pixel's centre ray falls on, nearest first.
+// Finds the part that the ray through a pixel's centre hits, nearest first.
 void find_sights(const View& view, std::span<const DressedParts> walkers, Plane<Sight>& sights) {
   for (size_t w = 0; w < walkers.size(); ++w) {
     for (size_t p = 0; p < walkers[w].solids.size(); ++p) {
@@ -187,7 +189,7 @@ void for_ground(const View& view, const Rect& rect, const F& f) {
   }
 }
 
-// Darkens the ground where a part keeps the sun off.
+// Darkens the ground where a part blocks the sun.
 void cast_shadows(const View& view, const World& world, std::span<const DressedParts> walkers,
                   Plane<Colour>& colour) {
   const Vector3d sun = towards_sun(world.light);
@@ -205,7 +207,7 @@ void cast_shadows(const View& view, const World& world, std::span<const DressedP
   }
 }
 
-// Balls side by side that stand for a part, small enough to be as wide as it is.
+// Balls in a row that represent a part, each as large as the part is wide.
 struct Ball {
   Vector3d middle;
   double radius;
@@ -222,8 +224,8 @@ std::vector<Ball> balls_of(const ConeSolid& solid) {
   return out;
 }
 
-// Share of the even light that a ball above keeps off a point of the ground: its form factor
-// (r / d)^2 cos (Howell, A catalog of radiation heat transfer configuration factors, B-37).
+// Share of the ambient light that a ball above a point of the ground blocks: its form factor (r /
+// d)^2 cos (Howell, A catalog of radiation heat transfer configuration factors, B-37).
 double kept_off(const Ball& ball, const Vector3d& point) {
   const Vector3d way = ball.middle - point;
   const double distance2 = std::max(way.squaredNorm(), ball.radius * ball.radius);
@@ -231,8 +233,8 @@ double kept_off(const Ball& ball, const Vector3d& point) {
                     1.0);
 }
 
-// Darkens the ground where walkers keep the even light off. Balls farther than kContactReach keep
-// off less than a grey level.
+// Darkens the ground where walkers block ambient light. Balls farther than kContactReach block less
+// than a grey level.
 void contact_shadows(const View& view, const World& world, std::span<const DressedParts> walkers,
                      Plane<Colour>& colour) {
   constexpr double kContactReach = 0.7;  // m
@@ -255,7 +257,8 @@ void contact_shadows(const View& view, const World& world, std::span<const Dress
     colour.values[i] -= (1 - open.values[i]) * view.ambient_share.values[i] * view.empty.values[i];
 }
 
-// What walkers change in a pixel of the ground that mirrors them, averaged over its sub-rays.
+// The change that walkers make to a pixel of the ground that mirrors them, averaged over its
+// sub-rays.
 Colour mirrored_change(const View& view, const World& world, std::span<const DressedParts> walkers,
                        int x, int y) {
   static const auto kOffsets = sub_rays();
@@ -273,7 +276,7 @@ Colour mirrored_change(const View& view, const World& world, std::span<const Dre
   return sum / static_cast<float>(kOffsets.size());
 }
 
-// Puts walkers in the place of what the ground mirrors where they are nearer.
+// Replaces what the ground mirrors by walkers where these are nearer.
 void mirror_walkers(const View& view, const World& world, std::span<const DressedParts> walkers,
                     Plane<Colour>& colour) {
   if (world.gloss == 0) return;

@@ -1,9 +1,9 @@
-// One camera's view of the world: the rays of its pixels and the picture of the empty scene, both
-// computed once, and frames with walkers in it.
+// One camera's view of the world: the rays of its pixels and the image of the empty scene, which
+// are both computed once, and frames with walkers.
 //
 // A pixel's label, depth and flow are exact for the ray through its centre. Its colour is averaged
-// over sub-pixel rays where neighbouring pixels see different surfaces. Walkers shade each other,
-// themselves and the ground, not the things that stand around.
+// over sub-pixel rays if neighbouring pixels see different surfaces. Walkers cast shadows on each
+// other, themselves and the ground, but not on other objects.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@
 namespace walktrack {
 inline namespace synth {
 
-// A row-major picture of the camera's size.
+// A row-major image of the camera's size.
 template <typename T>
 struct Plane {
   int width = 0, height = 0;
@@ -41,15 +41,16 @@ struct View {
   Eigen::Vector3d centre;             // of projection, world
   Plane<Eigen::Vector3f> directions;  // unit, world; zero where the lens has no ray
   Plane<Colour> empty;                // the scene without walkers
-  Plane<float> sun_share;             // of that brightness which a walker's shadow takes away
-  Plane<float> ambient_share;         // and what walkers who keep off all even light do
-  Plane<float> static_distance;       // m along the ray to thing or ground; infinite for the sky
+  Plane<float> sun_share;             // share of the brightness that a walker's shadow removes
+  Plane<float> ambient_share;         // share that walkers remove who block all ambient light
+  Plane<float> static_distance;       // m along the ray to an object or the ground; infinite for
+                                      // the sky
   Plane<int> static_thing;            // kGround, kSky or an index of World::things
 };
 
 View make_view(const World& world, const Camera& camera, int threads);
 
-// A walker at one instant.
+// A walker at one time.
 struct DressedParts {
   std::vector<ConeSolid> solids;
   std::vector<Appearance> appearance;  // of each
@@ -58,7 +59,7 @@ struct DressedParts {
 
 DressedParts dress(std::span<const PosedPart> parts, const Clothes& clothes);
 
-// What the ray through a pixel's centre meets.
+// What the ray through a pixel's centre hits.
 struct Sight {
   int16_t walker = -1;  // index, or -1: the empty scene
   int16_t part = -1;
@@ -75,13 +76,13 @@ Picture render(const View& view, const World& world, std::span<const DressedPart
 // Depth (z of camera axes, m; infinite for the sky) of every pixel.
 Plane<float> depth_of(const View& view, const Plane<Sight>& sights);
 
-// Optical flow (px) of every pixel from these walkers to where the same points of them are in
-// `next`; zero for the empty scene, NaN where the point leaves the camera's field.
+// Optical flow (px) of every pixel from these walkers to the positions of the same points in
+// `next`; zero for the empty scene, NaN if the point leaves the camera's field of view.
 Plane<Eigen::Vector2f> flow_of(const View& view, const Plane<Sight>& sights,
                                std::span<const DressedParts> now,
                                std::span<const DressedParts> next);
 
-// 0 for the empty scene, else 1 + index of the part + 100 * walker, at most 255.
+// 0 for the empty scene, otherwise 1 + index of the part + 100 * walker, at most 255.
 Plane<uint8_t> labels_of(const Plane<Sight>& sights);
 
 }  // namespace synth

@@ -1,4 +1,4 @@
-// How somebody walks: what a speed, a body and a person make of it. Metres, seconds, radians.
+// The style of a walk, from its speed, the body and the person. Metres, seconds, radians.
 #pragma once
 
 #include "body/body.h"
@@ -13,8 +13,8 @@ struct WalkStyle {
   double lean;
   double lift;               // share of the stride at which the ball leaves the ground
   PeriodicCurve sole_pitch;  // over the stride from the strike, > 0 heel up
-  PeriodicCurve knee;        // flexion of the leg that bears the body, over the stride
-  double clearance;          // of the toes' tip in mid-swing
+  PeriodicCurve knee;        // flexion of the supporting leg's knee, over the stride
+  double clearance;          // of the tip of the toes in mid-swing
   double rotation, list;     // of the pelvis, amplitudes
   double arm_swing;          // of the shoulder, amplitude
 };

@@ -59,7 +59,7 @@ StaticHit first_static_hit(const World& world, const Ray& ray) {
 }
 
 double mirrored_share(const World& world, const Ray& ray) {
-  constexpr double kUpright = 0.04;  // of light that falls straight down: ((1.5 - 1) / (1.5 + 1))^2
+  constexpr double kUpright = 0.04;  // reflectance of vertical light: ((1.5 - 1) / (1.5 + 1))^2
   if (world.gloss == 0) return 0;
   const double grazing = 1 - std::min(1.0, std::abs(ray.direction.z()));
   return world.gloss * (kUpright + (1 - kUpright) * std::pow(grazing, 5));
@@ -74,7 +74,7 @@ Ray mirrored(const Ray& ray, double distance) {
 
 namespace {
 
-// Without a mirror image.
+// Without the mirror image.
 StaticLook look_of_surface(const World& world, const Ray& ray, const StaticHit& hit) {
   if (hit.thing == kSky) {
     const float height = static_cast<float>(std::max(0.0, ray.direction.z()));
@@ -106,7 +106,7 @@ StaticLook look_of(const World& world, const Ray& ray, const StaticHit& hit) {
   const Colour image = look_of_surface(world, up, first_static_hit(world, up)).colour;
   const Colour own = static_cast<float>(1 - share) * out.colour;
   out.colour = own + static_cast<float>(share) * image;
-  // Shadows take light from the ground, not from what it mirrors.
+  // Shadows remove light from the ground, not from its mirror image.
   out.shaded_share = own.sum() / out.colour.sum();
   return out;
 }

@@ -1,4 +1,4 @@
-// The unmoving world: ground z = 0, things that stand on it, sky, sun. Metres, radians.
+// The static world: ground z = 0, objects on it, sky, sun. Metres, radians.
 #pragma once
 
 #include <optional>
@@ -14,23 +14,23 @@
 namespace walktrack {
 inline namespace synth {
 
-// One sun (or lamp, far away) and even light from everywhere. A lit white surface has brightness
-// ambient + sun * cos(angle of incidence).
+// One sun (or distant lamp) and ambient light from all directions. A lit white surface has the
+// brightness ambient + sun * cos(angle of incidence).
 struct Light {
   double azimuth = -1.0;   // of the sun, from world x towards y, rad
   double elevation = 0.9;  // above the horizon, rad
   double sun = 0.55;
   double ambient = 0.45;
   bool shadows = true;
-  // Whether walkers keep the even light, too, from the ground near them: soft contact shadows.
+  // Whether walkers block ambient light, too, on the ground near them: soft contact shadows.
   bool contact_shadows = false;
 };
 
-inline constexpr double kShadowGap = 1e-4;  // m; a surface does not shade itself by rounding
+inline constexpr double kShadowGap = 1e-4;  // m; prevents that a surface shades itself by rounding
 
 Eigen::Vector3d towards_sun(const Light& light);
 
-// Something that stands in the scene.
+// An object in the scene.
 struct Thing {
   std::variant<BoxSolid, ConeSolid> solid;
   Material material;
@@ -43,8 +43,8 @@ ConeSolid upright_cone(const Eigen::Vector3d& foot, double height, double radius
 
 struct World {
   Material ground;
-  // Of the ground, 0 matt to 1 polished: the share of a polished surface's mirror image that it
-  // shows (mirrored_share).
+  // Gloss of the ground, from 0 matt to 1 polished: the share that it shows of a polished surface's
+  // mirror image (mirrored_share).
   double gloss = 0;
   Colour horizon{0.75f, 0.8f, 0.85f}, zenith{0.45f, 0.6f, 0.8f};
   std::vector<Thing> things;
@@ -52,7 +52,7 @@ struct World {
   Noise noise{1};
 };
 
-// What a ray meets first.
+// The first hit of a ray.
 struct StaticHit {
   int thing;        // index into things; kGround or kSky
   double distance;  // m; infinite for the sky
@@ -61,24 +61,24 @@ inline constexpr int kGround = -1, kSky = -2;
 
 StaticHit first_static_hit(const World& world, const Ray& ray);
 
-// Albedo, and the share of the sun's light that falls on the surface there (0 in the shadow of a
-// thing), of the point that a ray hits. The sky has a colour of its own and no light on it.
+// Albedo at the point that a ray hits, and the share of the sun's light that falls on the surface
+// there (0 in the shadow of an object). The sky has a colour of its own and no light on it.
 struct StaticLook {
-  Colour colour;  // lit
-  float
-      sun_share;  // of the surface's brightness that is the sun's: what a further shadow takes away
-  float shaded_share = 1;  // of the colour that is the surface's own, and no mirror image
+  Colour colour;    // lit
+  float sun_share;  // share of the surface's brightness due to the sun, which an additional shadow
+                    // removes
+  float shaded_share = 1;  // share of the colour that is the surface's own, not its mirror image
 };
 StaticLook look_of(const World& world, const Ray& ray, const StaticHit& hit);
 
-// Share of what a ray shows of the ground that is its mirror image, by Fresnel's law as Schlick (An
-// inexpensive BRDF model for physically-based rendering, 1994) approximates it, for a surface of
-// refractive index 1.5.
+// Share of the ground's mirror image in what a ray shows, by Schlick's approximation (An
+// inexpensive BRDF model for physically-based rendering, 1994) of Fresnel's law for the refractive
+// index 1.5.
 double mirrored_share(const World& world, const Ray& ray);
-// The ray that leaves the ground where `ray` meets it, at that distance.
+// The reflected ray from the point at which `ray` hits the ground, at that distance.
 Ray mirrored(const Ray& ray, double distance);
 
-// Ready-made surroundings of a walk whose path lies within `reach` metres of `centre`.
+// Predefined surroundings of a walk whose path is within `reach` metres of `centre`.
 enum class Setting { kRoom, kField, kStudio };
 
 World make_world(Setting setting, const Eigen::Vector2d& centre, double reach, const Light& light,

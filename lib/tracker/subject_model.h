@@ -35,7 +35,7 @@ struct TrackContext {
   const Body& body() const { return scene.model.body; }
 };
 
-// Everything that a frame of the filter needs.
+// The context of a frame for the filter.
 WalkerFilterContext filter_context(const TrackContext& context);
 // The same for the first frame around a walk, whose noise is as wide as the walk is uncertain.
 // `given`: the scene has stated the walk; otherwise it was detected.

@@ -12,7 +12,7 @@ inline namespace tracker {
 namespace {
 
 // The speeds of the templates, m/s. By hand.
-constexpr double kSlowestPage = 0.5, kPageStep = 0.2;
+constexpr double kSlowestTemplate = 0.5, kTemplateStep = 0.2;
 constexpr int kPages = 9;
 
 }  // namespace
@@ -43,13 +43,14 @@ PoseTemplates::PoseTemplates(const BodyModel& model, const GaitPrior& prior)
     : downhill_(model.downhill) {
   for (const double heading : table_headings(downhill_))
     for (int k = 0; k < kPages; ++k)
-      pages_.push_back(walking_figures(model, prior, kSlowestPage + k * kPageStep, heading));
+      figures_.push_back(
+          walking_figures(model, prior, kSlowestTemplate + k * kTemplateStep, heading));
 }
 
 std::span<const Pose> PoseTemplates::at(double speed, double heading) const {
-  const long page = std::lround((speed - kSlowestPage) / kPageStep);
+  const long page = std::lround((speed - kSlowestTemplate) / kTemplateStep);
   const auto of_speed = static_cast<size_t>(std::clamp(page, 0L, long{kPages - 1}));
-  return pages_[table_heading(downhill_, heading) * kPages + of_speed];
+  return figures_[table_heading(downhill_, heading) * kPages + of_speed];
 }
 
 double place_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,

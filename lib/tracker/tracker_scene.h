@@ -27,7 +27,8 @@ struct TrackerScene {
   bool size_known = true;  // the height of the model is right; otherwise it is estimated
 };
 
-// The detector's limits for what a scene shows: keypoints alone say far less than pictures.
+// The detector's limits, adapted to the scene: keypoints alone contain far less evidence than
+// images.
 DetectorConfig detector_for(const TrackerScene& scene, DetectorConfig config);
 
 // Number of frames, `dt` s apart, in a span of time, at least two.
@@ -42,7 +43,7 @@ using SceneEvidence = std::vector<CameraEvidence>;
 std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed,
                                   double heading);
 
-// The same for all speeds of walking and all headings.
+// The same for all walking speeds and all headings.
 class PoseTemplates {
  public:
   PoseTemplates(const BodyModel& model, const GaitPrior& prior);
@@ -50,7 +51,7 @@ class PoseTemplates {
 
  private:
   Eigen::Vector2d downhill_;
-  std::vector<std::vector<Pose>> pages_;  // by slope and speed, which runs fastest
+  std::vector<std::vector<Pose>> figures_;  // by slope and speed, which is the faster index
 };
 
 // The log-likelihood of the figure that fits best, its root above `position`. `body`: the figures'.

@@ -16,9 +16,9 @@ namespace {
 
 // Share of the filter's moves that change the global pose; the others change the frame's noise.
 // By hand; sensitivity not measured.
-constexpr double kCourseMoves = 0.3;
+constexpr double kGlobalPoseMoves = 0.3;
 
-// Walkers in a group: some full vectors, and still enough groups for every thread.
+// Number of walkers in a group: several full vectors, and still enough groups for every thread.
 constexpr size_t kGroup = 32;
 
 struct Streams {
@@ -77,11 +77,11 @@ FrameRecord advance(const WalkerFilterContext& context, const SceneEvidence& evi
         predict(motion, {seed, frame, start}, first, particles, group);
         for (size_t i = 0; i < group.size(); ++i) alive[i] = group[i] != Outcome::kDead;
       });
-  const CourseSpread course =
-      course_spread(filter.particles().states, filter.particles().log_weights);
+  const GlobalPoseSpread course =
+      global_pose_spread(filter.particles().states, filter.particles().log_weights);
   const FrameLikelihood likelihood(context.scene, evidence, !first);
   const auto move = [&](WalkerParticle& particle, double step_size, Rng& rng) {
-    if (rng.uniform() < kCourseMoves)
+    if (rng.uniform() < kGlobalPoseMoves)
       return move_global_pose(motion, course, step_size, particle, rng);
     perturb(motion, step_size, particle, rng);
   };

@@ -1,4 +1,4 @@
-// One frame of a particle filter over walkers: propagate, weigh, move, estimate.
+// One frame of a particle filter over walkers: propagate, weight, move, estimate.
 #pragma once
 
 #include <vector>
@@ -26,13 +26,13 @@ struct FrameRecord {
   int fallen = 0, diverged = 0;
   StrideModes modes;
   double names = 0;  // log-odds of the legs' labels by this frame's keypoints, nats
-  // By camera: log-likelihood of the best particle by term, nats; NaN if a term has none. Only for
-  // tracked frames after the start.
+  // By camera: log-likelihood of the best particle by term, nats; NaN if a term has no evidence.
+  // Only for tracked frames after the start.
   std::vector<TermValues> evidence;
   // By camera, the keypoints of the frame; empty if there are none.
   std::vector<KeypointEvidence> keypoints;
   FigureFit fit;      // of the pose before it is smoothed and before feet are held in place
-  double moving = 0;  // area that is newly covered in an image while nobody is tracked, m^2
+  double moving = 0;  // newly covered area in an image while nobody is tracked, m^2
 };
 
 struct WalkerFilterContext {

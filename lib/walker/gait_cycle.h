@@ -1,5 +1,5 @@
-// The limit cycle of a walker: the return map of limit_cycle.h is one whole step, from just after
-// support transfer (or from an apex) to the next.
+// The limit cycle of a walker: the return map of limit_cycle.h is one complete step, from just
+// after support transfer (or from an apex) to the next.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ struct GaitCycle {
   double cost_of_transport = 0;  // positive actuator work per weight and distance
 };
 
-// The cycle at `x`, given as found; nullopt when the step cannot be walked.
+// Describes the cycle at `x`, which has been found; nullopt if the step cannot be walked.
 std::optional<GaitCycle> describe_cycle(const Walker& walker, const LimitCycle& cycle,
                                         const GaitOptions& options);
 

@@ -52,7 +52,7 @@ std::optional<Iterate> evaluated(const ReturnMap& map, const SectionProjection& 
   return Iterate{*x, *image};
 }
 
-// x + s N d, with the part off the tangent space taken from the image.
+// x + s N d, with the part off the tangent space taken from the image of x.
 std::optional<Iterate> damped_step(const ReturnMap& map, const SectionProjection& onto,
                                    const Iterate& now, const MatrixXd& N, const VectorXd& d,
                                    int halvings) {
@@ -62,14 +62,14 @@ std::optional<Iterate> damped_step(const ReturnMap& map, const SectionProjection
     if (!tangent) continue;
     const VectorXd miss = tangent->image - tangent->x;
     auto next = evaluated(map, onto, tangent->x + miss - N * (N.transpose() * miss));
-    // Far away a step may raise the residual a little on its way to the basin.
+    // Far from the solution a step may increase the residual slightly.
     if (next && next->residual() < 1.5 * now.residual()) return next;
   }
   return std::nullopt;
 }
 
-// Coefficients of prod (1 - multiplier_i z), without the first. Unlike the multipliers they do not
-// jump where two meet, and a multiplier that vanishes with its direction changes none.
+// Coefficients of prod (1 - multiplier_i z), without the first. Unlike the multipliers they are
+// continuous where two of them meet, and a multiplier that is zero does not change them.
 VectorXcd characteristic(const VectorXcd& multipliers, Index size) {
   VectorXcd coefficients = VectorXcd::Zero(size + 1);
   coefficients(0) = 1;
@@ -79,12 +79,13 @@ VectorXcd characteristic(const VectorXcd& multipliers, Index size) {
   return coefficients.tail(size);
 }
 
-// Whether `found` lies where the branch of `before` was predicted to go and is as stable. Along a
-// branch both differences shrink with the step, between branches they do not. The shares are set by
-// hand.
+// Whether `found` is near the prediction from the branch of `before` and has nearly the same
+// stability. Along a branch both differences shrink with the step, between branches they do not.
+// The limits are set by hand.
 bool continues(const LimitCycle& before, const LimitCycle& found, const VectorXd& predicted) {
-  constexpr double kOff = 0.5;          // of the way that the point has come
-  constexpr double kNear = 1e-3;        // of the point's own size: too near to tell
+  constexpr double kOff = 0.5;          // share of the way of the point
+  constexpr double kNear = 1e-3;        // share of the point's own size below which differences are
+                                        // ignored
   constexpr double kOtherStable = 0.5;  // change of a coefficient, of 1 + its size
   const double come = (found.point - before.point).norm();
   const double off = (found.point - predicted).norm();
@@ -112,7 +113,7 @@ std::optional<LimitCycle> find_limit_cycle(const ReturnMap& plain_map, const Sec
     const auto A = reduced_jacobian(map, now->x, N, options.difference_step);
     if (!A) return std::nullopt;
     const bool close = now->residual() < options.tolerance;
-    // One step beyond the tolerance, as long as it still helps.
+    // One more step after the tolerance is reached, if it still reduces the residual.
     if (close && previous > 0 && now->residual() > 0.1 * previous) {
       return LimitCycle{now->x, now->residual(), N, *A, eigenvalues(*A), i};
     }
@@ -141,10 +142,11 @@ FollowedCycle follow_limit_cycle(const MapFamily& family, const VectorXd& guess,
   };
   FollowedCycle followed{cycle_at(0, guess, options)};
   followed.reached = from;
-  CycleOptions near = options;  // a good predictor needs few iterations, a bad one a shorter step
+  CycleOptions near = options;  // a good prediction needs few iterations, a bad one needs a shorter
+                                // step
   near.max_iterations = std::min(options.max_iterations, 8);
   near.max_halvings = std::min(options.max_halvings, 3);
-  // How the cycle moves from here, per share of the way.
+  // The prediction of the cycle's change, by the share of the way.
   const auto tangent = [&](double share) -> VectorXd {
     const VectorXd& here = followed.cycle->point;
     const double length = std::min(kTangentShare, 1 - share);
@@ -152,7 +154,7 @@ FollowedCycle follow_limit_cycle(const MapFamily& family, const VectorXd& guess,
     return beside ? VectorXd((beside->point - here) / length) : VectorXd::Zero(here.size());
   };
   double done = 0, step = kFirstShare;
-  bool grows = true;  // not right after a failure: another would follow
+  bool grows = true;  // not directly after a failure, because another one would follow
   VectorXd slope = followed.cycle ? tangent(0) : VectorXd();
   while (followed.cycle && done < 1 && step >= kSmallestShare) {
     const double next = std::min(1.0, done + step);

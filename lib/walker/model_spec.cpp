@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kHuge = 1e12;  // larger numbers are slips of the pen in any of these units
+constexpr double kHuge = 1e12;  // larger numbers are typing errors in any of these units
 
-// The level gait of Kuo's numbers with a toe-off impulse of .06.
+// Kuo's level gait with a toe-off impulse of .06.
 ModelSpec default_anthropomorphic() {
   ModelSpec spec;
   spec.anthropomorphic.toe_off_impulse = 0.06;
@@ -36,7 +36,7 @@ ModelSpec default_rimless_wheel() {
   return spec;
 }
 
-// A stable gait of a person of 1.75 m and 70 kg, feet that roll on .278 m.
+// A stable gait of a person of 1.75 m and 70 kg, with feet that roll on .278 m.
 ModelSpec default_kneed() {
   ModelSpec spec;
   spec.kneed = {

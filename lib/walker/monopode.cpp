@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 
 enum MonopodeGuard { kApexGuard, kLanding, kFall, kFirstFoot };
 
-// A mass this low over the ground, in leg lengths, no longer stands on springs but lies. By hand.
+// Below this height of the mass, in leg lengths, the monopode has fallen. By hand.
 constexpr double kFallenMonopodeShare = 0.3;
 
 size_t feet(const WalkerState& state) { return state.contacts.size() - 1; }

@@ -1,10 +1,10 @@
 // The monopode: a point mass on massless spring legs (Blickhan 1989; Blickhan & Full 1993). Running
 // has one leg and flight, walking two legs and double support (Geyer, Seyfarth & Blickhan 2006).
 //
-// q = (x, z) of the mass. A leg lands with its fixed angle of attack when the mass, on its way
-// down, is at leg_length * sin(attack); it leaves at its rest length. Legs pull never. The energy
-// is conserved; the section of a step is the apex (vertical rate falls through zero), in flight
-// when running and over one leg when walking.
+// q = (x, z) of the mass. A leg lands with its fixed angle of attack when the mass is at leg_length
+// * sin(attack) and moves down; it leaves the ground at its rest length. Legs never pull. The
+// energy is conserved; the section of a step is the apex (vertical rate falls through zero), in
+// flight when running and over one leg when walking.
 #pragma once
 
 #include "walker/walker.h"
@@ -25,8 +25,8 @@ class Monopode : public Walker {
  public:
   explicit Monopode(const MonopodeParameters& parameters);
 
-  // (q, qd) of the apex at `height` (m), when walking `ahead` (m) of the foot, with the forward
-  // speed that gives `energy` (J). nullopt when the energy does not suffice.
+  // (q, qd) of the apex at `height` (m) and, when walking, `ahead` (m) of the foot, with the
+  // forward speed that gives `energy` (J). nullopt if the energy is too small.
   std::optional<Eigen::VectorXd> apex(double height, double ahead, double energy) const;
 
   std::vector<std::string> coordinates() const override { return {"x", "z"}; }
@@ -41,7 +41,7 @@ class Monopode : public Walker {
   std::vector<ContactForce> contact_forces(const WalkerState& state) const override;
   PlanarMomentum momentum(const WalkerState& state) const override;
   std::vector<Stroke> strokes(const WalkerState& state) const override;
-  // x counts from the foot when walking and from the apex when running, where it is zero.
+  // x is counted from the foot when walking; when running, x is zero at the apex.
   WalkerState section_state(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) const override;
   Eigen::VectorXd section_point(const WalkerState& state) const override;
   Eigen::MatrixXd section_rows(const WalkerState& state) const override;
@@ -50,8 +50,8 @@ class Monopode : public Walker {
   Eigen::Vector2d leg_force(const WalkerState& state, double foot) const;
   WalkerState landed(const WalkerState& state) const;
 
-  // contacts[0] is where the step began, the standing feet follow, the trailing one first. The
-  // `active` bit is set from an apex to the next landing.
+  // contacts[0] is the beginning of the step, followed by the feet on the ground, the trailing one
+  // first. The `active` bit is set from an apex to the next landing.
   MonopodeParameters parameters_;
   std::vector<PlanarPart> parts_;
 };

@@ -10,11 +10,11 @@ namespace {
 
 using Eigen::VectorXd;
 
-// A guard this near to zero counts as touching: after an event was located, others of the same
-// instant are within rounding of it.
+// A guard this near to zero counts as touching: after an event was located, other events of the
+// same time are within rounding of it.
 constexpr double kOnGuard = 1e-11;
-// Pieces in which a step is searched for the crossing of a guard that starts at zero, rises and
-// falls again. By hand.
+// Number of pieces in which a step is searched for the crossing of a guard that starts at zero,
+// rises and falls again. By hand.
 constexpr int kScanPieces = 16;
 
 std::optional<WalkerState> smooth_step(const Walker& walker, const WalkerState& state, double dt,
@@ -60,7 +60,7 @@ class Crossing {
   }
 
   // The time of a crossing of `level` between `low` (above it) and `high` (not above): regula falsi
-  // with Illinois' halving, bisection where it stalls. Returns the end behind the crossing.
+  // with the Illinois modification, bisection if it stalls. Returns the end after the crossing.
   double locate(double low, double high, double level = 0) const {
     double f_low = value(low) - level, f_high = value(high) - level;
     for (int i = 0; i < 200 && high - low > options_.event_tolerance; ++i) {
@@ -80,9 +80,9 @@ class Crossing {
     return high;
   }
 
-  // The time of the smallest value in [0, h], by golden section.
+  // The time of the minimum in [0, h], by golden section.
   double lowest(double h) const {
-    constexpr double kGolden = 0.6180339887498949;  // the golden ratio less one
+    constexpr double kGolden = 0.6180339887498949;  // the golden ratio minus one
     double low = 0, high = h;
     for (int i = 0; i < 40 && high - low > options_.event_tolerance; ++i) {
       const double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
@@ -96,8 +96,8 @@ class Crossing {
   }
 
   // For a guard that starts within kOnGuard of zero and ends below: the last piece of the step in
-  // which it falls through zero; of a rebound shorter than a piece, its end. One that does not even
-  // rise out of rounding fires where it is surely below, so that time goes on.
+  // which it falls through zero; for a rebound shorter than a piece, its end. A guard that does not
+  // rise above rounding fires when it is certainly below, so that time advances.
   double locate_after_rise(double h) const {
     for (int i = kScanPieces - 1; i > 0; --i) {
       const double t = h * i / kScanPieces;
@@ -160,7 +160,7 @@ Firing first_firing(const Walker& walker, const WalkerState& state,
 
 bool is_finite(const WalkerState& state) { return state.q.allFinite() && state.qd.allFinite(); }
 
-// A walker on its way through time.
+// A simulation of a walker.
 class Run {
  public:
   Run(const Walker& walker, WalkerState& state, const SimulationOptions& options,
@@ -173,7 +173,7 @@ class Run {
         guards_(walker.guards(state)) {}
 
   // One smooth step towards the time `end`, or the part of it before an event, which is handled.
-  // True when the event completed a step of the walker.
+  // Returns true if the event completed a step of the walker.
   bool step(double end) {
     const double left = end - state_.time;
     const double h = std::min(options_.max_step, left);
@@ -227,7 +227,7 @@ class Run {
   std::vector<WalkerEvent>& events_;
   const StateObserver& observe_;
   std::vector<Guard> guards_;
-  std::vector<int> refused_;  // guards that meant nothing at this instant
+  std::vector<int> refused_;  // guards without effect at this time
   int count_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "gait/cycle.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "gait/walker_units.h"
@@ -12,6 +14,20 @@ struct Published {
   GaitVector gait;
   GaitTarget target;
 };
+
+// The inverse of controls_from().
+ControlVector control_vector(const KneedControls& controls) {
+  ControlVector v;
+  int i = 0;
+  for (const SpringDamper& joint :
+       {controls.torso, controls.hip, controls.stance_knee, controls.swing_knee}) {
+    v[i++] = std::sqrt(joint.stiffness);
+    v[i++] = std::sqrt(joint.damping);
+    v[i++] = joint.rest;
+  }
+  v[i] = controls.toe_off_impulse;
+  return v;
+}
 
 Published published(size_t index) {
   const CycleFile file = read_kneed_cycles();
@@ -34,7 +50,7 @@ TEST(StepMap, VectorsReturnWhatTheyWereMadeOf) {
     EXPECT_NEAR(c.swing_knee.damping, cycle.controls.swing_knee.damping, 1e-9);
     EXPECT_EQ(c.torso.rest, cycle.controls.torso.rest);
     EXPECT_EQ(c.toe_off_impulse, cycle.controls.toe_off_impulse);
-    // The swing shank is found again from the foot on the ground; the file has 12 digits.
+    // The swing shank follows from the foot on the ground; the file has 12 digits.
     const auto state = state_from(model, section_of(cycle.start));
     ASSERT_TRUE(state);
     EXPECT_LT((state->q - cycle.start.q).norm(), 1e-9);

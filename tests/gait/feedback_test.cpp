@@ -7,13 +7,13 @@
 namespace walktrack {
 namespace {
 
-// A - B gain: how deviations go on with the feedback.
+// A - B gain: how deviations continue with the feedback.
 SectionMatrix closed_loop(const CycleJacobian& jacobian, const FeedbackGain& gain) {
   return step_matrix(jacobian) - jacobian.block<kSectionSize, kControlSize>(0, 0) * gain;
 }
 
-// A scalar system in the first section number, moved by the first control only: the Riccati
-// equation p = 1 + a^2 p - (a b p)^2 / (r + b^2 p) by hand.
+// A scalar system in the first section number, controlled by the first control only: the Riccati
+// equation p = 1 + a^2 p - (a b p)^2 / (r + b^2 p) solved by hand.
 TEST(Feedback, ScalarSystemMatchesItsRiccatiEquation) {
   CycleJacobian jacobian = CycleJacobian::Zero();
   jacobian.block<kSectionSize, kSectionSize>(0, kControlSize) = -SectionMatrix::Identity();

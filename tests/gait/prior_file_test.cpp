@@ -70,7 +70,7 @@ TEST(PriorFile, AnthropomorphicRoundTrip) {
   EXPECT_EQ(read.nodes[1].gait, prior.nodes[1].gait);
   EXPECT_EQ(read.nodes[1].gain, prior.nodes[1].gain);
   EXPECT_EQ(read.nodes[1].least_normal, 0.75);
-  // One walker's table is not the other's.
+  // The table of one walker is not accepted for the other.
   EXPECT_THROW(parse_gait_prior(text, "table"), InputError);
   EXPECT_THROW(parse_straight_prior(shipped_gait_prior_text(), "table"), InputError);
 }

@@ -52,18 +52,18 @@ TEST_F(StraightPriorTest, ValidNodesAreStableCyclesThatNeitherBrakeNorPull) {
   EXPECT_EQ(level, 67u);   // of 77
 }
 
-// The whole table, found again: it is what this code computes, on this machine as on others.
+// The whole table is computed again: it is the result of this code, on this machine as on others.
 TEST_F(StraightPriorTest, IsWhatTheBuilderFinds) {
   const StraightPrior built = build_straight_prior({});
   ASSERT_EQ(built.nodes.size(), prior.nodes.size());
   for (size_t i = 0; i < built.nodes.size(); ++i) {
     EXPECT_EQ(built.nodes[i].valid, prior.nodes[i].valid) << i;
-    // Newton's 1e-9, through Jacobians down to 0.007 where the two families meet.
+    // Newton's 1e-9, amplified by Jacobians down to 0.007 where the two families meet.
     EXPECT_LT((built.nodes[i].gait - prior.nodes[i].gait).norm(), 1e-6) << i;
   }
 }
 
-// The general route, which knows nothing of batches and tables, walks the gaits.
+// The general implementation, without batches and tables, walks the gaits.
 TEST_F(StraightPriorTest, GaitsBetweenNodesWalkAtWhatWasAsked) {
   for (const double slope : {0.0, 0.03})
     for (const double speed : {1.2, 1.64, 2.1}) {
@@ -83,7 +83,7 @@ TEST_F(StraightPriorTest, GaitsBetweenNodesWalkAtWhatWasAsked) {
         advance += step->travel;
         state = step->end;
       }
-      // Between nodes a gait is a little off.
+      // Between nodes a gait is slightly wrong.
       EXPECT_NEAR(advance / state.time, speed, 0.03 * speed);
       EXPECT_NEAR(advance / kSteps, gait.step_length, 0.03 * gait.step_length);
     }
@@ -120,7 +120,8 @@ TEST_F(StraightPriorTest, RequestsOutsideAreMovedIntoTheValidSet) {
   const StraightGait fast = gait_at(prior, adult, 9, 5), still = gait_at(prior, adult, 0, 0);
   EXPECT_LT(fast.speed, 2.3);
   EXPECT_TRUE(fast.valid && still.valid);
-  // Long slow steps would need a spring that drives the legs apart; steps shorten until none does.
+  // Long slow steps would need a spring that drives the legs apart; steps are shortened until it is
+  // not needed.
   const StraightGait slow = gait_at(prior, adult, 0.7, 0.75);
   EXPECT_TRUE(slow.valid);
   EXPECT_LT(slow.step_length, 0.72);
@@ -132,7 +133,7 @@ TEST_F(StraightPriorTest, PhaseRunsFromTransferToTransfer) {
   const StraightModel model = straight_model(adult);
   EXPECT_EQ(state_at_phase(model, gait, 0).q, gait.start.q);
   const StraightState middle = state_at_phase(model, gait, 0.4);
-  EXPECT_NEAR(phase_of(gait, middle), 0.4, 1e-12);
+  EXPECT_NEAR(middle.since_transfer, 0.4 * gait.period, 1e-12);
   EXPECT_LT(middle.q[1], gait.start.q[1]);  // the leg swings forward
   EXPECT_EQ(middle.transfers, 0);
 }

@@ -5,8 +5,8 @@
 namespace walktrack {
 namespace {
 
-// Shares of 300 sampled walkers at 1.3 m/s; the bounds are what the issue asks for, the open loop
-// what a published table of this walker's cycles has at 1.2 m/s.
+// Shares of 300 sampled walkers at 1.3 m/s; the limits are the required ones, the one without
+// feedback is that of a published table of this walker's cycles at 1.2 m/s.
 TEST(Survival, SampledWalkersKeepWalking) {
   const GaitPrior prior = load_gait_prior();
   const KneedParameters adult = adult_walker(1.75, 70);

@@ -28,7 +28,7 @@ TEST_F(WalkPlans, AWalkerThatKeepsUpIsLedOnAtTheAcceleration) {
   const PriorGait first = first_gait(prior, adult, kFaster, 0, progress);
   EXPECT_NEAR(first.speed, 1, 1e-12);
   PriorGait gait = next_gait(prior, adult, kFaster, 0.8, first.start, progress);
-  EXPECT_NEAR(gait.speed, 1, 1e-12);  // the change is still to come
+  EXPECT_NEAR(gait.speed, 1, 1e-12);  // before the change
   gait = next_gait(prior, adult, kFaster, 1.3, first.start, progress);
   EXPECT_NEAR(gait.speed, 1 + 0.5 * 0.3, 1e-9);
 }
@@ -38,7 +38,7 @@ TEST_F(WalkPlans, AWalkerThatLagsIsSlowedDownOnceItHasSettled) {
   KneedState lagging = first_gait(prior, adult, slower, 0, progress).start;
   lagging.qd[kTorso] += 1;  // a third of the unit of rates
   EXPECT_NEAR(next_gait(prior, adult, slower, 1.5, lagging, progress).speed, 1, 1e-12);
-  // A second time the same: it will come no closer.
+  // The second time it is the same: it will come no closer.
   EXPECT_NEAR(next_gait(prior, adult, slower, 2, lagging, progress).speed, 1 - 0.5 * 0.3, 1e-9);
 }
 

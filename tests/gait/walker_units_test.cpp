@@ -35,7 +35,8 @@ TEST(WalkerUnits, UnitWalkerHasUnitLegMassAndGravity) {
   EXPECT_EQ(units.gravity, 1);
 }
 
-// Walkers of one build differ by their units only: a scaled start with scaled controls moves alike.
+// Walkers with the same proportions differ only in units: a scaled start with scaled controls gives
+// the scaled motion.
 TEST(WalkerUnits, ScaledWalkersMoveAlike) {
   const CycleFile file = read_kneed_cycles();
   const auto& cycle = file.cycles[2];

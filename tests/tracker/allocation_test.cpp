@@ -1,4 +1,4 @@
-// What a frame of tracking asks of the heap.
+// Heap allocations of a frame of tracking.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace walktrack {
 namespace {
 
-// Of the frames after the first few, the one that allocates most.
+// The number for the frame with most allocations, after the first few frames.
 long most_allocations(int particles) {
   const Walking walking{};
   TrackerScene scene = unseen(walking.model, kDt);
@@ -40,12 +40,12 @@ long most_allocations(int particles) {
   return most;
 }
 
-// A step's walkers change feet, meet their knees' stops, are moved and measured, and the heap hears
-// only of the frame's weights and its record.
+// During a step walkers change feet, meet their knees' stops, are moved and weighted, and only the
+// frame's weights and its record are allocated.
 TEST(Allocation, DoesNotGrowWithParticles) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer owns the allocator";
   const long few = most_allocations(50);
-  EXPECT_GT(few, 0);  // counted at all
+  EXPECT_GT(few, 0);  // the counter works
   EXPECT_LE(few, 16);
   EXPECT_EQ(most_allocations(400), few);
 }

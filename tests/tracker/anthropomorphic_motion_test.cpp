@@ -12,7 +12,7 @@
 namespace walktrack {
 namespace {
 
-// The walk of the prior, nothing else: knees straighten, the trunk rights itself.
+// The walk of the prior, without noise: knees straighten, the trunk becomes upright.
 MotionConfig quiet_anthropomorphic() {
   MotionConfig config;
   config.model = MotionKind::kAnthropomorphic;
@@ -39,13 +39,13 @@ TEST(AnthropomorphicMotion, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
     ASSERT_EQ(propagate(context, p, rng), Outcome::kAlive) << "frame " << frame;
     silence(context, p);
   }
-  // The fifth second ends within a step: the hip is ahead or behind by some centimetres.
+  // The fifth second ends within a step, so that the hip is in front or behind by some centimetres.
   EXPECT_NEAR((p.pose.root - start).x() / (kFrames * kDt), speed, 0.05);
-  EXPECT_NEAR(p.pose.root.y(), start.y(), 0.15);  // abducted legs sway the hips
+  EXPECT_NEAR(p.pose.root.y(), start.y(), 0.15);  // abduction of the legs moves the hips sideways
   EXPECT_GE(p.walker.transfers, 7);
 }
 
-// Between two transfers the foot's place is the same; the hip goes on as smoothly as the walker's.
+// Between two transfers the foot's place is constant; the hip moves as smoothly as the walker's.
 TEST(AnthropomorphicMotion, TheStandingFootStands) {
   const Walking walking(MotionKind::kAnthropomorphic);
   const MotionContext context = walking.context(kDt, quiet_anthropomorphic());
@@ -62,7 +62,7 @@ TEST(AnthropomorphicMotion, TheStandingFootStands) {
   }
 }
 
-TEST(AnthropomorphicMotion, WhoFallsCatchesTheStep) {
+TEST(AnthropomorphicMotion, AWalkerThatFallsContinuesUpright) {
   const Walking walking(MotionKind::kAnthropomorphic);
   const MotionContext context = walking.context(kDt, quiet_anthropomorphic());
   WalkerParticle p = walkers(context, 1.2, 1)[0];
@@ -77,7 +77,8 @@ TEST(AnthropomorphicMotion, WhoFallsCatchesTheStep) {
   }
 }
 
-// Knees bend about the lines of the legs: however bent, thigh and shank lean evenly to both sides.
+// Knees bend about the lines of the legs: for any flexion, thigh and shank lean equally to both
+// sides.
 TEST(AnthropomorphicMotion, KneesBendAboutTheLinesOfTheLegs) {
   const Walking walking(MotionKind::kAnthropomorphic);
   const MotionContext context = walking.context(kDt, quiet_anthropomorphic());
@@ -97,7 +98,7 @@ TEST(AnthropomorphicMotion, KneesBendAboutTheLinesOfTheLegs) {
   }
 }
 
-// The state that carries the straight legs stays one of straight legs and of an upright trunk.
+// The state that contains the straight legs stays one of straight legs and of an upright trunk.
 TEST(AnthropomorphicMotion, TheWalkerHasNoKneesAndNoTrunk) {
   const Walking walking(MotionKind::kAnthropomorphic);
   const MotionContext context = walking.context(kDt);
@@ -110,8 +111,8 @@ TEST(AnthropomorphicMotion, TheWalkerHasNoKneesAndNoTrunk) {
   }
 }
 
-// Its basin is narrow: three in four noisy walkers stumble within three seconds. But who stumbles
-// is caught, and the crowd walks on.
+// Its basin is narrow: three in four noisy walkers stumble within three seconds. But walkers that
+// stumble are caught, and continue.
 TEST(AnthropomorphicMotion, NoisyWalkersWalkOnAllTheSame) {
   const Walking walking(MotionKind::kAnthropomorphic);
   const MotionContext context = walking.context(kDt);
@@ -126,8 +127,8 @@ TEST(AnthropomorphicMotion, NoisyWalkersWalkOnAllTheSame) {
     EXPECT_GT(p.pose.root.z(), 0.7 * leg_length(walking.model.body.lengths));
     speed += (p.pose.root - start.pose.root).head<2>().norm() / (kFrames * kDt) / kWalkers;
   }
-  // It cannot be led to a higher speed (lib/gait/reports/straight_gaits.md), so aims that drift
-  // slow it down: by a tenth in this time, and certainly not by a fifth.
+  // It cannot be accelerated (lib/gait/reports/straight_gaits.md), so that aims that drift slow it
+  // down: by a tenth in this time, and certainly not by a fifth.
   EXPECT_NEAR(speed, 1.2, 0.24);
 }
 

@@ -1,9 +1,9 @@
-// This program's calls of operator new, counted; none where a sanitizer has the operator.
+// Counts this program's calls of operator new; 0 if a sanitizer replaces the operator.
 #pragma once
 
 namespace walktrack {
 
-// So far, of all threads.
+// Number so far, of all threads.
 long allocations();
 
 }  // namespace walktrack

@@ -11,7 +11,7 @@
 namespace walktrack {
 namespace {
 
-// A bell of score around where somebody is.
+// A bell-shaped score around a person's place.
 double bell(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double height) {
   return height * std::exp(-(place - truth).squaredNorm() / (2 * 0.3 * 0.3));
 }
@@ -52,7 +52,7 @@ TEST(StandingPlaces, FiguresStandWhollyInTheImage) {
   }
 }
 
-TEST(FindWalk, FindsAWalkerBetweenThingsThatStandStill) {
+TEST(DetectWalk, FindsAWalkerBetweenThingsThatStandStill) {
   const Window f = window([](size_t frame, const Eigen::Vector2d& p) {
     return bell(p, walker_at(frame), 100) + bell(p, {0.8, 1.8}, 120);
   });
@@ -63,14 +63,14 @@ TEST(FindWalk, FindsAWalkerBetweenThingsThatStandStill) {
   EXPECT_NEAR(walk->velocity.y(), 0.0, 0.06);
 }
 
-// Who is hidden in part of the window is not followed down to the last centimetre.
-TEST(FindWalk, SparesItselfTheFineStepsWhereNobodyIsSeenForAMoment) {
+// The line of a person who is hidden in a part of the window is not refined to the last centimetre.
+TEST(DetectWalk, DoesNotRefineLinesOfAHiddenPerson) {
   const auto scores_asked = [](size_t hidden_until) {
     int asked = 0;
     Window f = window([=](size_t frame, const Eigen::Vector2d& p) {
       return frame < hidden_until ? -5 : bell(p, walker_at(frame), 100);
     });
-    // The early candidates of somebody who is seen throughout: both propose the same lines.
+    // The early candidates for a person who is always visible: both propose the same lines.
     f.early = {{walker_at(window_ends(kWindowFrames).early), 100}};
     f.score = [&asked, score = f.score](size_t frame, const Eigen::Vector2d& p,
                                         const Eigen::Vector2d& velocity) {
@@ -83,7 +83,7 @@ TEST(FindWalk, SparesItselfTheFineStepsWhereNobodyIsSeenForAMoment) {
   EXPECT_LT(scores_asked(6), 0.6 * scores_asked(0));
 }
 
-// What one camera scores: a ridge along the viewing ray, forty times as long as it is wide.
+// The score of one camera: a ridge along the viewing ray, forty times as long as wide.
 double ridge(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double height) {
   const Eigen::Vector2d camera_position(0, -6), from_eye = place - camera_position,
                                                 true_ray = truth - camera_position;
@@ -93,14 +93,14 @@ double ridge(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double 
   return height * std::exp(-0.5 * (std::pow(farther / 0.3, 2) + std::pow(aside / 0.008, 2)));
 }
 
-// Either end of a line has a ray of its own. Who climbs along one ray with both leaves the ridge.
-TEST(FindWalk, ClimbsAlongTheRayOfEitherEnd) {
+// Each end of a line has its own ray. A climb along one ray with both ends leaves the ridge.
+TEST(DetectWalk, ClimbsAlongTheRayOfEitherEnd) {
   const auto truth = [](size_t frame) {
     return Eigen::Vector2d(-1.6 + 1.4 * kDt * double(frame), 0.4);
   };
   Window f =
       window([&](size_t frame, const Eigen::Vector2d& p) { return ridge(p, truth(frame), 100); });
-  // The only candidate of the late frame stands on its ray, but half as far again away.
+  // The only candidate of the late frame is on its ray, but half as far again.
   const size_t late = window_ends(kWindowFrames).late;
   const Eigen::Vector2d camera_position(0, -6),
       far = camera_position + 1.5 * (truth(late) - camera_position);
@@ -111,7 +111,7 @@ TEST(FindWalk, ClimbsAlongTheRayOfEitherEnd) {
   EXPECT_NEAR(walk->velocity.y(), 0, 0.1);
 }
 
-TEST(FindWalk, NobodyWalks) {
+TEST(DetectWalk, NobodyWalks) {
   const Window empty = window([](size_t, const Eigen::Vector2d&) { return -5.0; });
   EXPECT_FALSE(empty.walk());
   const Window still = window([](size_t, const Eigen::Vector2d& p) {
@@ -120,15 +120,15 @@ TEST(FindWalk, NobodyWalks) {
   EXPECT_FALSE(still.walk());
 }
 
-TEST(FindWalk, AWalkerHiddenInPartOfTheFramesIsNotThereYet) {
+TEST(DetectWalk, AWalkerHiddenInPartOfTheFramesIsNotThereYet) {
   const Window f = window([](size_t frame, const Eigen::Vector2d& p) {
     return frame < 8 ? -1.0 : bell(p, walker_at(frame), 100);
   });
   EXPECT_FALSE(f.walk());
 }
 
-// Poses that no figure resembles pass within a moment; who is hidden stays so.
-TEST(FindWalk, AMomentOfStrangePosesIsForgiven) {
+// Poses that no figure resembles last for a moment; hiding lasts longer.
+TEST(DetectWalk, AMomentOfUnusualPosesIsTolerated) {
   const auto gap_of = [](size_t frames) {
     const Window f = window([=](size_t frame, const Eigen::Vector2d& p) {
       return (frame >= 10 && frame < 10 + frames ? 0.1 : 1) * bell(p, walker_at(frame), 100);
@@ -139,7 +139,7 @@ TEST(FindWalk, AMomentOfStrangePosesIsForgiven) {
   EXPECT_FALSE(gap_of(5));
 }
 
-TEST(FindWalk, ThreadsDoNotMatter) {
+TEST(DetectWalk, ThreadsDoNotMatter) {
   const Window f =
       window([](size_t frame, const Eigen::Vector2d& p) { return bell(p, walker_at(frame), 100); });
   const auto one = f.walk();

@@ -44,7 +44,7 @@ TEST(EstimateFrame, OfOneParticleIsItsPose) {
   EXPECT_NEAR(e.pose.heading, particles[0].pose.heading, 1e-12);
 }
 
-// Walkers on the less likely foot have no say, and a quick walker's clock is turned back.
+// Walkers on the less likely foot have no effect, and the time of a quick walker is corrected.
 TEST(EstimateFrame, DatesTheTransferByThoseWhoStandOnTheLikelierFoot) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);

@@ -13,7 +13,7 @@ namespace {
 
 class Fit : public testing::Test {
  protected:
-  // Somebody strides where the pose says, in front of two cameras.
+  // A person in the pose of a stride, in front of two cameras.
   Fit() {
     for (const Eigen::Vector3d& from : {Eigen::Vector3d(0, -4, 1), Eigen::Vector3d(3, -3, 1.5)}) {
       scene.cameras.push_back(camera_at(from, {0, 0, 0.9}, 300, kEvidenceWidth, kEvidenceHeight));

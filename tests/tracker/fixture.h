@@ -1,4 +1,4 @@
-// A subject, its walker and its gaits, as the tracker's tests share them.
+// A subject with its walker and its gaits, for the tests of the tracker.
 #pragma once
 
 #include "body/kinematics.h"
@@ -21,7 +21,7 @@ inline BodyModel test_model(Path path = Path::kSpatial) {
   return model;
 }
 
-// What a context refers to, kept together.
+// The objects to which a context refers.
 struct Walking {
   explicit Walking(MotionKind kind = MotionKind::kKneed, Path path = Path::kSpatial)
       : model(test_model(path)), moves(make_motion_model(kind, model, prior)) {}
@@ -33,7 +33,7 @@ struct Walking {
   }
 };
 
-// A scene without cameras: nothing is seen.
+// A scene without cameras and evidence.
 inline TrackerScene unseen(const BodyModel& model, double dt) {
   TrackerScene scene;
   scene.model = model;
@@ -60,7 +60,7 @@ inline std::vector<WalkerParticle> walkers_on_their_way(const MotionContext& con
   return set;
 }
 
-// A tracked frame of that pose, of a body without arms or with them: bands from 2 cm below to 3 cm
+// A tracked frame with that pose, of a body with or without arms: bands from 2 cm below to 3 cm
 // above each coordinate, two samples.
 inline FrameRecord record_of(const Body& body, const Pose& pose) {
   FrameRecord record;

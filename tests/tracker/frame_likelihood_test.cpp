@@ -24,7 +24,7 @@ struct Seen : testing::Test {
     evidence.push_back(made_evidence(nats, flow));
   }
 
-  // By an independent route: camera by camera, all terms at once.
+  // Computed independently: camera by camera, all terms at once.
   double whole(bool with_motion) const {
     const auto capsules = [&](size_t c, const Pose& pose) {
       const Body& body = walking.model.body;
@@ -63,7 +63,7 @@ TEST_F(Seen, OnlyWhatTheSceneHasIsAStage) {
   const auto stages = [&](bool with_motion) {
     return FrameLikelihood(scene, evidence, with_motion).stages();
   };
-  EXPECT_EQ(stages(true), 1);  // no camera: how upright the walker is
+  EXPECT_EQ(stages(true), 1);  // no camera: only the height of the hips counts
   add(0, 1, false);
   EXPECT_EQ(stages(true), 1);
   evidence[0] = made_evidence(1, true);

@@ -1,4 +1,4 @@
-// A start that the scene gives is where the scene says, to MotionConfig::given_position_sd.
+// A given start is at the place that the scene states, to MotionConfig::given_position_sd.
 #include <gtest/gtest.h>
 
 #include "fixture.h"
@@ -8,7 +8,7 @@
 namespace walktrack {
 namespace {
 
-// Standard deviation of the pelvis over the ground in the first frame when nothing is seen, m.
+// Standard deviation of the pelvis over the ground in the first frame without evidence, m.
 double first_spread(double given, double arrival) {
   TrackerScene scene = unseen(test_model(), kDt);
   scene.initial = DetectedWalk{.position = {1, 2}, .velocity = {0, 1.2}, .given = true};

@@ -14,32 +14,32 @@ namespace {
 
 std::vector<double> equal_weights(size_t count) { return std::vector<double>(count, 0.0); }
 
-TEST(CourseSpread, OfOneParticleIsItsPlaceAndNoSpread) {
+TEST(GlobalPoseSpread, OfOneParticleIsItsPlaceAndNoSpread) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
   const std::vector<WalkerParticle> one = walkers_on_their_way(context, 1);
-  const CourseSpread spread = course_spread(one, equal_weights(1));
+  const GlobalPoseSpread spread = global_pose_spread(one, equal_weights(1));
   EXPECT_NEAR(spread.mean[0], one[0].pose.root.x(), 1e-12);
   EXPECT_NEAR(spread.mean[2], one[0].pose.heading, 1e-12);
   EXPECT_EQ(spread.factor.norm(), 0);
 }
 
-TEST(CourseSpread, DeadParticlesCountForNothing) {
+TEST(GlobalPoseSpread, DeadParticlesCountForNothing) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
   const std::vector<WalkerParticle> set = walkers_on_their_way(context, 2);
   const double dead = -std::numeric_limits<double>::infinity();
-  EXPECT_NEAR(course_spread(set, std::vector<double>{0.0, dead}).mean[0], set[0].pose.root.x(),
+  EXPECT_NEAR(global_pose_spread(set, std::vector<double>{0.0, dead}).mean[0], set[0].pose.root.x(),
               1e-12);
-  EXPECT_EQ(course_spread(set, std::vector<double>{dead, dead}).factor.norm(), 0);
+  EXPECT_EQ(global_pose_spread(set, std::vector<double>{dead, dead}).factor.norm(), 0);
 }
 
 // The factor is the covariance's: an independent sum over two coordinates.
-TEST(CourseSpread, FactorGivesTheCovariance) {
+TEST(GlobalPoseSpread, FactorGivesTheCovariance) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
   const std::vector<WalkerParticle> set = walkers_on_their_way(context, 50);
-  const CourseSpread spread = course_spread(set, equal_weights(set.size()));
+  const GlobalPoseSpread spread = global_pose_spread(set, equal_weights(set.size()));
   double shared = 0;
   for (const WalkerParticle& p : set)
     shared += (p.pose.root.y() - spread.mean[1]) * (p.pose.heading - spread.mean[2]) / 50;
@@ -47,17 +47,17 @@ TEST(CourseSpread, FactorGivesTheCovariance) {
   EXPECT_NEAR(covariance(1, 2), shared, 1e-12);
 }
 
-// Many moves leave the distribution that they are reversible to as it is.
-TEST(ChangeCourse, KeepsMeanAndSpread) {
+// Many moves do not change the distribution for which they are reversible.
+TEST(GlobalPoseMove, KeepsMeanAndSpread) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
   std::vector<WalkerParticle> set = walkers_on_their_way(context, 400);
-  const CourseSpread before = course_spread(set, equal_weights(set.size()));
+  const GlobalPoseSpread before = global_pose_spread(set, equal_weights(set.size()));
   for (size_t i = 0; i < set.size(); ++i) {
     Rng rng(6, Purpose::kMoves, 0, static_cast<uint32_t>(i));
     for (int k = 0; k < 20; ++k) move_global_pose(context, before, 0.5, set[i], rng);
   }
-  const CourseSpread after = course_spread(set, equal_weights(set.size()));
+  const GlobalPoseSpread after = global_pose_spread(set, equal_weights(set.size()));
   for (int k = 0; k < 5; ++k) {
     const double sd = before.factor.row(k).norm();
     EXPECT_NEAR(after.mean[k], before.mean[k], 4 * sd / std::sqrt(400.0)) << k;
@@ -66,13 +66,13 @@ TEST(ChangeCourse, KeepsMeanAndSpread) {
   }
 }
 
-// A turn about the root carries the whole figure, and the frame before, along: joints keep their
-// distances, and what moved between the frames still moves by as much.
-TEST(ChangeCourse, TurnsTheFigureRigidlyWithItsPast) {
+// A rotation about the root moves the whole figure and the frame before: joints keep their
+// distances, and movements between the frames have the same length.
+TEST(GlobalPoseMove, TurnsTheFigureRigidlyWithItsPast) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
   WalkerParticle p = walkers_on_their_way(context, 1)[0];
-  CourseSpread spread;
+  GlobalPoseSpread spread;
   spread.mean << p.pose.root.x() + 1, p.pose.root.y() - 2, p.pose.heading + 0.4,
       p.residual[kCrouch], p.residual[kTilt];
   const auto joints = [&](const Pose& pose) {
@@ -80,7 +80,7 @@ TEST(ChangeCourse, TurnsTheFigureRigidlyWithItsPast) {
   };
   const JointPositions now = joints(p.pose), before = joints(p.pose_before);
   Rng rng(1, Purpose::kMoves);
-  move_global_pose(context, spread, 1, p, rng);  // all the way to the mean: there is no spread
+  move_global_pose(context, spread, 1, p, rng);  // exactly to the mean: there is no spread
   EXPECT_NEAR(p.pose.root.x(), spread.mean[0], 1e-12);
   EXPECT_NEAR(p.pose.heading, spread.mean[2], 1e-12);
   const JointPositions turned = joints(p.pose), turned_before = joints(p.pose_before);
@@ -89,7 +89,7 @@ TEST(ChangeCourse, TurnsTheFigureRigidlyWithItsPast) {
                 1e-9);
     EXPECT_NEAR((turned[j] - turned_before[j]).norm(), (now[j] - before[j]).norm(), 1e-9);
   }
-  // The standing foot came along.
+  // The supporting foot moved as well.
   const Pose again = pose_of(walking.model, p.walker, p.stance, p.aim, p.ball, p.residual);
   EXPECT_LT((again.root - p.pose.root).norm(), 1e-9);
 }

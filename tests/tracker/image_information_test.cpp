@@ -28,7 +28,8 @@ TEST(ImageInformation, ComesBackAsItWas) {
   }
 }
 
-// What it says of a change of the pose, it says mirrored of the mirrored change.
+// The information about a change of the pose equals the mirrored information about the mirrored
+// change.
 TEST(ImageInformation, IsMirroredWithThePose) {
   const BodyModel model = test_model();
   const FreeNumbers free = free_numbers(model);

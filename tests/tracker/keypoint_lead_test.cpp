@@ -9,7 +9,7 @@
 namespace walktrack {
 namespace {
 
-// Somebody so much wider than the figure, in front of one camera, with a detector's point.
+// A person wider than the figure by a factor, in front of one camera, with a detector's point.
 class Lead : public testing::Test {
  protected:
   Lead() {

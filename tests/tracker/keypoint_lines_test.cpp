@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double kHeight = 1.7;
 
-// Left and right a little apart, as somebody who walks along x has them.
+// Left and right slightly apart, as for a person who walks along x.
 KeypointEvidence::Person standing(const Camera& camera, const Vector2d& place, Rng& rng,
                                   double noise_px) {
   KeypointEvidence::Person out;
@@ -43,7 +43,7 @@ TEST(PlaceOf, IsWhereThePersonStands) {
   }
 }
 
-// Somebody who stands on a roof has no place on the ground where their height is right.
+// For a person on a roof no place on the ground gives the right height.
 TEST(PlaceOf, IsNoWhereForAPersonOnARoof) {
   Rng rng(1, Purpose::kTest);
   const Camera camera = side_camera(1.3);
@@ -60,7 +60,7 @@ TEST(PlaceOf, NeedsTheAnkles) {
   EXPECT_FALSE(place_of(person, camera, kHeight));
 }
 
-// Two people, one walking and one standing, in random order, with noise and strays.
+// Two people, one walking and one standing, in random order, with noise and outliers.
 TEST(KeypointLines, FollowEachPerson) {
   Rng rng(3, Purpose::kTest);
   const Camera camera = side_camera(1.3);

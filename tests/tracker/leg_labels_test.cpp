@@ -58,7 +58,8 @@ TEST(LegLabels, AreTheChainsOwnMarginals) {
   for (size_t i = 0; i < 8; ++i) EXPECT_NEAR(found[i], swapped[i] / total[0], 1e-12);
 }
 
-// Clear frames settle the names within a second; after as long without any they are asked again.
+// Clear frames determine the labels within a second; after as long without any they are uncertain
+// again.
 TEST(NamesSoFar, AreInDoubtUntilFramesHaveSaidEnough) {
   NamesSoFar names;
   EXPECT_TRUE(names.in_doubt());
@@ -74,7 +75,7 @@ TEST(NamesSoFar, AreInDoubtUntilFramesHaveSaidEnough) {
   EXPECT_TRUE(names.in_doubt()) << "after a loss";
 }
 
-// The last frame's view of the names is the same forward and backward.
+// The last frame's labels are the same forward and backward.
 TEST(NamesSoFar, AgreeWithTheWholeTrackAtItsEnd) {
   for (const double odds : {0.08, 0.25}) {
     NamesSoFar names;

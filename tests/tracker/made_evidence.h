@@ -1,4 +1,4 @@
-// What a camera might see, without one.
+// Evidence of a camera, generated without images.
 #pragma once
 
 #include <cmath>
@@ -12,8 +12,8 @@ namespace walktrack {
 
 inline constexpr int kEvidenceWidth = 320, kEvidenceHeight = 240;
 
-// Pixels that speak for a body, some more than others, and on request stripes that move to the
-// right.
+// Pixels that are evidence for a body with different strengths, and on request stripes that move to
+// the right.
 inline CameraEvidence made_evidence(double nats, bool flow) {
   CameraEvidence out;
   resize(out.planes, {0, 0, kEvidenceWidth, kEvidenceHeight}, 1);
@@ -37,7 +37,7 @@ inline CameraEvidence made_evidence(double nats, bool flow) {
   return out;
 }
 
-// Pixels inside the pose's silhouette speak for the body, the others against it.
+// Pixels inside the pose's silhouette are evidence for the body, the others against it.
 inline CameraEvidence evidence_of(const Camera& camera, const Body& body, const Pose& pose) {
   CameraEvidence seen;
   resize(seen.planes, {0, 0, kEvidenceWidth, kEvidenceHeight}, 1);
@@ -53,7 +53,7 @@ inline CameraEvidence evidence_of(const Camera& camera, const Body& body, const 
   return seen;
 }
 
-// Somebody in mid-stride over the origin.
+// A person in mid-stride at the origin.
 inline Pose striding() {
   Pose pose;
   pose.root = {0, 0, 0.9};

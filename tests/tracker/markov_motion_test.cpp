@@ -64,7 +64,7 @@ TEST(MarkovMotion, ProcessesKeepTheirSpreadAtAnyFrameRate) {
   }
 }
 
-// What happens within a frame is lost, so faster processes differ a little more; those of legs and
+// Changes within a frame are lost, so that faster processes differ slightly more; those of legs and
 // root last for many frames.
 TEST(MarkovMotion, ProcessesForgetAsFastAtAnyFrameRate) {
   const Walking walking(MotionKind::kMarkov);
@@ -76,7 +76,7 @@ TEST(MarkovMotion, ProcessesForgetAsFastAtAnyFrameRate) {
           << "residual " << residual << ", lag " << lag;
 }
 
-// Two oscillators half a period on are where they were, mirrored about their rest.
+// After half a period an oscillator is at the same distance on the other side of its rest.
 TEST(MarkovMotion, AnglesSwing) {
   const Walking walking(MotionKind::kMarkov);
   const MarkovConstants hip = free_constants(kHipFlexion);
@@ -102,7 +102,7 @@ TEST(MarkovMotion, WithoutNoiseTheRootGoesStraightOnAtItsSpeed) {
   EXPECT_NEAR(p.pose.root.y(), start.y(), 1e-9);
 }
 
-// Whoever is first seen in a gait goes on in it, though nothing but habit carries them.
+// A particle that starts in a gait continues in it, although it has no walker.
 TEST(MarkovMotion, EntersAGaitOnTheWay) {
   const Walking walking(MotionKind::kMarkov);
   const MotionContext context = walking.context(kDt, quiet_markov());
@@ -116,7 +116,8 @@ TEST(MarkovMotion, EntersAGaitOnTheWay) {
     for (size_t i = 0; i < 2; ++i) {
       EXPECT_EQ(p.residual[kKneeFlexion + i], now.legs[i].knee_flexion);
       EXPECT_EQ(p.residual[kHipFlexion + i], now.legs[i].hip_flexion);
-      // Knees bend at up to 8 rad/s; a rate that fits no frame around is none of a gait.
+      // Knees bend at up to 8 rad/s; a rate that does not fit the neighbouring frames is not that
+      // of a gait.
       EXPECT_LT(std::abs(p.residual[kKneeFlexion + i] - p.residual_before[kKneeFlexion + i]),
                 8 * kDt);
     }
@@ -124,8 +125,9 @@ TEST(MarkovMotion, EntersAGaitOnTheWay) {
   }
 }
 
-// Feet that go back under the root stand: in the walker's own gait that is the stance foot.
-TEST(MarkovMotion, TheStandingFootIsTheOneThatGoesBack) {
+// Feet that move backwards under the root are supporting feet: in the walker's own gait that is the
+// stance foot.
+TEST(MarkovMotion, TheSupportingFootMovesBackwards) {
   const Walking walking(MotionKind::kMarkov);
   const MotionContext context = walking.context(kDt, quiet_markov());
   const PriorGait gait = gait_at(walking.prior, walking.model.walker.parameters, 1.25, 0.7);

@@ -24,9 +24,9 @@ class MirroredLegs : public testing::TestWithParam<MotionKind> {
   JointPositions joints(const Pose& pose) const { return forward_kinematics(body, pose).joints; }
 };
 
-// To first order in the reach, so on the average; from the side the image stays.
+// To first order in the reach, and therefore on average; from the side the image is the same.
 TEST_P(MirroredLegs, PutTheOtherFootWhereAFootWas) {
-  double pelvis = 0, ankles = 0, knees = 0;  // m, that they are elsewhere
+  double pelvis = 0, ankles = 0, knees = 0;  // m, by which they differ
   for (const WalkerParticle& particle : set) {
     const JointPositions before = joints(particle.pose), after = joints(mirrored(particle).pose);
     pelvis += (after[Joint::kPelvis] - before[Joint::kPelvis]).norm();
@@ -62,8 +62,8 @@ TEST_P(MirroredLegs, AreAsBeforeWhenMirroredAgain) {
   }
 }
 
-// What the one leg was about to do, the other one is.
-TEST_P(MirroredLegs, GoOnAsTheyMoved) {
+// Each leg continues with the motion of the other one.
+TEST_P(MirroredLegs, ContinueTheirMotion) {
   const auto rate = [](const WalkerParticle& p, int k) {
     return p.residual[size_t(k)] - p.residual_before[size_t(k)];
   };
@@ -81,7 +81,7 @@ TEST_P(MirroredLegs, GoOnAsTheyMoved) {
   }
 }
 
-// Whoever goes on from there walks as anybody.
+// Walkers continue to walk from there.
 TEST_P(MirroredLegs, WalkOn) {
   int alive = 0;
   for (size_t i = 0; i < set.size(); ++i) {

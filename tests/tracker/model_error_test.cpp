@@ -21,15 +21,16 @@ double sd_along(const Matrix3d& covariance, const Vector3d& direction) {
   return std::sqrt(direction.dot(covariance * direction));
 }
 
-// The header's formula: both ends are seen e wrong, h apart, at distance D much larger than h.
+// The formula in the header: both ends have an error e and are h apart, at a distance D much larger
+// than h.
 TEST(FigureCovariance, OneCameraKnowsTheDistanceLeast) {
   const double distance = 12, height = kHead.z() - kFeet.z();
   const std::vector<Camera> cameras{camera_from({0, -distance, 0.85})};
   const Matrix3d covariance = figure_covariance(cameras, kHead, kFeet);
   const double aside = sd_along(covariance, Vector3d::UnitX());
   const double along = sd_along(covariance, Vector3d::UnitY());
-  // Two views of one number; the ends stand h/2 off the axis on either side, hence D / (h/2). What
-  // nobody sees is known to a metre.
+  // Two views of one number; the ends are h/2 off the axis on either side, hence D / (h/2).
+  // Unobserved numbers are known to a metre.
   const double seen = aside * distance / (height / 2), expected = seen / std::hypot(1, seen);
   EXPECT_NEAR(along, expected, 0.01 * expected);
   EXPECT_NEAR(sd_along(covariance, Vector3d::UnitZ()), aside, 0.01 * aside);
@@ -69,7 +70,7 @@ TEST(AddModelError, WidensEverySpreadAndLeavesMeans) {
   estimate.joint_count = kJointCountWithoutArms;
   estimate.joints[Joint::kHead] = kHead;
   for (const Joint ankle : {Joint::kLeftAnkle, Joint::kRightAnkle}) estimate.joints[ankle] = kFeet;
-  // Skewed, and one whose few strays pull the mean out of its band.
+  // Skewed, with few outliers that pull the mean out of its band.
   for (auto& joint : estimate.spread) joint.fill({1, 0.01, 0.99, 1.03});
   estimate.spread[0][0] = {1, 0.01, 1.001, 1.004};
   estimate.angles.fill({0.5, 0.02, 0.48, 0.53});
@@ -85,15 +86,15 @@ TEST(AddModelError, WidensEverySpreadAndLeavesMeans) {
       EXPECT_LE(is.p05, is.mean);
     }
   }
-  // Nothing added is nothing known: a joint that is not modelled stays as it is.
+  // A joint that is not modelled is not changed.
   EXPECT_EQ(estimate.spread[kJointCountWithoutArms][0].sd, 0.01);
   EXPECT_GT(estimate.angles[kKneeAngleL].sd, before.angles[kKneeAngleL].sd);
   // The camera looks along y: the distance is known least.
   EXPECT_GT(estimate.spread[1][1].sd, 3 * estimate.spread[1][0].sd);
 }
 
-// Where particles agree, the band is the model error's alone: 5th and 95th percentile of a normal
-// distribution (Abramowitz & Stegun 1964, table 26.5), the standard deviation beside them.
+// If particles agree, the band is that of the model error alone: the 5th and 95th percentile of a
+// normal distribution (Abramowitz & Stegun 1964, table 26.5), with its standard deviation.
 TEST(AddModelError, BandsHoldNineTenthsOfANormalError) {
   FrameEstimate estimate;
   estimate.joint_count = kJointCountWithoutArms;

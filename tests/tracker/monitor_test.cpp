@@ -8,10 +8,10 @@
 namespace walktrack {
 namespace {
 
-constexpr double kNobody = -1e9;  // what a figure scores that explains nothing
+constexpr double kNobody = -1e9;  // score of a figure that explains nothing
 
-// Frames until the track is lost that are explained that well, after a second at 100 nats; as many
-// as asked if it never is.
+// Number of frames with this likelihood until the track is lost, after a second at 100 nats; all of
+// them if it never is.
 int frames_until_lost(double log_likelihood, double figure, int most = 200) {
   MonitorState state;
   begin_watch(std::deque<double>(30, 100.0), state);
@@ -31,7 +31,7 @@ TEST(Monitor, AStiffFigureThatDoesBetterEndsATrackSooner) {
   EXPECT_EQ(frames_until_lost(80, 95), frames_in(MonitorConfig{}.outscored_after, kDt));
 }
 
-// Whoever fades slowly is not measured by the frames in which they had faded.
+// A track that fades slowly is not compared with frames in which it had faded.
 TEST(Monitor, BadFramesAreNotTheMeasureOfGoodOnes) {
   MonitorState state;
   begin_watch(std::deque<double>(10, 100.0), state);
@@ -43,8 +43,8 @@ TEST(Monitor, BadFramesAreNotTheMeasureOfGoodOnes) {
   EXPECT_EQ(state.log_likelihoods.back(), 90);
 }
 
-// An empty scene explains nothing: what is below the least score is lost whatever came before.
-TEST(Monitor, ScoresOfNobodyAreLost) {
+// An empty scene explains nothing: below the least score a track is lost whatever came before.
+TEST(Monitor, LowScoresAreLost) {
   MonitorState state;
   begin_watch(std::deque<double>(10, 0.5), state);
   int frames = 1;

@@ -23,7 +23,7 @@ bool same(const Pose& a, const Pose& b) {
          a.legs[1].knee_flexion == b.legs[1].knee_flexion;
 }
 
-// What becomes of a particle depends on its own numbers alone, not on who goes with it.
+// The result for a particle depends on its own numbers alone, not on the others in the group.
 TEST_P(EveryMotionModel, ParticlesDoNotDependOnTheirGroup) {
   const MotionContext context = walking_.context(kDt);
   const std::vector<WalkerParticle> start = walkers_on_their_way(context, 9);
@@ -58,7 +58,7 @@ TEST_P(EveryMotionModel, PerturbLeavesTheStandardNormalPriorOfTheNoiseInvariant)
   EXPECT_NEAR(squares / kChains, 1, 5 * std::sqrt(2.0 / kChains));
 }
 
-// Realising twice is realising once: moves may come back to where they were.
+// Applying noise twice is the same as once: moves may return to earlier values.
 TEST_P(EveryMotionModel, ThePoseFollowsFromPredictionAndNoise) {
   const MotionContext context = walking_.context(kDt);
   for (WalkerParticle p : walkers_on_their_way(context, 20)) {
@@ -72,11 +72,11 @@ TEST_P(EveryMotionModel, ThePoseFollowsFromPredictionAndNoise) {
   }
 }
 
-// A change of course moves the body rigidly, with its motion.
-TEST_P(EveryMotionModel, AChangeOfCourseKeepsTheMotion) {
+// A change of the global pose moves the body rigidly, together with its motion.
+TEST_P(EveryMotionModel, AChangeOfTheGlobalPoseKeepsTheMotion) {
   const MotionContext context = walking_.context(kDt);
   std::vector<WalkerParticle> set = walkers_on_their_way(context, 50);
-  const CourseSpread spread = course_spread(set, std::vector<double>(set.size(), 0.0));
+  const GlobalPoseSpread spread = global_pose_spread(set, std::vector<double>(set.size(), 0.0));
   for (WalkerParticle& p : set) {
     const double moved = (p.pose.root - p.pose_before.root).head<2>().norm();
     Rng rng(5, Purpose::kTest);
@@ -85,7 +85,7 @@ TEST_P(EveryMotionModel, AChangeOfCourseKeepsTheMotion) {
   }
 }
 
-TEST_P(EveryMotionModel, WalkersAreFirstSeenWhereTheyAreSighted) {
+TEST_P(EveryMotionModel, ParticlesStartWhereTheWalkIsDetected) {
   const MotionContext context = walking_.context(kDt);
   for (const WalkerParticle& p : walkers(context, 1.3, 20))
     EXPECT_NEAR(p.pose.root.head<2>().norm(), 0, 1e-9);

@@ -1,4 +1,4 @@
-// A track is lost when its figure lies on none of the people whose keypoints are seen.
+// A track is lost if its figure agrees with none of the people whose keypoints are detected.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSpeed = 1.2;
 
-// Somebody upright over a place, each point known to 3 px.
+// An upright person at a place, each point known to 3 px.
 KeypointEvidence upright(const Body& body, const Camera& camera, double x) {
   Pose pose;
   pose.root = {x, 0, 0.52 * body.subject.height};
@@ -28,7 +28,7 @@ KeypointEvidence upright(const Body& body, const Camera& camera, double x) {
   return out;
 }
 
-// Whether somebody who walks along x is still tracked when their keypoints have been `aside` m
+// Whether a person who walks along x is still tracked after their keypoints have been `aside` m
 // beside them for some time.
 bool tracked_after(double aside, double seconds) {
   TrackerScene scene = unseen(test_model(), kDt);

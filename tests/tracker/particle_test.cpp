@@ -10,7 +10,7 @@
 namespace walktrack {
 namespace {
 
-// The plane embeds into 3-D: seen from the side, the drawn legs have the angles to be shown.
+// The plane embedded in 3-D: seen from the side, the legs have the angles of the walker.
 TEST(PoseOf, HasTheWalkersAnglesInItsPlane) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);
@@ -42,15 +42,15 @@ TEST(PoseOf, TheStandingFootKeepsItsBallThroughTheStep) {
         pose_of(walking.model, p.walker, Side::kLeft, p.aim, {2, 3}, ResidualAngles{});
     const Eigen::Vector3d toe =
         forward_kinematics(walking.model.body, pose).joints[Joint::kLeftToe];
-    // The joint lies a ball's height above the contact, tips over with the foot, and leaves the
-    // place as the round foot rolls: a centimetre or two.
+    // The joint is a ball's height above the contact, tips over with the foot, and moves as the
+    // round foot rolls: a centimetre or two.
     EXPECT_NEAR(toe.x(), 2, ball_height + 0.02);
     EXPECT_NEAR(toe.z(), ball_height, 0.02);
   }
 }
 
-// The foot that comes down stands where the pose before had its ankle: the pelvis goes on,
-// whichever foot it is reckoned from.
+// The foot that lands is at the place of its ankle in the pose before: the pelvis moves
+// continuously, for either foot.
 TEST(LandingBall, IsThePlaceTheLandedAnkleHasRolledFrom) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);
@@ -65,7 +65,7 @@ TEST(RolledAnkle, IsTheFlatFootsUnderAnUprightShankAndRisesWithItsLean) {
   const BodyModel model = test_model();
   const BodyLengths& l = model.body.lengths;
   EXPECT_LT((rolled_ankle(model, 0) - ankle_from_ball(l, 0)).norm(), 1e-12);
-  // As the walker's own ankle moves over its arc, by an independent route.
+  // Moves like the walker's own ankle over its arc, computed independently.
   KneedState state;
   for (const double shank : {-0.3, 0.2, 0.6}) {
     state.q.setZero();
@@ -77,7 +77,7 @@ TEST(RolledAnkle, IsTheFlatFootsUnderAnUprightShankAndRisesWithItsLean) {
   }
 }
 
-TEST(Realise, WithoutNoiseIsThePrediction) {
+TEST(ApplyNoise, WithoutNoiseIsThePrediction) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);
   WalkerParticle p = walkers(context, 1.2, 1)[0];
@@ -89,7 +89,7 @@ TEST(Realise, WithoutNoiseIsThePrediction) {
   EXPECT_EQ(p.residual, p.predicted_residual);
 }
 
-TEST(Realise, KneesNeverBendBackwards) {
+TEST(ApplyNoise, KneesNeverBendBackwards) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);
   WalkerParticle p = walkers(context, 1.2, 1)[0];
@@ -101,7 +101,7 @@ TEST(Realise, KneesNeverBendBackwards) {
   }
 }
 
-TEST(Realise, KneesBendNoFurtherThanTheHeelCanComeToTheThigh) {
+TEST(ApplyNoise, KneesBendNoFurtherThanTheHeelCanComeToTheThigh) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);
   WalkerParticle p = walkers(context, 1.2, 1)[0];

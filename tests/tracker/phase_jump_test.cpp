@@ -18,7 +18,8 @@ MotionConfig with_rephasing(double rate) {
   return config;
 }
 
-// Walkers on their way, each rephased once if it is in a hundred attempts; how many were.
+// Walking particles, each of which jumps once if it does so in a hundred attempts; returns their
+// number.
 template <typename Check>
 int rephase_each(const Walking& walking, int count, const Check& check) {
   const StepLibrary steps(walking.model, walking.prior);
@@ -62,8 +63,8 @@ TEST(PhaseJump, ThePoseStays) {
   EXPECT_GT(other_leg, 2);
 }
 
-// Gives the particle residuals, now and a frame ago, of their stationary distribution, and the pose
-// that they make. Crouched, so that no knee straightens and is kept from bending back.
+// Gives the particle residuals, now and one frame ago, from their stationary distribution, and the
+// pose that they make. It is crouched, so that no knee reaches its limit.
 void draw_residuals(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   particle.residual[kCrouch] = rad_from_deg(40);
   for (size_t k = kTilt; k <= kShankRight; ++k) {
@@ -79,7 +80,7 @@ void draw_residuals(const MotionContext& context, WalkerParticle& particle, Rng&
                           particle.ball, particle.residual);
 }
 
-// Metropolis-Hastings: residuals that have their distribution keep it, of now and of their change.
+// Metropolis-Hastings: the distribution of residuals is kept, of their values and of their change.
 TEST(PhaseJump, LeavesTheResidualsDistribution) {
   const Walking walking;
   const StepLibrary steps(walking.model, walking.prior);
@@ -107,14 +108,14 @@ TEST(PhaseJump, LeavesTheResidualsDistribution) {
   EXPECT_NEAR(changes / count, 1, four_sigma);
 }
 
-// A set whose walkers still swing a leg that has come down finds the new step.
+// A set whose walkers still swing a leg that has landed finds the new step.
 TEST(PhaseJump, FindsAMissedStrike) {
   const Walking walking;
   const StepLibrary steps(walking.model, walking.prior);
   const MotionContext context = walking.context(kDt, with_rephasing(0));
   const KneedModel& model = context.model.walker;
   const PriorGait gait = gait_at(context.prior, model.parameters, 1.3, 0.7);
-  constexpr double kIntoTheStep = 0.3;  // of the right foot's; the particles believe in the left's
+  constexpr double kIntoTheStep = 0.3;  // of the right foot; the particles believe it is the left's
   int found = 0;
   constexpr uint32_t kParticles = 40;
   for (uint32_t i = 0; i < kParticles; ++i) {
@@ -127,7 +128,7 @@ TEST(PhaseJump, FindsAMissedStrike) {
     particle.pose = pose_at(kIntoTheStep);
     particle.stance = Side::kLeft;
     particle.walker = state_at_phase(model, gait, 1);
-    particle.residual[kThigh] = rad_from_deg(25);  // what it takes to show that pose, about
+    particle.residual[kThigh] = rad_from_deg(25);  // about the residual that this pose needs
     particle.residual[kThighRight] = rad_from_deg(-25);
     Rng rng = stream(i);
     for (int frame = 0; frame < 60; ++frame) try_phase_jump(context, steps, particle, rng);
@@ -137,7 +138,7 @@ TEST(PhaseJump, FindsAMissedStrike) {
   EXPECT_GT(found, 35);
 }
 
-TEST(PhaseJump, WalkersThatMayNotStrayAreLeftAlone) {
+TEST(PhaseJump, WalkersWithoutResidualAnglesDoNotJump) {
   const Walking walking;
   const StepLibrary steps(walking.model, walking.prior);
   MotionConfig config = with_rephasing(0);

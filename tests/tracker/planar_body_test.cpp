@@ -8,7 +8,7 @@ namespace walktrack {
 namespace {
 
 // The published cycles of the kneed walker (tests/walker/kneed_cycles.yaml) belong to this subject:
-// its parameters, made from the anthropometric table by another hand, are the oracle.
+// its parameters, which were computed from the anthropometric table independently, are the oracle.
 TEST(KneedParameters, OfTheReferenceSubject) {
   const KneedParameters p = kneed_parameters({.height = 1.75, .mass = 70, .lengths = {}}, 9.80665);
   EXPECT_NEAR(p.thigh_length, 0.42875, 1e-9);

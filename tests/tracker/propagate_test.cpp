@@ -11,7 +11,7 @@
 namespace walktrack {
 namespace {
 
-// All noise off: the walk of the prior, nothing else.
+// All noise off: only the walk of the prior.
 MotionConfig quiet_kneed() {
   MotionConfig config;
   config.phase_jump_rate = 0;
@@ -43,14 +43,14 @@ TEST(Propagate, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
   const double distance = p.pose.root.x() - start.x();
   // The gait is the prior's nearest to that aim, to some per cent.
   EXPECT_NEAR(distance / (kFrames * dt), 1.2, 0.06);
-  // The heading follows the pelvis, which sways over the standing foot.
+  // The heading follows the pelvis, which sways over the supporting foot.
   const double sway = rad_from_deg(1.5);
   EXPECT_NEAR(p.residual[kHeading], 0, sway);
   EXPECT_NEAR(p.pose.root.y() - start.y(), 0, sway * distance);
 }
 
-// Law of similarity: with lengths k and times root k, somebody k times as tall walks the same way,
-// noise and all but that of the angles.
+// Law of similarity: with lengths times k and times times root k, a person k times as tall walks in
+// the same way, including all noise except that of the angles.
 TEST(ToScale, TheSmallAndTheLargeWalkAlike) {
   const auto where = [&](double height) -> Eigen::Vector2d {
     const double length = height / kAdultHeight, dt = kDt * std::sqrt(length);
@@ -60,7 +60,8 @@ TEST(ToScale, TheSmallAndTheLargeWalkAlike) {
     walking.model.walker = kneed_model(kneed_parameters(subject, kStandardGravity));
     walking.moves = make_motion_model(MotionKind::kKneed, walking.model, walking.prior);
     MotionConfig adult;
-    adult.phase_jump_rate = 0;  // asks how far the angles stray, whose processes keep their times
+    adult.phase_jump_rate = 0;  // its acceptance depends on the residuals, whose processes are not
+                                // scaled in time
     const MotionContext context = walking.context(dt, to_scale(adult, height));
     WalkerParticle p = walkers(context, 1.3 * std::sqrt(length), 1)[0];
     for (uint32_t frame = 0; frame < 40; ++frame) {
@@ -71,12 +72,13 @@ TEST(ToScale, TheSmallAndTheLargeWalkAlike) {
     }
     return p.ball / length;
   };
-  // Rounding grows through three log_likelihoods.
+  // Rounding grows through three logarithms.
   EXPECT_NEAR((where(0.9) - where(kAdultHeight)).norm(), 0, 1e-6);
   EXPECT_NEAR((where(3) - where(kAdultHeight)).norm(), 0, 1e-6);
 }
 
-// A walker that images keep taking aside, as a figure is that faces one way and goes another.
+// A walker that images keep moving sideways, as a figure that faces one direction and walks in
+// another.
 double heading_after(double facing, double aside, double seconds) {
   const Walking walking;
   constexpr double dt = 1.0 / 30;
@@ -90,7 +92,7 @@ double heading_after(double facing, double aside, double seconds) {
   for (int frame = 0; frame * dt < seconds; ++frame) {
     EXPECT_EQ(propagate(context, p, rng), Outcome::kAlive);
     silence(p, context);
-    // From where the last frame was, along the way.
+    // From the place in the last frame, along the path.
     const double way = aside * std::clamp(frame * dt / 0.5, 0.0, 1.0);
     const Eigen::Vector2d place =
         p.pose_before.root.head<2>() + speed * dt * Eigen::Vector2d(std::cos(way), std::sin(way));
@@ -108,7 +110,7 @@ TEST(Propagate, TheHeadingComesBackToTheWay) {
   EXPECT_NEAR(heading_after(1000, aside, 4), 0, rad_from_deg(1));
 }
 
-// Who turns steadily is not held back: the way turns with them.
+// A steady turn is not slowed down: the direction of travel turns with it.
 TEST(Propagate, ATurnGoesOn) {
   const Walking walking;
   constexpr double dt = 1.0 / 30, rate = 0.5;
@@ -125,8 +127,9 @@ TEST(Propagate, ATurnGoesOn) {
   EXPECT_NEAR(p.residual[kHeading], 90 * momentum * rate * dt, 0.1 * 90 * rate * dt);
 }
 
-// People's pelvis goes on at nearly constant speed, the walker's slows over its standing leg and
-// hurries from foot to foot; but neither a strike nor the roll of the foot makes it jump.
+// People's pelvis moves at nearly constant speed, while the walker's slows down over its supporting
+// leg and accelerates from foot to foot; but neither a strike nor the roll of the foot makes it
+// jump.
 TEST(Propagate, ThePelvisNeverJumps) {
   const Walking walking;
   constexpr double dt = 1.0 / 60;
@@ -142,8 +145,8 @@ TEST(Propagate, ThePelvisNeverJumps) {
   }
 }
 
-// A walker bent down to where no step can save it goes on upright, as the gait that it aims at.
-TEST(Propagate, WhoFallsCatchesTheStep) {
+// A walker that is bent too far for any step continues upright, in its intended gait.
+TEST(Propagate, AWalkerThatFallsContinuesUpright) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30, quiet_kneed());
   WalkerParticle p = walkers(context, 1.2, 1)[0];
@@ -153,7 +156,7 @@ TEST(Propagate, WhoFallsCatchesTheStep) {
   Rng rng(1, Purpose::kTest);
   ASSERT_EQ(propagate(context, p, rng), Outcome::kFallen);
   silence(p, context);
-  EXPECT_NEAR(p.pose.root.z(), upright, 0.06);  // the hip's rise and fall within a step
+  EXPECT_NEAR(p.pose.root.z(), upright, 0.06);  // the hip's vertical motion within a step
   for (uint32_t frame = 1; frame < 60; ++frame) {
     ASSERT_EQ(propagate(context, p, rng), Outcome::kAlive) << "frame " << frame;
     silence(p, context);
@@ -183,7 +186,7 @@ TEST(NoiseScale, GrowsAsDiffusionDoes) {
   EXPECT_NEAR(slow.impulse[0] / fast.impulse[0], 2, 1e-12);
 }
 
-// The recurrence of motion.h, run on its own: the process has the spread that it states.
+// The recurrence in motion.h, simulated separately: the process has the stated spread.
 TEST(NoiseScale, MarkovProcessesKeepTheirSpreadAtAnyFrameRate) {
   const Walking walking;
   const MarkovConstants c = row_of(kList).process;
@@ -205,8 +208,8 @@ TEST(NoiseScale, MarkovProcessesKeepTheirSpreadAtAnyFrameRate) {
   }
 }
 
-// A person's angles stray from the walker's without the walker's gait feeling it.
-TEST(Realise, AMisfitMovesThePersonAndNotTheWalker) {
+// Residual angles change the person's pose without an effect on the walker's gait.
+TEST(ApplyNoise, ResidualsMoveThePersonAndNotTheWalker) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);
   WalkerParticle p = walkers(context, 1.2, 1)[0];

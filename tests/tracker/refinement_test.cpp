@@ -84,7 +84,7 @@ TEST_F(Refined, TheSameForAnyThreadCount) {
     EXPECT_EQ(one.estimate.joints.at[j], four.estimate.joints.at[j]);
 }
 
-TEST_F(Refined, TheWalkersWordStandsWhereNothingIsSeen) {
+TEST_F(Refined, TheWalkersPoseIsKeptWithoutEvidence) {
   const FrameRecord before = record_of(nearby(striding()));
   FrameRecord after = before;
   refine(scene, evidence, 1, after);

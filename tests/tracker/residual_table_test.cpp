@@ -36,14 +36,14 @@ TEST(ResidualTable, HasProcessesThatRestWithinTheirLimits) {
   }
 }
 
-// Whether a pose made of these leaves the upright plane of heading 0.
+// Whether a pose made of these leaves the upright plane with heading 0.
 bool leaves_plane(const BodyModel& model, const ResidualAngles& residual) {
   const Pose pose = pose_of(model, {}, Side::kLeft, {1.2, 0.6}, {0, 0}, residual);
   const JointPositions joints = forward_kinematics(model.body, pose).joints,
                        still = forward_kinematics(model.body, pose_of(model, {}, Side::kLeft,
                                                                       {1.2, 0.6}, {0, 0}, {}))
                                    .joints;
-  // The standing foot stays where it is, and the root moves: places relative to it.
+  // The supporting foot does not move, but the root does: positions relative to it.
   const Eigen::Vector3d by = joints[Joint::kPelvis] - still[Joint::kPelvis];
   for (size_t j = 0; j < kJointCount; ++j)
     if (std::abs((joints.at[j] - still.at[j] - by).y()) > 1e-6) return true;
@@ -56,7 +56,7 @@ TEST(ResidualTable, SaysWhatMovesSideways) {
   for (const ResidualAngle angle : kAllResiduals) {
     ResidualAngles residual{};
     residual[angle] = 0.1;
-    // A leg's rotation moves nothing but the foot, and that of the standing foot not.
+    // A leg's rotation moves only the foot, and not the supporting foot.
     if (angle == kRotation) continue;
     EXPECT_EQ(leaves_plane(model, residual), row_of(angle).sideways) << angle;
   }

@@ -1,4 +1,4 @@
-// The path `sagittal`: straight on, whatever the model of motion and the noise.
+// The path `sagittal`: straight ahead, for any motion model and noise.
 #include <gtest/gtest.h>
 
 #include "fixture.h"
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Models, SagittalPath,
                          testing::Values(MotionKind::kKneed, MotionKind::kAnthropomorphic,
                                          MotionKind::kMarkov));
 
-// Without noise the feet come down left and right of one line.
+// Without noise the feet land left and right of one line.
 TEST(SagittalWalk, GoesAlongALine) {
   const Walking walking(MotionKind::kKneed, Path::kSagittal);
   const MotionContext context = walking.context(kDt);
@@ -94,12 +94,12 @@ TEST(SagittalWalk, GoesAlongALine) {
   EXPECT_GT(p.pose.root.x(), x + 4);
 }
 
-// A course may still be proposed as a whole: with the line go the place and the heading.
-TEST(SagittalWalk, ASetCanTakeAnotherCourse) {
+// A global pose may still be proposed as a whole: place and heading of the line change together.
+TEST(SagittalWalk, ASetCanTakeAnotherGlobalPose) {
   const Walking walking(MotionKind::kKneed, Path::kSagittal);
   const MotionContext context = walking.context(kDt);
   WalkerParticle p = walkers_on_their_way(context, 1)[0];
-  CourseSpread spread;
+  GlobalPoseSpread spread;
   spread.mean << p.pose.root.head<2>(), 0.1, p.residual[kCrouch], p.residual[kTilt];
   Rng rng(1, Purpose::kTest);
   move_global_pose(context, spread, 1, p, rng);

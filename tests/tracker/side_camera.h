@@ -1,4 +1,4 @@
-// A camera that looks along +y from 6 m before the origin.
+// A camera that looks along +y from 6 m in front of the origin.
 #pragma once
 
 #include "camera/camera.h"

@@ -12,8 +12,8 @@ using Eigen::Vector2d;
 
 const DetectedWalk kWalk{.position = {2, 1}, .velocity = {1.2, 0}};
 
-// Somebody stood at a place until the frame before the walk, and was seen for so many frames but
-// for those left out.
+// A person stood at a place until the frame before the walk, and was visible in so many frames,
+// except for some.
 struct Stood {
   Vector2d at{2.1, 1};
   size_t frames = 20, without = 0;

@@ -37,7 +37,7 @@ struct Crowd {
   std::vector<WalkerParticle> set;
 };
 
-// Everybody of the crowd stands where they are.
+// All walkers of the crowd stop.
 void halt(Crowd& crowd) {
   for (WalkerParticle& p : crowd.set) {
     const Pose pose = p.pose;
@@ -50,7 +50,7 @@ void halt(Crowd& crowd) {
   }
 }
 
-TEST(Standing, WhoStandsStaysWhereTheyAre) {
+TEST(Standing, StandingWalkersDoNotMove) {
   Crowd crowd(300);
   halt(crowd);
   crowd.frame(0);
@@ -66,7 +66,8 @@ TEST(Standing, WhoStandsStaysWhereTheyAre) {
     moved += (p.ball - before[i].ball).squaredNorm();
     sunk += p.pose.root.z() / leg;
   }
-  // Within a second most of those who may set off once a second have done so, and some come back.
+  // Within a second most of those that start to walk once per second have done so, and some have
+  // returned.
   ASSERT_GT(stood, 50);
   EXPECT_LT(std::sqrt(moved / stood), 0.03);
   EXPECT_GT(sunk / stood, 0.96);
@@ -98,18 +99,19 @@ TEST(Standing, RegimesChangeAndPosesStay) {
     stopped += p.regime == Regime::kStanding;
   }
   EXPECT_EQ(set_off, 400);
-  EXPECT_GT(stopped, 50);      // a standing pose explains itself better than a step does
+  EXPECT_GT(stopped, 50);      // standing explains a standing pose better than a step does
   EXPECT_NEAR(left, 200, 60);  // either leg goes first
 }
 
-// A stride has no pose that standing explains as well, so that walks are not interrupted.
-TEST(Standing, WhoWalksGoesOn) {
+// Standing does not explain any pose of a stride as well as walking, so that walks are not
+// interrupted.
+TEST(Standing, WalkersKeepWalking) {
   Crowd crowd(300);
   for (uint32_t i = 0; i < 12; ++i) crowd.frame(i);
   EXPECT_LE(crowd.standing(), 3);
 }
 
-TEST(Standing, WithoutItNobodyStands) {
+TEST(Standing, WithoutTheRegimeNobodyStands) {
   Walking walking;
   auto set = walkers_on_their_way(walking.context(kDt), 200);
   const MotionContext context = walking.context(kDt);

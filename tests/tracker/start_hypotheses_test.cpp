@@ -10,7 +10,7 @@
 namespace walktrack {
 namespace {
 
-// Nothing is seen, so nothing tells the hypotheses apart.
+// Without evidence hypotheses are not distinguished.
 struct Blind {
   Walking walking;
   TrackerScene scene = unseen(walking.model, kDt);
@@ -32,7 +32,7 @@ struct Blind {
   }
 };
 
-TEST(StartHypotheses, KeepsWhatNothingTellsApart) {
+TEST(StartHypotheses, KeepsHypothesesWithoutEvidence) {
   const Blind blind;
   StartHypotheses contest = blind.contest(std::nullopt);
   uint32_t frame = 0;
@@ -44,15 +44,15 @@ TEST(StartHypotheses, KeepsWhatNothingTellsApart) {
   EXPECT_EQ(contest.records().size(), 6u);
   const std::vector<WalkerParticle> left = contest.resampled();
   ASSERT_EQ(left.size(), 60u);
-  // Equal evidence all around the stride: as many stand on one foot as on the other.
+  // Equal evidence for the whole stride: as many particles on one foot as on the other.
   int on_left = 0;
   for (const WalkerParticle& p : left) on_left += p.stance == Side::kLeft ? 1 : 0;
   EXPECT_GE(on_left, 15);
   EXPECT_LE(on_left, 45);
 }
 
-// Half of what nothing tells apart stands on the other foot, and the record says so.
-TEST(StartHypotheses, SaysHowMuchSpeaksForMirroredLegs) {
+// Without evidence half of the particles are on the other foot, and the record states it.
+TEST(StartHypotheses, StatesTheProbabilityOfMirroredLegs) {
   const Blind blind;
   for (const bool phase_known : {false, true}) {
     StartHypotheses contest = blind.contest(phase_known ? std::optional(0.25) : std::nullopt);

@@ -29,7 +29,7 @@ TEST(PhaseRanges, AStatedPhaseNamesItsFoot) {
   EXPECT_GT(range.to, 0.5);
 }
 
-TEST(Spawn, WalkersStandOverTheSightingAndLookAhead) {
+TEST(Spawn, ParticlesStandAtTheDetectionAndFaceAhead) {
   const Walking walking;
   const MotionContext context = walking.context(1.0 / 30);
   StartConfig config;
@@ -44,7 +44,7 @@ TEST(Spawn, WalkersStandOverTheSightingAndLookAhead) {
   }
 }
 
-// A Markov walker keeps the root's height, in metres, where the others keep an angle.
+// A Markov walker stores the root's height, in metres, in the place of an angle.
 TEST(StartScale, IsInTheUnitsOfTheModel) {
   const StartConfig config;
   for (const MotionKind kind : {MotionKind::kKneed, MotionKind::kMarkov}) {
@@ -52,7 +52,7 @@ TEST(StartScale, IsInTheUnitsOfTheModel) {
     const MotionContext context = walking.context(1.0 / 30);
     const NoiseScale scale = start_scale(config, context.moves, context.config, context.scale);
     if (kind == MotionKind::kMarkov) {
-      // Of some 0.9 m, more than it wanders later.
+      // Of some 0.9 m, more than it varies later.
       EXPECT_GT(scale.residual[kRootHeight],
                 context.moves.constants(context.config, kRootHeight).spread);
       EXPECT_NEAR(scale.residual[kRootHeight], 0.052, 0.004);

@@ -17,8 +17,8 @@ DetectedWalk walk_off_by(const Eigen::Vector2d& shift) {
   return {.position = kBegin + shift, .velocity = kVelocity};
 }
 
-// A bell over place and height, the place drifting away from the camera as figures grow: 40 nats at
-// `height`.
+// A bell over place and height, in which the place moves away from the camera as figures grow: 40
+// nats at `height`.
 FigureScore person_of(double height, double width) {
   return [=](double tried) -> WindowScore {
     return [=](size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d&) {
@@ -37,7 +37,8 @@ SizedWalk sized(double height, double width) {
 TEST(SizeUp, FindsTheHeightAndItsLine) {
   for (const double height : {1.22, 1.58, 1.705, 1.96}) {
     const SizedWalk found = sized(height, 0.2);
-    // Usual heights, 1.70 +- 0.15 m, pull at what the images leave open, 2 cm: at most by 1.1 cm.
+    // The prior of the height, 1.70 +- 0.15 m, shifts an estimate with an uncertainty of 2 cm by at
+    // most 1.1 cm.
     EXPECT_NEAR(found.stature.height, height, 0.02) << height;
     EXPECT_LT((found.walk.position - kBegin).norm(), 0.03) << height;  // the climb ends at 1 cm
     EXPECT_NEAR(found.walk.score, 40, 0.5) << height;
@@ -48,7 +49,7 @@ TEST(SizeUp, TheSpreadIsThatOfTheEvidenceOfUsualHeightsAndOfPeople) {
   for (const double width : {0.15, 0.6}) {
     const double seen = kStrangeFigure * width / std::sqrt(40 * independent_looks(kFrames, kDt));
     const double expected = std::hypot(1 / std::hypot(1 / seen, 1 / 0.15), 0.02);
-    // The bell's flanks are less bent than its top: 5 cm are a third of the narrow one's width.
+    // The bell's flanks are less curved than its top: 5 cm are a third of the narrow one's width.
     EXPECT_NEAR(sized(1.7, width).stature.sd, expected, 0.1 * expected) << width;
   }
 }

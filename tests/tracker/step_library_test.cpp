@@ -15,7 +15,7 @@ constexpr StepAim kUsual{1.3, 0.7};
 
 Rng library_stream(uint32_t i) { return {5, Purpose::kTest, 0, i}; }
 
-// The book holds what a simulation from the support transfer gives.
+// The library has the result of a simulation from the support transfer.
 TEST(StepLibrary, MomentsAreThoseOfTheGait) {
   const Walking walking;
   const StepLibrary steps(walking.model, walking.prior);
@@ -49,8 +49,8 @@ TEST(StepLibrary, NearStepsAreNearAndSeveral) {
   EXPECT_EQ(found.size(), 9u);  // three speeds by three lengths
 }
 
-// Metropolis-Hastings asks for it: as likely there as back.
-TEST(StepLibrary, DrawsAsLikelyThereAndBack) {
+// Metropolis-Hastings requires equal probabilities in both directions.
+TEST(StepLibrary, DrawsWithEqualProbabilityInBothDirections) {
   const Walking walking;
   const StepLibrary steps(walking.model, walking.prior);
   Rng first = library_stream(0);

@@ -25,7 +25,7 @@ TEST(StridePhase, IsHalfAStrideOnWithTheLegsMirrored) {
   }
 }
 
-TEST(StridePhase, WhoIsLateToStrikeIsStillAboutTo) {
+TEST(StridePhase, ALateStrikeIsStillExpected) {
   const Walking walking;
   WalkerParticle particle = walkers(walking.context(1.0 / 30), 1.2, 1)[0];
   particle.walker.since_transfer = 3 * particle.aim.duration();
@@ -34,7 +34,7 @@ TEST(StridePhase, WhoIsLateToStrikeIsStillAboutTo) {
 }
 
 // Two modes of known masses, anywhere in the stride, each spread over a tenth of it.
-TEST(Modes, AreWeighedWhereverTheyLie) {
+TEST(Modes, AreWeightedAnywhereInTheStride) {
   for (const double minor : {0.0, 0.1, 0.3, 0.49}) {
     for (double phase = 0; phase < 1; phase += 0.07) {
       std::vector<double> phases, weights;
@@ -57,7 +57,7 @@ TEST(Modes, OfEqualMassAreHalfEach) {
   EXPECT_NEAR(mass_apart(leading_phase(phases, weights), phases, weights), 0.5, 1e-12);
 }
 
-TEST(Leaps, AreHalfAStrideWhileTheLegsPass) {
+TEST(LabelSwitching, IsHalfAStrideWhileTheLegsPass) {
   EXPECT_TRUE(label_switched(0.24, 0.77));
   EXPECT_TRUE(label_switched(0.74, 0.29));
   EXPECT_TRUE(label_switched(0.70, 0.15));
@@ -68,13 +68,13 @@ TEST(Leaps, AreHalfAStrideWhileTheLegsPass) {
       EXPECT_FALSE(label_switched(phase, around(phase + on)));
 }
 
-// Nobody walks so, at any moment and frame rate; whoever has their legs swapped while they pass
-// seems to.
-TEST(Leaps, AreNotOfWalkersButOfTheirLegs) {
+// No walker changes its phase like this, at any moment and frame rate; a walker whose legs are
+// swapped while they pass each other seems to.
+TEST(LabelSwitching, IsNotTheEffectOfAWalk) {
   const Walking walking;
   for (const double rate : {30.0, 7.0}) {
     MotionConfig config;
-    config.phase_jump_rate = 0;  // which is how sets leap
+    config.phase_jump_rate = 0;  // which make sets switch
     const MotionContext context = walking.context(1 / rate, config);
     int frames = 0, told = 0;
     for (WalkerParticle& particle : walkers_on_their_way(context, 20)) {

@@ -23,9 +23,9 @@ TEST(LegDifference, IsPeriodicAndSmooth) {
   }
 }
 
-// A person's knee, by the textbook: nearly straight at the strike, yields by some 15 to 20 degrees
-// when it takes the load, straightens by late stance and bends to 60 to 70 in swing (Perry &
-// Burnfield 2010, ch. 5). The walker's own knee does the second and the last badly.
+// A person's knee according to the textbook: nearly straight at the strike, flexed by some 15 to 20
+// degrees when it takes the load, straight in late stance and flexed by 60 to 70 in swing (Perry &
+// Burnfield 2010, ch. 5). The walker's own knee lacks the second and the last.
 TEST(LegDifference, MakesTheWalkersKneeAPersons) {
   const Walking walking;
   const double leg = leg_length(walking.model.body.lengths);

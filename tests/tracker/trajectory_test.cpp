@@ -23,8 +23,8 @@ Pose upright(const BodyModel& model) {
   return pose;
 }
 
-// A frame whose images know the pose to `sd` spreads of every number, about `pose`, and whose
-// walker agrees.
+// A frame whose images determine the pose to `sd` spreads of every number, around `pose`, with
+// which the walker agrees.
 FrameRecord seen(const BodyModel& model, const Pose& pose, double sd = 0.2) {
   const FreeNumbers free = free_numbers(model);
   FrameRecord record;
@@ -78,7 +78,7 @@ TEST(MostProbableTrajectory, WhatGoesOnEvenlyStays) {
     EXPECT_LT(difference(free, records[t].estimate.pose, poses[t]).norm(), 1e-6) << t;
 }
 
-// The header's sum, term by term, of poses and the best places for them.
+// The sum in the header, term by term, of poses and the best places for them.
 double header_sum(const BodyModel& model, double dt, std::span<const FrameRecord> records,
                   std::span<const FlatFoot> flat, std::span<const Pose> poses) {
   const FreeNumbers free = free_numbers(model);
@@ -126,7 +126,7 @@ TEST(MostProbableTrajectory, AreTheLeastOfTheHeadersSum) {
   Rng rng(3, Purpose::kTest);
   std::vector<FrameRecord> records;
   Pose middle = upright(model);
-  middle.root.z() += 0.05;  // toes above the ground, which the ankles see to afterwards
+  middle.root.z() += 0.05;  // toes above the ground, which the ankles have to compensate
   for (int t = 0; t < 8; ++t) {
     const Pose walker = trembling(model, middle, 0.5, rng);
     records.push_back(seen(model, trembling(model, walker, 0.5, rng)));
@@ -189,7 +189,7 @@ TEST(MostProbableTrajectory, WhoIsHiddenFollowsWalkerAndNeighbours) {
   }
   ImageInformation& hidden = records[10].images;
   std::fill(hidden.information.begin(), hidden.information.end(), 0.0);
-  hidden.pose.root.y() += 0.02;  // where particles without images have gone
+  hidden.pose.root.y() += 0.02;  // where particles drift without images
   hidden.walker = hidden.pose;
   const std::vector<Pose> poses = most_probable(model, records);
   EXPECT_NEAR(poses[10].root.x(), 0.4, 1e-3);

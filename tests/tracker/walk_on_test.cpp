@@ -18,7 +18,7 @@ struct Walkers {
   std::vector<Outcome> outcomes;
 };
 
-// Walkers at all moments of their steps; every tenth bends down too far to walk on.
+// Walkers at all moments of their steps; every tenth is bent too far to walk on.
 Walkers walkers(const MotionContext& context) {
   Walkers out{walkers_on_their_way(context, kWalkers), {}, {}};
   for (uint32_t i = 0; i < kWalkers; ++i) {
@@ -50,7 +50,7 @@ TEST(WalkOn, DependsOnNobodyElse) {
   expect_same(together, alone, 0);
 }
 
-TEST(WalkOn, SomeChangeFeetAndWhoFallsIsCaught) {
+TEST(WalkOn, SomeChangeFeetAndFallsAreCaught) {
   const Walking walking;
   const MotionContext context = walking.context(kDt);
   const Walkers before = walkers(context);
@@ -66,8 +66,8 @@ TEST(WalkOn, SomeChangeFeetAndWhoFallsIsCaught) {
   EXPECT_LT(changed, kWalkers / 8);
 }
 
-// On a slope walkers go one by one, each in the gravity of its own plane; with next to no slope
-// that is what the batch does on the level.
+// On a slope walkers are simulated one by one, each with the gravity in its own plane; on a tiny
+// slope the result is that of the batch on level ground.
 TEST(WalkOn, ASlopeOfNothingIsLevel) {
   Walking walking;
   const MotionContext level = walking.context(kDt);
@@ -79,7 +79,7 @@ TEST(WalkOn, ASlopeOfNothingIsLevel) {
   expect_same(batch, single, 1e-7);
 }
 
-// Who changes feet within a frame has the new step's controls for the rest of it.
+// A walker that changes feet within a frame has the new step's controls for the rest of it.
 TEST(WalkOn, LongFramesAreManyShortOnes) {
   const Walking walking;
   MotionConfig quiet;
@@ -88,7 +88,7 @@ TEST(WalkOn, LongFramesAreManyShortOnes) {
   const MotionContext once = walking.context(0.4, quiet);
   const MotionContext often = walking.context(0.4 / kShorter, quiet);
   std::vector<WalkerParticle> long_frame = walkers(once, 1.3, kWalkers);
-  // The next step is to be another one than the present one.
+  // The next step has another aim than the present one.
   for (WalkerParticle& p : long_frame) p.aim = {1.6, 0.8};
   std::vector<WalkerParticle> short_frames = long_frame;
   std::vector<Rng> rngs(kWalkers, Rng(2, Purpose::kTest));
@@ -104,8 +104,8 @@ TEST(WalkOn, LongFramesAreManyShortOnes) {
   EXPECT_GT(changed, kWalkers / 4);
 }
 
-// Downhill is forwards for those who head that way, backwards for those who head the other way.
-TEST(WalkOn, EverybodyFeelsTheSlopeOfTheirOwnHeading) {
+// A slope is downhill for walkers with one heading, uphill for those with the opposite one.
+TEST(WalkOn, TheSlopeDependsOnEachWalkersHeading) {
   Walking walking;
   walking.model.downhill = {0.5, 0};
   const MotionContext sloped = walking.context(kDt);
@@ -116,13 +116,13 @@ TEST(WalkOn, EverybodyFeelsTheSlopeOfTheirOwnHeading) {
   int compared = 0, faster = 0;
   for (size_t i = 0; i < kWalkers; ++i) {
     if (down.outcomes[i] != Outcome::kAlive || up.outcomes[i] != Outcome::kAlive) continue;
-    // Whoever has just changed feet shows the blow, which came at another moment.
+    // A walker that has just changed feet shows the impact, which was at another moment.
     const KneedState &a = down.particles[i].walker, &b = up.particles[i].walker;
     if (std::min(a.since_transfer, b.since_transfer) < kDt) continue;
     ++compared;
     faster += a.qd[kStanceThigh] > b.qd[kStanceThigh];
   }
-  // The standing leg falls forwards faster, but for a few whose knee gives way to it.
+  // The supporting leg falls forwards faster, except for a few whose knee gives way.
   EXPECT_GT(compared, kWalkers / 2);
   EXPECT_GT(faster, 0.95 * compared);
 }
@@ -152,10 +152,10 @@ TEST(AimedGait, MeetsTheSlopeOfItsHeading) {
   EXPECT_EQ(aimed_gait(flat, p).slope, 0);
 }
 
-// Everybody at their gait goes on in it, up and down: hardly anybody stumbles, and the steps are as
-// many as those aimed at. With the gaits of level ground 187 times somebody stumbled uphill, and
-// there were a sixth of the steps.
-TEST(WalkOn, OnASlopeHardlyAnybodyStumbles) {
+// Walkers in their gait continue in it, uphill and downhill: hardly any stumble, and the number of
+// steps is as intended. With the gaits of level ground 187 stumbled uphill, and there were a sixth
+// of the steps.
+TEST(WalkOn, OnASlopeHardlyAnyWalkersStumble) {
   for (const double heading : {0.0, kPi}) {
     Walking walking;
     walking.model = sloped(walking.model);

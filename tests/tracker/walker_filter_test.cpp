@@ -19,7 +19,7 @@ struct Advance : testing::Test {
   const WalkerFilterContext context{scene, walking.context(kDt), 1, 1};
 };
 
-// Nothing is seen, yet of two walkers the one whose hips have sunk below what walking allows loses
+// Without evidence, of two walkers the one whose hips have sunk below the limits of walking loses
 // its weight.
 TEST_F(Advance, HipsStayUp) {
   std::vector<WalkerParticle> both = walkers(context.motion, 1.2, 2);
@@ -55,7 +55,7 @@ TEST_F(Advance, TellsOfThoseWhoFell) {
   EXPECT_EQ(record.fallen, 3);
 }
 
-// Particles are moved on in groups; each has random numbers of its own all the same.
+// Particles are propagated in groups, but each has its own random numbers.
 TEST_F(Advance, ParticlesOfSeveralGroupsGoTheirOwnWays) {
   constexpr size_t kParticles = 70;
   std::vector<WalkerParticle> same = walkers(context.motion, 1.2, int(kParticles));

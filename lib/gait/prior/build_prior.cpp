@@ -9,8 +9,8 @@ namespace walktrack {
 inline namespace gait {
 namespace {
 
-// An optimal gait at 1.25 m/s and steps of 0.694 m of an adult, where the search sets out. It was
-// continued from a published cycle of the kneed walker (tests/walker/kneed_cycles.yaml).
+// An optimal gait at 1.25 m/s and steps of 0.694 m of an adult, from which the search begins. It
+// was continued from a published cycle of the kneed walker (tests/walker/kneed_cycles.yaml).
 constexpr GaitTarget kSeedTarget{1.25 / 3.01593, 0.694 / 0.9275, 0};
 GaitVector seed_gait() {
   GaitVector gait;
@@ -51,8 +51,8 @@ class Builder {
     return members.size();
   }
 
-  // Nodes that have no cycle continue the lines of their neighbours, outwards from the cycles, so
-  // that the table has no holes.
+  // Nodes without a cycle extrapolate the lines of their neighbours, outwards from the cycles, so
+  // that the table has no gaps.
   void fill() {
     std::vector<char> known = solved_;
     for (bool grown = true; grown;) {
@@ -66,7 +66,8 @@ class Builder {
     }
   }
 
-  // Every node once more, in two colours so that no node reads what another thread writes.
+  // Optimises every node once more, in two colours so that no node reads what another thread
+  // writes.
   void sweep(int threads) {
     for (const size_t colour : {0u, 1u}) {
       std::vector<Index> members;
@@ -136,7 +137,7 @@ class Builder {
     return std::nullopt;
   }
 
-  // The neighbour of a node `by` nodes along an axis, where there is one.
+  // The neighbour of a node `by` nodes along an axis, if it exists.
   std::optional<Index> neighbour(Index n, size_t Index::*axis, int by) const {
     const size_t size = axis == &Index::speed   ? grid_.speeds.size()
                         : axis == &Index::ratio ? grid_.ratios.size()
@@ -147,7 +148,7 @@ class Builder {
     return n;
   }
 
-  // Mean of the straight continuations from the known sides; false where no side is known.
+  // Mean of the linear extrapolations from the known sides; false if no side is known.
   bool fill(const Index& n, const std::vector<char>& known) {
     GaitNode filled;
     GaitVector sum = GaitVector::Zero();
@@ -188,8 +189,8 @@ class Builder {
     return result;
   }
 
-  // The mean of opposite neighbours, which is where a smooth table would put the node; its own gait
-  // where there are none.
+  // The mean of opposite neighbours, which is the gait of the node in a smooth table; its own gait
+  // if there are none.
   GaitVector smooth_centre(const Index& n) const {
     GaitVector sum = GaitVector::Zero();
     double count = 0;

@@ -27,7 +27,7 @@ class StraightBuilder {
   }
 
   StraightPrior build(const std::function<bool(size_t)>& progress) {
-    // The two families are furthest apart on a slope, so that the first node lies there.
+    // The two families differ most on a slope, so that the first node is there.
     const Index first{nearest_index(prior_.speeds, kStraightSeedTarget.speed),
                       nearest_index(prior_.ratios, 1), prior_.slopes.size() / 2};
     solve(first, straight_seed_gait(), kStraightSeedTarget);
@@ -60,7 +60,7 @@ class StraightBuilder {
   std::vector<Index> neighbours(const Index& n) const {
     std::vector<Index> result;
     const auto add = [&](size_t Index::*axis, size_t size) {
-      for (const size_t by : {size_t{0}, size_t{2}}) {  // one back, one on
+      for (const size_t by : {size_t{0}, size_t{2}}) {  // one before, one after
         const size_t place = n.*axis + by;
         if (place == 0 || place > size) continue;
         result.push_back(n);
@@ -74,7 +74,7 @@ class StraightBuilder {
   }
 
   // Nodes without a cycle take the gait of a solved neighbour, outwards, so that the table has no
-  // holes.
+  // gaps.
   void fill(const Index& first) {
     if (queue_.empty()) queue_.push_back(first);
     std::vector<char> known(prior_.size());

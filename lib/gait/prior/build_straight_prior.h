@@ -1,6 +1,6 @@
 // Builds the anthropomorphic walker's table of gaits: from a published cycle over the grid, each
-// node continued from its solved neighbours. A second or two of one core, so nothing is kept on the
-// way and nothing is resumed; the result is the same every time.
+// node continued from its solved neighbours. It takes a second or two on one core, so that nothing
+// is resumed; the result is the same every time.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 namespace walktrack {
 inline namespace gait {
 
-// Speeds and step lengths of the kneed walker's grid. Uphill there is nothing to find: see
+// Speeds and step lengths of the kneed walker's grid. Uphill there are no gaits: see
 // lib/gait/reports/straight_gaits.md.
 struct StraightPriorGrid : PriorAxes {
   StraightPriorGrid();
@@ -22,8 +22,8 @@ struct StraightPriorGrid : PriorAxes {
 StraightNode measured_node(const StraightGaitVector& cycle, const GaitTarget& target,
                            double effort);
 
-// `progress` is told how many nodes are solved; where it returns false the building stops and what
-// is solved so far is returned, the rest copied from neighbours.
+// `progress` is called with the number of solved nodes; if it returns false, building stops, and
+// the result contains the nodes solved so far, with the rest copied from neighbours.
 StraightPrior build_straight_prior(const StraightPriorGrid& grid,
                                    const std::function<bool(size_t)>& progress = {});
 

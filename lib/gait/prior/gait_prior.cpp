@@ -8,8 +8,8 @@ namespace walktrack {
 inline namespace gait {
 namespace {
 
-// Bounds of a feedback's correction, in square roots of stiffness and damping relative to the
-// gait's own, and absolute for rest angles (rad) and relative for the impulse. By hand.
+// Limits of a feedback's correction: for square roots of stiffness and damping relative to the
+// gait's own, for rest angles absolute (rad), for the impulse relative. By hand.
 constexpr double kMaxCorrection = 0.4;
 constexpr double kMaxRestCorrection = 0.3;
 
@@ -65,10 +65,6 @@ KneedState state_at_phase(const KneedModel& model, const PriorGait& gait, double
   kneed_advance(model, gait.controls, Vector5::Zero(), state,
                 std::clamp(phase, 0.0, 1.0) * gait.period);
   return state;
-}
-
-double phase_of(const PriorGait& gait, const KneedState& state) {
-  return std::clamp(state.since_transfer / gait.period, 0.0, 1.0);
 }
 
 KneedControls next_controls(const PriorGait& gait, const KneedState& state, double strength) {

@@ -53,7 +53,7 @@ Table parse_table(std::string_view text, const std::string& name, std::string_vi
   return table;
 }
 
-// Gait and feedback end a node's line.
+// The gait and its feedback at the end of a node's line.
 template <typename Node>
 void write_gait(std::string& text, const Node& node) {
   auto out = std::back_inserter(text);

@@ -1,4 +1,4 @@
-// Tables of gaits as text: a version line, the axes, one line a node, and a checksum of all that.
+// Tables of gaits as text: a version line, the axes, one line for each node, and a checksum.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ inline namespace gait {
 std::string gait_prior_text(const GaitPrior& prior, std::string_view tool_version);
 std::string straight_prior_text(const StraightPrior& prior, std::string_view tool_version);
 
-// `name` stands in messages. Throw InputError on another version, a wrong checksum or bad numbers.
+// `name` is used in messages. InputError for another version, a wrong checksum or invalid numbers.
 GaitPrior parse_gait_prior(std::string_view text, const std::string& name);
 StraightPrior parse_straight_prior(std::string_view text, const std::string& name);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/conventions.h"
+
 namespace walktrack {
 inline namespace gait {
 namespace {
@@ -37,8 +39,8 @@ AxisWeights axis_weights(const std::vector<double>& axis, double value) {
 }  // namespace
 
 double preferred_step_length(double speed) {
-  constexpr double kLeg = 0.9275, kStep = 0.694, kSpeed = 1.25, kGravity = 9.80665;
-  return kStep / kLeg * std::pow(speed * std::sqrt(kGravity * kLeg) / kSpeed, 0.42);
+  constexpr double kLeg = 0.9275, kStep = 0.694, kSpeed = 1.25;
+  return kStep / kLeg * std::pow(speed * std::sqrt(kStandardGravity * kLeg) / kSpeed, 0.42);
 }
 
 GaitTarget within(const PriorAxes& axes, GaitTarget target) {
@@ -69,7 +71,7 @@ NodeShares node_shares(const PriorAxes& axes, const GaitTarget& at) {
 }
 
 GaitTarget shifted(GaitTarget target) {
-  constexpr double kShift = 0.1;  // of the way to the preferred step length; by hand
+  constexpr double kShift = 0.1;  // share of the way to the preferred step length; by hand
   target.step_length += kShift * (preferred_step_length(target.speed) - target.step_length);
   return target;
 }

@@ -1,5 +1,5 @@
-// A table of gaits over speed x step length x slope, of whatever walker: its axes, and how it is
-// read between its nodes. Units L = M = g = 1.
+// A table of gaits over speed x step length x slope for any walker: its axes, and the interpolation
+// between its nodes. Units L = M = g = 1.
 #pragma once
 
 #include <array>
@@ -10,17 +10,18 @@ namespace walktrack {
 inline namespace gait {
 
 struct GaitTarget {
-  double speed = 0;        // body's advance per time
-  double step_length = 0;  // body's advance per step
+  double speed = 0;        // advance of the body per time
+  double step_length = 0;  // advance of the body per step
   double slope = 0;        // rad, positive downhill
 };
 
-// Step length that people choose, 0.694 m (v / 1.25 m/s)^0.42 for a leg of 0.9275 m, in leg
-// lengths (the power is that of Grieve 1968, as Kuo 2001, J. Biomech. Eng. 123, quotes it). It is
-// only used as the middle of a table's second axis.
+// Step length that people prefer, 0.694 m (v / 1.25 m/s)^0.42 for a leg of 0.9275 m, in leg
+// lengths. The power is the one that models of walking use (Kuo 2001, J. Biomech. Eng. 123) and
+// ascribe to Grieve; his papers (with Gear 1966; 1968) were not consulted. It is only used as the
+// middle of a table's second axis.
 double preferred_step_length(double speed);
 
-// Nodes stand on speeds x ratios x slopes, the slope running fastest. Axes ascend.
+// Nodes are at speeds x ratios x slopes, with the slope as the fastest index. Axes ascend.
 struct PriorAxes {
   std::vector<double> speeds;  // of sqrt(g L)
   std::vector<double> ratios;  // of preferred_step_length(speed)
@@ -45,11 +46,11 @@ struct PriorTable : PriorAxes {
   }
 };
 
-// The target moved to the table's border where it lies outside.
+// The target clamped to the limits of the table.
 GaitTarget within(const PriorAxes& axes, GaitTarget target);
 
-// What a node counts for at a place between nodes: weights of cubic Hermite interpolation (tangents
-// through the neighbours; straight towards the ends), and linear ones of the nodes that enclose it.
+// The weights of a node at a point between nodes: those of cubic Hermite interpolation (tangents
+// through the neighbours; linear at the ends), and linear ones for the nodes around the point.
 struct NodeShare {
   size_t node;
   double cubic, linear;
@@ -62,8 +63,8 @@ struct NodeShares {
 };
 NodeShares node_shares(const PriorAxes& axes, const GaitTarget& at);
 
-// The next target to try for one that no gait surrounds: its step length a tenth nearer to the
-// preferred one. kMaxShifts of them leave an eighth of the way.
+// The next target to try if no gaits surround this one: its step length is moved by a tenth towards
+// the preferred one. After kMaxShifts an eighth of the way is left.
 inline constexpr int kMaxShifts = 20;
 GaitTarget shifted(GaitTarget target);
 

@@ -9,7 +9,7 @@ namespace walktrack {
 inline namespace gait {
 namespace {
 
-// Bound of a feedback's correction, as a share of the control, or of kLeastControl if the control
+// Limit of a feedback's correction, as a share of the control, or of kLeastControl if the control
 // is smaller. By hand.
 constexpr double kMaxStraightCorrection = 0.4;
 constexpr double kLeastControl = 0.05;
@@ -29,13 +29,13 @@ StraightNode blended(const StraightPrior& prior, const GaitTarget& at) {
   return blend;
 }
 
-// The target moved into the table, and its step length to the nearest one with a valid gait: slow
-// walkers take no long steps, and none that walk downhill take short ones. Where a speed has no
-// valid gait the target keeps its step length.
+// The target moved into the table, and its step length to the nearest one with a valid gait: at low
+// speeds there are no long steps, and downhill no short ones. If a speed has no valid gait the
+// target keeps its step length.
 GaitTarget nearest_valid(const StraightPrior& prior, const GaitTarget& wished) {
   const GaitTarget at = within(prior, wished);
   const double preferred = preferred_step_length(at.speed);
-  constexpr double kStride = 0.01;  // of the preferred step; by hand
+  constexpr double kStride = 0.01;  // share of the preferred step; by hand
   const double span = (prior.ratios.back() - prior.ratios.front()) * preferred;
   for (double shift = 0; shift <= span; shift += kStride * preferred)
     for (const double side : {-1.0, 1.0}) {
@@ -103,10 +103,6 @@ StraightState state_at_phase(const StraightModel& model, const StraightGait& gai
   straight_advance(model, gait.controls, Vector2::Zero(), state,
                    std::clamp(phase, 0.0, 1.0) * gait.period);
   return state;
-}
-
-double phase_of(const StraightGait& gait, const StraightState& state) {
-  return std::clamp(state.since_transfer / gait.period, 0.0, 1.0);
 }
 
 StraightSection section_of(const StraightGait& gait, const StraightState& state) {

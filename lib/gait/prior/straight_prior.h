@@ -1,13 +1,13 @@
 // The prior over gaits of the anthropomorphic walker: stiffness and toe-off impulse (kappa, iota)
-// of its cyclic gaits over speed x step length x slope. A table in units L = M = g = 1 ships inside
-// the program. What gait_prior.h does for the kneed walker, in the same words.
+// of its cyclic gaits over speed x step length x slope. A table in units L = M = g = 1 is part of
+// the program. It corresponds to gait_prior.h for the kneed walker.
 //
-// Two controls meet two wishes, speed and step length, so nothing is left for an objective. But the
-// answer is not unique: where the swing leg makes one swing a step there are two cycles, one stable
-// and one not, of the same cost but for 4 % from 0.9 m/s on; with a stiffer spring two more, whose
-// leg swings to and fro, unstable. The table holds the stable one of one swing: the sign of the
-// Jacobian's determinant (straight_cycle.h) tells the two apart, and it never changes on the way
-// from the published cycle of Kuo (2002).
+// Two controls are determined by speed and step length, so that nothing is left to optimise. But
+// the solution is not unique: if the swing leg makes one swing in a step there are two cycles, one
+// stable and one not, with the same cost except for 4 % from 0.9 m/s on; with a stiffer spring
+// there are two more, unstable, whose leg swings back and forth. The table contains the stable one
+// with one swing: the sign of the Jacobian's determinant (straight_cycle.h) distinguishes the two,
+// and it does not change along the continuation from the published cycle of Kuo (2002).
 #pragma once
 
 #include "gait/gait_noise.h"
@@ -22,10 +22,10 @@ using StraightGain = Eigen::Matrix<double, kStraightControlSize, kStraightSectio
 struct StraightNode {
   StraightGaitVector gait = StraightGaitVector::Zero();
   StraightGain gain = StraightGain::Zero();  // of the feedback at support transfer, feedback.h
-  bool cyclic = false;                       // an exact cycle; otherwise a neighbour's
-  bool valid = false;  // a cycle that needs no brake (impulse >= 0) and no spring that drives legs
-                       // apart (stiffness >= 0), on a ground that never pulls
-  double cost_of_transport = 0;  // work of the toe-off; the spring gives back what it takes
+  bool cyclic = false;                       // an exact cycle; otherwise copied from a neighbour
+  bool valid = false;  // a cycle without braking (impulse >= 0), without a spring that drives legs
+                       // apart (stiffness >= 0), and with a ground that never pulls
+  double cost_of_transport = 0;  // work of the toe-off; the spring returns its work
   double least_normal = 0;       // smallest normal ground reaction, of the weight
   double multiplier = 0;         // largest absolute Floquet multiplier without feedback
 };
@@ -35,8 +35,8 @@ using StraightPrior = PriorTable<StraightNode>;
 // The table of this program.
 StraightPrior load_straight_prior();
 
-// Kuo's proportions with the leg of an average adult of a stature (m) and the mass (kg), on a slope
-// (rad, positive downhill).
+// Kuo's proportions with the leg of an average adult of this stature (m) and the mass (kg), on a
+// slope (rad, positive downhill).
 StraightLeggedParameters adult_straight_walker(double height, double mass, double slope = 0);
 // Kuo's proportions with these units, on level ground.
 StraightLeggedParameters straight_walker(const WalkerUnits& units);
@@ -46,7 +46,7 @@ WalkerUnits walker_units(const StraightLeggedParameters& parameters);
 
 // A gait of one walker, in its SI units.
 struct StraightGait {
-  double speed = 0;        // m/s, as asked but within the table
+  double speed = 0;        // m/s, as wanted but within the table
   double step_length = 0;  // m, the same
   double slope = 0;        // rad, downhill, the same
   double period = 0;       // s, of a step
@@ -54,25 +54,24 @@ struct StraightGait {
   StraightState start;  // just after a support transfer, contact at x0 = 0
   double cost_of_transport = 0;
   double multiplier = 0;
-  bool valid = false;  // all nodes around it are
+  bool valid = false;  // whether all nodes around it are
   WalkerUnits units;
   StraightGaitVector vector = StraightGaitVector::Zero();
   StraightGain gain = StraightGain::Zero();
 };
 
 // The gait at a speed (m/s) and step length (m) on the slope of `parameters`. Values outside the
-// table are moved to its border, step lengths without valid gaits to the nearest with one.
+// table are clamped to its limits, step lengths without valid gaits moved to the nearest with one.
 StraightGait gait_at(const StraightPrior& prior, const StraightLeggedParameters& parameters,
                      double speed, double step_length);
 
-// The state of the undisturbed gait after a share (0..1) of a step, and back.
+// The state of the undisturbed gait after a share (0..1) of a step.
 StraightState state_at_phase(const StraightModel& model, const StraightGait& gait, double phase);
-double phase_of(const StraightGait& gait, const StraightState& state);
 
 // The section of a state of this gait's walker, in units L = M = g = 1.
 StraightSection section_of(const StraightGait& gait, const StraightState& state);
 
-// The next step's controls after a transfer that left `state`: the gait's own, corrected by
+// The next step's controls after a transfer that led to `state`: the gait's own, corrected by
 // `strength` (0 none, 1 full) of the feedback, within 40 % of stiffness and impulse.
 StraightControls next_controls(const StraightGait& gait, const StraightState& state,
                                double strength = 1);

@@ -14,7 +14,7 @@ namespace walktrack {
 inline namespace gait {
 namespace {
 
-// FNV-1a, 64 bits: guards against truncation and editing, not against malice.
+// FNV-1a, 64 bits: detects truncation and editing, not forgery.
 std::string checksum_line(std::string_view text) {
   uint64_t hash = 14695981039346656037ull;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;

@@ -1,5 +1,5 @@
-// What the files of all tables of gaits have in common: a version line, who wrote it, the axes, one
-// line a node, and a checksum of all that; internal to lib/gait.
+// Common parts of the files of all tables of gaits: a version line, the program that wrote it, the
+// axes, one line for each node, and a checksum; internal to lib/gait.
 #pragma once
 
 #include <span>
@@ -11,13 +11,13 @@
 namespace walktrack {
 inline namespace gait {
 
-// Reads words of a text in order; every failure is an InputError that names the place.
+// Reads words of a text in order; every error is an InputError that names the place.
 class TableReader {
  public:
-  // `name` stands in messages and outlives the reader.
+  // `name` is used in messages and has to outlive the reader.
   TableReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
-  // The version line, which must be this one, and the line of who wrote it.
+  // Reads the version line, which must be this one, and the line with the program that wrote it.
   void head(std::string_view version_line);
   void axes(PriorAxes& axes);
   void begin_line() { rest_ = line(); }
@@ -38,7 +38,7 @@ class TableReader {
   int line_ = 0;
 };
 
-// The same lines, written.
+// Writes the same lines.
 std::string table_head(std::string_view version_line, std::string_view tool_version,
                        const PriorAxes& axes);
 std::string with_checksum(std::string text);

@@ -1,5 +1,5 @@
-// The members of everything that a checkpoint or a file of frames holds (io/archive/archive.h), and
-// what each may be.
+// The members of all structs in checkpoints and frame files (io/archive/archive.h), with the values
+// that are allowed.
 #pragma once
 
 #include <limits>
@@ -14,13 +14,13 @@ inline namespace io {
 constexpr Side last_value(Side) { return Side::kRight; }
 constexpr Regime last_value(Regime) { return Regime::kStanding; }
 
-// How often something has happened.
+// A count of events.
 template <typename T>
 Within<T> a_count(T& value) {
   return within(value, 0, std::numeric_limits<std::remove_const_t<T>>::max());
 }
 
-// A sum of weights, which rounding takes a little beyond 1.
+// A sum of weights, which rounding may increase slightly beyond 1.
 template <typename T>
 Within<T> a_share(T& value) {
   constexpr double kRounding = 1e-9;
@@ -80,17 +80,17 @@ void fields(Archive& archive, T& value) {
 template <typename Archive, ArchivedAs<WalkerParticle> T>
 void fields(Archive& archive, T& value) {
   auto& [predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_residual, noise,
-         walker, stance, ball, residual, residual_before, pose, pose_before, way, arriving, regime,
-         controls, aim] = value;
+         walker, stance, ball, residual, residual_before, pose, pose_before, way, first_frame,
+         regime, controls, aim] = value;
   archive(predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_residual, noise,
-          walker, stance, ball, residual, residual_before, pose, pose_before, way, arriving, regime,
-          controls, aim);
+          walker, stance, ball, residual, residual_before, pose, pose_before, way, first_frame,
+          regime, controls, aim);
 }
 
 template <typename Archive, ArchivedAs<ParticleSet<WalkerParticle>> T>
 void fields(Archive& archive, T& value) {
   auto& [states, log_weights, log_likelihoods] = value;
-  // The dead weigh -infinity, and nobody asks what they are.
+  // Dead particles have the weight -infinity; their state is arbitrary.
   archive(any_number(states), any_number(log_weights), any_number(log_likelihoods));
 }
 
@@ -167,7 +167,7 @@ void fields(Archive& archive, T& value) {
   archive(grey_before);
 }
 
-// By likelihood term. A term whose state is not empty has fields() here or beside it.
+// By likelihood term. A term whose state is not empty has fields() here or in its own header.
 template <typename Archive, ArchivedAs<ObserverState> T>
 void fields(Archive& archive, T& value) {
   Terms::each([&]<typename Term>() {

@@ -1,4 +1,4 @@
-// How often stated intervals contain the truth.
+// How often stated intervals contain the true value.
 #pragma once
 
 #include <array>

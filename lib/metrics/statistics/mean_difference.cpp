@@ -18,7 +18,7 @@ namespace {
 constexpr double kNoDifference = std::numeric_limits<double>::quiet_NaN();
 using Curves = std::span<const std::vector<double>>;
 
-// Of the mean, at every point.
+// Moments of the mean, at every point.
 struct Moments {
   std::vector<double> mean, error_squared;
 };

@@ -1,16 +1,18 @@
 // The difference between the means of two groups of curves (or numbers: curves of one point), with
 // a confidence band by bootstrap.
 //
-// Curves are drawn with replacement within each group. Of every draw
+// Curves are drawn with replacement within each group. For every draw
 //   T = max over the points of |difference* - difference| / SE*,
-// SE* the draw's own standard error; the band is difference -/+ q SE, q the `level` quantile of T:
-// the bootstrap-t (Efron & Tibshirani, An Introduction to the Bootstrap, 1993, chapter 12), over
-// the whole curve at once by its maximum (Lenhoff et al., Gait & Posture 9, 1999). So with
-// probability `level` all of the true curve lies inside, not each of its points. Draws in which a
-// group's curves are all the same one tell no error and are passed over.
+// where SE* is the draw's own standard error; the band is difference -/+ q SE, where q is the
+// `level` quantile of T: the bootstrap-t (Efron & Tibshirani, An Introduction to the Bootstrap,
+// 1993, chapter 12), for the whole curve at once by its maximum (Lenhoff et al., Gait & Posture 9,
+// 1999). With probability `level` all of the true curve is inside, not each of its points alone.
+// Draws in which all curves of a group are the same contain no information on errors and are
+// ignored.
 //
-// Of made strides the band holds the truth in 100 % of cases with 3 or 5 curves a group, 98 % with
-// 8 and 97 % with 15, where 95 % are asked for: with few strides it is too wide, not too narrow.
+// For generated strides the band contains the truth in 100 % of cases with 3 or 5 curves in each
+// group, 98 % with 8 and 97 % with 15, where 95 % are wanted: with few strides it is too wide, not
+// too narrow.
 #pragma once
 
 #include <cstdint>
@@ -33,15 +35,15 @@ MeanDifference mean_difference(std::span<const std::vector<double>> a,
                                std::span<const std::vector<double>> b, double level, size_t draws,
                                uint64_t seed);
 
-// Mean and standard deviation (n - 1; NaN for one number) of numbers, of which there is one.
+// Mean and standard deviation (n - 1; NaN for one number) of at least one number.
 struct SampleSpread {
   size_t count = 0;
   double mean, sd;
 };
 SampleSpread sample_spread(std::span<const double> values);
 
-// The quantile of Student's t that leaves `tail`, in (0, 0.5), above it; 1 to 1000 degrees of
-// freedom.
+// The quantile of Student's t above which the probability is `tail`, in (0, 0.5); 1 to 1000 degrees
+// of freedom.
 double students_t(double tail, double degrees);
 
 }  // namespace metrics

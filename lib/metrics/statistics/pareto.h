@@ -12,8 +12,8 @@ struct Trade {
   double cost, error;  // any units; smaller is better
 };
 
-// By setting. Equal settings are on the front together; a setting with a NaN never is, and excludes
-// no other.
+// For each setting. Equal settings are on the front together; a setting with a NaN is not on it,
+// and excludes no other one.
 std::vector<bool> pareto_front(std::span<const Trade> trades);
 
 }  // namespace metrics

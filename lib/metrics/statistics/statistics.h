@@ -7,7 +7,7 @@
 namespace walktrack {
 inline namespace metrics {
 
-// All zero for an empty set. The quantiles are those of the sorted values at rank q (n - 1),
+// All zero for an empty set. Quantiles are those of the sorted values at rank q (n - 1),
 // interpolated linearly.
 struct ErrorStatistics {
   size_t count = 0;
@@ -16,7 +16,7 @@ struct ErrorStatistics {
 
 ErrorStatistics error_statistics(std::vector<double> values);
 
-// Quantile q in [0, 1] of values (not empty) by the rule above.
+// Quantile q in [0, 1] of values (not empty) by that rule.
 double quantile(std::vector<double> values, double q);
 
 }  // namespace metrics

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/anthropometry.h"
 #include "core/conventions.h"
 #include "core/parallel_for.h"
 
@@ -78,7 +79,7 @@ std::vector<double> scores_along(const Window& window, const DetectedWalk& line,
 // The prior of the speed, 1.25 +- .5 m/s. It matters along the viewing rays, for which images
 // contain little evidence, so that a line might drift away without it.
 double log_prior(const DetectedWalk& line) {
-  const double strange = (line.velocity.norm() - 1.25) / 0.5;
+  const double strange = (line.velocity.norm() - anthropometry::kUsualSpeed) / 0.5;
   return -0.5 * strange * strange;
 }
 

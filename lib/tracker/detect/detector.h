@@ -25,8 +25,8 @@ struct DetectorConfig {
   double fastest = 3.0;      // m/s
   double least_share = 0.5;  // lowest score of a frame, as a share of the window's median
   double least_score = 6;    // nats, lowest score of the figure in any frame
-  // The same if there are only keypoints: nine points of a network that lie where a figure has them
-  // say 5.6 nats.
+  // The same if there are only keypoints: nine points of a network at the places where a figure has
+  // them contribute 5.6 nats.
   double least_points_score = 1;
   int candidates = 10;  // places of a frame through which lines are tried
   int grid_px = 8;      // spacing of the pixel grid at 640 px of image width

@@ -1,9 +1,9 @@
 // Lines over the ground along which people walk, from keypoints alone. The search may begin with
 // these lines; the likelihood decides which of them are right.
 //
-// The place of a person in a picture is the ground point at which the shoulders, hips and ankles of
-// an upright figure of the subject's height fit the points that were seen (least squares over the
-// two coordinates of the place): both the floor and the height determine the distance. People are
+// The place of a person in an image is the ground point at which the shoulders, hips and ankles of
+// an upright figure of the subject's height fit the detected points (least squares over the two
+// coordinates of the place): both the floor and the height determine the distance. People are
 // followed from frame to frame by the nearest place, and the line of each track is the median of
 // the lines through its pairs of places (Theil 1950, Sen 1968), which a few outliers do not move.
 #pragma once

@@ -42,7 +42,7 @@ std::vector<Place> places_in_frame(const SearchWindow& window, size_t index, con
   const auto score = [&](const Eigen::Vector2d& place) {
     if (!is_within_reach(context.config.monitor, window.last_seen, place, frame, context.scene.dt))
       return 0.0;
-    // Half of the figures, half a step, suffice for a first search.
+    // Half of the figures and half a step suffice for a first search.
     const double heading = side_on_heading(context.scene.cameras[0], place);
     const std::span<const Pose> figures = templates.at(anthropometry::kUsualSpeed, heading);
     return place_score(context.scene, window.frames[index], body, figures.first(figures.size() / 2),

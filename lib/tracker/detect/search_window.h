@@ -25,7 +25,7 @@ struct SearchWindow {
 WindowScore window_score(const SearchWindow& window, const Body& body,
                          const PoseTemplates& figures);
 
-// Places at which a subject with that body may stand in a frame of the window.
+// Places at which a subject with that body may be in a frame of the window.
 std::vector<Place> places_in_frame(const SearchWindow& window, size_t index, const Body& body,
                                    const PoseTemplates& figures);
 

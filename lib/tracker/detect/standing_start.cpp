@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Mean score of the frames just before the walk; -infinity where nobody stands in all of them.
+// Mean score of the frames just before the walk; -infinity if nobody stands in all of them.
 double score_just_before(const StandingScore& score, size_t frames, const Vector2d& place,
                          double heading) {
   double sum = 0;
@@ -41,8 +41,9 @@ Pose standing_pose(const BodyModel& model) {
 std::optional<StandingStart> standing_before(const DetectedWalk& walk, const StandingScore& score,
                                              double dt, const DetectorConfig& config) {
   // By hand.
-  constexpr double kLook = 0.15, kGap = 0.15;                       // s
-  constexpr double kNearest = -0.4, kFarthest = 0.4, kStep = 0.05;  // m ahead of the line's begin
+  constexpr double kLook = 0.15, kGap = 0.15;  // s
+  // M in front of the line's beginning.
+  constexpr double kNearest = -0.4, kFarthest = 0.4, kStep = 0.05;
   constexpr double kAsGood = 0.6;  // of the score just before the walk; by hand
   const auto frames_of = [&](double s) {
     return static_cast<size_t>(std::max(1L, std::lround(s / dt)));
@@ -61,7 +62,7 @@ std::optional<StandingStart> standing_before(const DetectedWalk& walk, const Sta
   }
   if (!(best > config.least_score)) return std::nullopt;
   const double least = std::max(config.least_score, kAsGood * best);
-  double pending = 0;  // of the newest frames that explain too little
+  double pending = 0;  // of the latest frames that explain too little
   for (size_t back = 1; back - out.frames <= frames_of(kGap); ++back) {
     const auto nats = score(back, out.detected.position, heading);
     if (!nats) break;

@@ -1,9 +1,9 @@
 // Estimates the height of a person who walks along a line that was found with figures of a usual
 // height.
 //
-// Cameras over known ground see the height: the feet show where the person stands, and the top of
-// the head shows how tall the person is. For each of several heights the best line near the one
-// that was found is searched (tracker/detect/detector.h). The peak of the log-posterior is the
+// Cameras above a known ground determine the height: the feet show where the person stands, and the
+// top of the head shows how tall the person is. For each of several heights the best line near the
+// one that was found is searched (tracker/detect/detector.h). The peak of the log-posterior is the
 // height, its curvature gives the standard deviation (Laplace's approximation: Tierney & Kadane,
 // JASA 81, 1986).
 #pragma once

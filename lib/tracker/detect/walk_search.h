@@ -1,5 +1,5 @@
 // Searches a walk in a window of frames that slides over the video (tracker/detect/detector.h), and
-// standing before it (tracker/detect/standing_start.h).
+// the subject standing before it (tracker/detect/standing_start.h).
 #pragma once
 
 #include <deque>
@@ -19,7 +19,7 @@ struct SearchMoment {
   const std::optional<LastSeen>& last_seen;
 };
 
-// The shortest window that is searched, s: as long as start hypotheses compete.
+// The shortest window that is searched, s: the time for which start hypotheses compete.
 inline constexpr double kShortestWindow = 0.5;
 
 class WalkSearch {
@@ -29,8 +29,8 @@ class WalkSearch {
   const std::deque<SceneEvidence>& window() const { return window_; }
   // Whether the window has the frames of so many seconds, which are `dt` apart.
   bool lasts(double seconds, double dt) const;
-  // Number of frames before the window that are kept because the subject may have stood in them;
-  // their records have not been handed out.
+  // Number of frames before the window that are kept because the subject may have stood in them,
+  // and whose records have not been returned yet.
   size_t waiting() const { return waiting_.size(); }
 
   // The walk through the window; nullopt if nobody walks there, or not clearly enough.
@@ -43,10 +43,11 @@ class WalkSearch {
                             const DetectedWalk& walk) const;
   // To be called when the size of the subject has changed.
   void forget_places() { places_.clear(); }
-  // To be called when the evidence counts otherwise.
+  // To be called when the likelihood has changed.
   void forget_scores();
 
-  // Standing before the walk, if there is any; the score is that of standing and walking together.
+  // The subject standing before the walk, if they do; the score is that of standing and walking
+  // together.
   std::optional<StandingStart> standing_lead(const TrackContext& context,
                                              const DetectedWalk& walk) const;
   // Moves the beginning of the window back by some of the frames that wait, or forward again.
@@ -56,7 +57,7 @@ class WalkSearch {
   // Moves the beginning of the window forward by a frame. Returns whether the oldest of the frames
   // that wait was dropped.
   bool slide(const TrackContext& context);
-  // Hands over the window's frames; afterwards no frames wait any more.
+  // Returns the window's frames; afterwards no frames wait any more.
   std::deque<SceneEvidence> take();
 
  private:
@@ -65,8 +66,9 @@ class WalkSearch {
   bool walks_clearly(const TrackContext& context, const DetectedWalk& walk);
 
   std::deque<SceneEvidence> waiting_, window_;
-  std::deque<std::optional<std::vector<Place>>> candidates_;  // of the window's frames, once asked
-  std::vector<Eigen::Vector2d> places_;                       // of a figure, once asked
+  std::deque<std::optional<std::vector<Place>>> candidates_;  // of the window's frames, once
+                                                              // computed
+  std::vector<Eigen::Vector2d> places_;                       // of a figure, once computed
   size_t slight_walks_ = 0;  // successive windows in which the person may as well stand
 };
 

@@ -17,7 +17,7 @@ namespace {
 // sensitivity not measured.
 constexpr double kFigureShare = 0.9;
 
-// A frame's own speed trembles. By hand.
+// The speed in a single frame is noisy. By hand.
 constexpr double kVelocityMemory = 1;  // s
 
 // By hand: half a step, and the change of velocity of a subject who stops or turns aside.

@@ -13,20 +13,20 @@ namespace {
 
 double whole_turns_off(double phase) { return phase - std::floor(phase); }
 
-// Strides from `a` to `b` by the shorter way.
+// Strides from `a` to `b`, by the shorter way.
 double strides_between(double a, double b) { return std::remainder(b - a, 1.0); }
 
 }  // namespace
 
 double stride_phase(const WalkerParticle& particle) {
-  constexpr double kBeforeStrike = 1 - 1e-9;  // a strike that is late is still expected
+  constexpr double kBeforeStrike = 1 - 1e-9;  // a late strike is still expected
   const double step =
       std::clamp(particle.walker.since_transfer / particle.aim.duration(), 0.0, kBeforeStrike);
   return 0.5 * (step + (particle.stance == Side::kLeft ? 0 : 1));
 }
 
 double leading_phase(std::span<const double> phases, std::span<const double> weights) {
-  // Twice the angle is the same for both modes and gives the line on which they lie.
+  // The doubled angle is the same for both modes and gives the line on which they are.
   std::complex<double> doubled = 0;
   for (size_t i = 0; i < phases.size(); ++i)
     doubled += weights[i] * std::polar(1.0, 4 * kPi * phases[i]);

@@ -45,8 +45,8 @@ double phase_ahead(std::span<const WalkerParticle> particles, std::span<const do
                    double dt);
 
 // Whether a set is half a stride (give or take an eighth) from the expected phase while the legs
-// pass each other, at about a quarter and three quarters of the stride (give or take an eighth). No
-// gait does that: the particles have taken one leg for the other.
+// pass each other, at about a quarter and three quarters of the stride (give or take an eighth). In
+// no gait this happens: the particles have swapped the legs.
 bool label_switched(double expected, double phase);
 
 }  // namespace tracker

@@ -35,7 +35,7 @@ std::vector<FrameRecord> start_frame(const TrackContext& context, const SceneEvi
   return hypotheses.decided() ? settle(mode) : std::vector<FrameRecord>{};
 }
 
-// Whether a set can take one leg for the other unnoticed: several cameras see it, and only the
+// Whether left and right can be swapped unnoticed: several cameras would show it, and only the
 // kneed walker makes phase jumps (tracker/moves/phase_jump.h).
 bool labels_may_switch(const TrackContext& context) {
   return context.scene.cameras.size() == 1 && context.config.motion.model == MotionKind::kKneed;
@@ -63,7 +63,8 @@ FrameRecord track_frame(const TrackContext& context, const SceneEvidence& eviden
                         TrackMode& mode) {
   Tracking& now = std::get<Tracking>(mode);
   FrameRecord record = filter_frame(context, evidence, frame, now.filter);
-  // A hypothesis that lost the start is not followed any more, so its evidence is unknown now.
+  // A hypothesis that was rejected at the start is not followed any more, so that its evidence is
+  // unknown now.
   record.modes.p_legs_swapped += now.p_legs_swapped * (1 - 2 * record.modes.p_legs_swapped);
   now.mean_pose = record.estimate.pose;
   if (is_lost(context, evidence, record, now.monitor)) {

@@ -31,7 +31,7 @@ StraightState straight(const KneedState& walker) {
           walker.transfers};
 }
 
-// Of two legs, all five.
+// The generalised torques of all five angles from those of two legs.
 Vector5 spread_out(const Vector2& legs) {
   Vector5 out = Vector5::Zero();
   out[kStanceThigh] = out[kStanceShank] = legs[0];
@@ -57,8 +57,8 @@ void set(const StraightControls& straight, KneedControls& controls) {
   controls.toe_off_impulse = straight.toe_off_impulse;
 }
 
-// The walker with a trunk, and with knees bent about the lines of its legs: thigh and shank are
-// about as long.
+// The walker with a trunk, and with knees flexed about the lines of its legs: thigh and shank have
+// nearly equal lengths.
 KneedState shown_state(const KneedState& walker, Side stance, const ResidualAngles& residual) {
   constexpr double kDeepestBend = anthropometry::kDeepestKneeBendDeg * kPi / 180;  // rad
   KneedState shown = walker;
@@ -85,7 +85,7 @@ MarkovConstants AnthropomorphicMotion::constants(const MotionConfig& config,
                                                  ResidualAngle residual) const {
   switch (row_of(residual).left) {
     case kCrouch:
-      return {0, 1, 0, 0, 0};  // knees are free
+      return {0, 1, 0, 0, 0};  // knees do not act on the walker
     case kThigh:
       return {0, 0.15, config.residual_scale * rad_from_deg(8), rad_from_deg(-30),
               rad_from_deg(30)};
@@ -163,7 +163,7 @@ void AnthropomorphicMotion::change_support(const MotionContext& context, WalkerP
       particle.controls);
 }
 
-// A walker that stumbles continues as the gait that it aims at would at this moment of the step.
+// A walker that stumbles continues with the state of its intended gait at this moment of the step.
 void AnthropomorphicMotion::catch_step(const BodyModel& model, WalkerParticle& particle) const {
   const StraightGait gait = aimed_gait(model, particle);
   const double phase = std::clamp(particle.walker.since_transfer / gait.period, 0.0, 0.95);
@@ -209,7 +209,7 @@ void AnthropomorphicMotion::apply_noise(const MotionContext& context,
                                         WalkerParticle& particle) const {
   const ResidualAngles now = particle.residual, before = particle.residual_before;
   realise_walker(context.model, context.scale, particle);
-  if (particle.arriving) keep_rates(now, before, particle);
+  if (particle.first_frame) keep_rates(now, before, particle);
   particle.pose = pose_showing(
       context.model, shown_state(particle.walker, particle.stance, particle.residual),
       particle.walker.q[kStanceShank], particle.stance, particle.ball, particle.residual);

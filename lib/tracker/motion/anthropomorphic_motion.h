@@ -1,10 +1,10 @@
 // The motion model `anthropomorphic`: McGeer's and Kuo's walker of two straight legs
-// (walker/straight/straight_walker.h) under the prior over its gaits drives the lines from hips to
-// ankles and, over the standing foot, the root. What it does not have, knees and a trunk, follows
-// the Markov processes of tracker/motion/markov_motion.h; pelvis, hips' abduction and rotation, and
-// arms those of the kneed model. One of the trackers before the kneed walker's was built like this.
+// (walker/straight/straight_walker.h) with the prior over its gaits determines the lines from hips
+// to ankles and, above the supporting foot, the root. What it lacks, knees and a trunk, follows the
+// Markov processes of tracker/motion/markov_motion.h; pelvis, hips' abduction and rotation, and
+// arms follow those of the kneed model. One of the trackers before the kneed walker's was similar.
 //
-// The walker's state sits in a kneed walker's with the trunk upright and the knees straight.
+// The walker's state is stored in a kneed walker's, with the trunk upright and the knees straight.
 #pragma once
 
 #include "gait/prior/straight_prior.h"

@@ -38,13 +38,13 @@ double enter_gait(const MotionContext& context, double phase, WalkerParticle& pa
   particle.aim = {gait.speed, gait.step_length};
   particle.controls = gait.controls;
   particle.walker = gait.start;
-  if (gait.slope == 0) return phase * gait.period;  // with all others
+  if (gait.slope == 0) return phase * gait.period;  // simulated together with all others
   particle.walker = state_in_gait(context.model, gait, phase);
   return 0;
 }
 
-// Simulates every walker to its own moment, all in one batch, because a step is as long as many
-// frames.
+// Simulates every walker to its own moment, all in one batch, because a step takes as long to
+// simulate as many frames.
 void walk_to(const KneedModel& model, std::span<const double> times,
              std::span<WalkerParticle> particles) {
   std::vector<KneedState> states;
@@ -84,7 +84,7 @@ Pose pose_in_gait(const BodyModel& model, const PriorGait& gait, Side stance, do
 MarkovConstants KneedMotion::constants(const MotionConfig& config, ResidualAngle residual) const {
   const ResidualRow& row = row_of(residual);
   MarkovConstants c = row.process;
-  if (row.strays) c.spread *= config.residual_scale;
+  if (row.is_deviation) c.spread *= config.residual_scale;
   return c;
 }
 
@@ -123,7 +123,7 @@ bool KneedMotion::linearise_noise(const MotionContext& context, WalkerParticle& 
 
 void KneedMotion::apply_noise(const MotionContext& context, WalkerParticle& particle) const {
   // The first position is as uncertain for a standing subject as for a walking one.
-  const bool stands = particle.regime == Regime::kStanding && !particle.arriving;
+  const bool stands = particle.regime == Regime::kStanding && !particle.first_frame;
   walktrack::apply_noise(context.model, stands ? context.standing->scale : context.scale, particle);
 }
 

@@ -1,6 +1,6 @@
-// The motion model `kneed`: the kneed walker under its springs (tracker/motion/walk_on.h) drives
-// trunk and legs, people's angles stray from its own, and who has missed a strike reads the pose
-// anew (tracker/moves/phase_jump.h).
+// The motion model `kneed`: the kneed walker with its springs (tracker/motion/walk_on.h) determines
+// trunk and legs, residual angles are added to its own, and particles that have missed a strike
+// make phase jumps (tracker/moves/phase_jump.h).
 #pragma once
 
 #include "gait/prior/gait_prior.h"
@@ -13,8 +13,8 @@ inline namespace tracker {
 // The walker at a share of a step of a gait of the prior, on the gait's slope.
 KneedState state_in_gait(const BodyModel& model, const PriorGait& gait, double phase);
 
-// A person in a gait of the prior, at a share of the step of the standing foot: the root above the
-// origin, heading 0, everything that the walker does not drive at rest.
+// A person in a gait of the prior, at a share of the step of the supporting foot: the root above
+// the origin, heading 0, everything that the walker does not drive at rest.
 Pose pose_in_gait(const BodyModel& model, const PriorGait& gait, Side stance, double phase);
 
 class KneedMotion : public MotionModel {
@@ -31,7 +31,7 @@ class KneedMotion : public MotionModel {
   std::span<const NoiseGroup> noise_groups(Path path) const override;
 
  private:
-  StepLibrary steps_;  // what rephasing reads poses as
+  StepLibrary steps_;  // steps for phase jumps
 };
 
 }  // namespace tracker

@@ -142,7 +142,7 @@ void MarkovMotion::predict(const MotionContext& context, std::span<WalkerParticl
 bool MarkovMotion::linearise_noise(const MotionContext& context, WalkerParticle& particle) const {
   const double change = context.config.markov_noise_scale * context.dt * std::sqrt(context.dt);
   particle.ball_sigma = change * Eigen::Vector2d(kAlong, kAcross);
-  if (particle.arriving) particle.ball_sigma.setConstant(context.config.start_position_sd);
+  if (particle.first_frame) particle.ball_sigma.setConstant(context.config.start_position_sd);
   return true;
 }
 
@@ -151,7 +151,7 @@ void MarkovMotion::apply_noise(const MotionContext& context, WalkerParticle& par
   realise_walker(context.model, context.scale, particle);
   const Body& body = context.model.body;
   particle.pose = pose_at(body, particle.residual, particle.ball);
-  if (!particle.arriving) return;
+  if (!particle.first_frame) return;
   // The subject is walking already when first seen.
   keep_rates(now, before, particle);
   const double heading = particle.residual[kHeading];

@@ -5,7 +5,7 @@
 //                    (tracker/motion/anthropomorphic_motion.h)
 //   markov           no walker: every coordinate is a Markov process
 //   (tracker/motion/markov_motion.h)
-// The other two are there to measure what physics contributes: reports/physics.md.
+// The other two exist to measure the contribution of physics: reports/physics.md.
 #pragma once
 
 #include <memory>

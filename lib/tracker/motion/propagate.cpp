@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Arms swing against the legs: forward with the other side's thigh.
+// Arms swing opposite to the legs: forward with the other side's thigh.
 double rest_of(ResidualAngle residual, const MarkovStep& step, const WalkerParticle& particle) {
   if (row_of(residual).left != kShoulder) return step.rest;
   constexpr double kArmPerLeg = 0.6;  // walking at 1.3 m/s, Murray et al. 1967
@@ -105,7 +105,7 @@ double frame_noise(const MotionConfig& config, ResidualAngle residual, const Mar
 MotionConfig to_scale(const MotionConfig& config, double height) {
   const double length = height / kAdultHeight, time = std::sqrt(length);
   MotionConfig scaled = config;
-  scaled.torque_noise_scale *= std::sqrt(time);  // of a share of M g L per root second
+  scaled.torque_noise_scale *= std::sqrt(time);  // a share of M g L per root second
   scaled.phase_noise *= std::sqrt(time);
   scaled.yaw_rate_sd /= time;
   scaled.heading_time_constant *= time;
@@ -147,7 +147,7 @@ PriorGait aimed_gait(const MotionContext& context, const WalkerParticle& particl
 }
 
 Outcome draw_first_noise(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  particle.arriving = true;
+  particle.first_frame = true;
   particle.way = {particle.aim.speed, 0};
   return predict(context, particle, rng) ? Outcome::kAlive : Outcome::kDead;
 }
@@ -157,7 +157,7 @@ void propagate(const MotionContext& context, std::span<WalkerParticle> particles
   const bool turn = turns(context.model);
   for (size_t i = 0; i < particles.size(); ++i) {
     WalkerParticle& p = particles[i];
-    const bool came = std::exchange(p.arriving, false);
+    const bool came = std::exchange(p.first_frame, false);
     if (turn && !came) update_travel_velocity(context, p);
     context.moves.jump_phase(context, p, rngs[i]);
     predict_residuals(context, p);
@@ -177,7 +177,7 @@ Outcome propagate(const MotionContext& context, WalkerParticle& particle, Rng& r
 }
 
 void perturb(const MotionContext& context, double step_size, WalkerParticle& particle, Rng& rng) {
-  // A quarter of the proposals changes everything a little, the others one part of the body.
+  // A quarter of the proposals change everything slightly, the others one part of the body.
   const double keep = std::sqrt(1 - step_size * step_size);
   const auto change = [&](int k) {
     double& z = particle.noise[static_cast<size_t>(k)];

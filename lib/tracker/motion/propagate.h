@@ -22,7 +22,7 @@
 namespace walktrack {
 inline namespace tracker {
 
-// For an adult of kAdultHeight. By hand where nothing else is said.
+// For an adult of kAdultHeight. By hand unless stated otherwise.
 struct MotionConfig {
   MotionKind model = MotionKind::kKneed;
   Path path = Path::kSpatial;  // BodyModel::path
@@ -38,7 +38,7 @@ struct MotionConfig {
   // s: time constant with which the heading relaxes to the direction of travel
   double heading_time_constant = 0.3;
   double residual_scale = 0.7;  // multiplies the spreads of the residual angles
-  // m per sqrt(s), along the walk: the drawn foot does not roll like the walker's
+  // m per sqrt(s), along the walk: a real foot does not roll like the walker's
   double ball_drift = 0.03;
   double ball_slip = 0.012;   // m per sqrt(s), across the walk
   double footfall_sd = 0.02;  // m, along and across: standard deviation of the place of a footfall
@@ -51,7 +51,7 @@ struct MotionConfig {
   // 1/s: rate at which a particle proposes a phase jump (tracker/moves/phase_jump.h)
   double phase_jump_rate = 30;
   double torque_noise_scale = 0.15;  // multiplies all five torques
-  // Whether the subject may stand, set off and stop (tracker/motion/standing.h)
+  // Whether the subject may stand, start to walk and stop (tracker/motion/standing.h)
   bool standing = true;
   // Multiplies the noise of model kMarkov; tuned on the demo, 1 = as fitted
   double markov_noise_scale = 1.5;

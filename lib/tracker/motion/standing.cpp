@@ -8,13 +8,13 @@ inline namespace tracker {
 
 namespace {
 
-// Rates at which standing particles propose to set off and walking ones to stop, 1/s. By hand. With
-// half or twice these rates, walks in the clips with people who stand begin and end at the same
-// frames, give or take two.
+// Rates at which standing particles propose to start walking and walking ones to stop, 1/s. By
+// hand. With half or twice these rates, walks in the clips with people who stand begin and end at
+// the same frames, within two frames.
 constexpr double kSetsOff = 1, kStops = 0.5;
 
-// Particles that set off aim at a usual walk, m/s for an adult, and are slower in the first half
-// second. By hand.
+// Particles that start to walk aim at a usual walk, m/s for an adult, and are slower in the first
+// half second. By hand.
 constexpr double kSlowestAim = 0.6, kFastestAim = 1.3;
 constexpr double kSlower = -0.25, kSlower_sd = 0.12;  // of kPace, a logarithm
 // Moments of the step at which they begin: before the legs have passed each other. By hand.
@@ -29,30 +29,30 @@ bool sets_off(const MotionContext& context, const StepLibrary& steps, WalkerPart
   const StepAim aim{speed, leg * preferred_step_length(speed / pace)};
   const LibraryStep* step = steps.near(aim, particle.residual[kHeading], rng);
   if (step == nullptr) return false;
-  WalkerParticle reading = particle;
-  reading.regime = Regime::kWalking;
-  reading.aim = step->aim;
-  reading.controls = step->controls;
-  reading.walker =
+  WalkerParticle proposal = particle;
+  proposal.regime = Regime::kWalking;
+  proposal.aim = step->aim;
+  proposal.controls = step->controls;
+  proposal.walker =
       step->moments[static_cast<size_t>(rng.uniform() * kLatest * double{LibraryStep::kMoments})];
-  if (rng.uniform() < 0.5) reading.stance = other(particle.stance);
-  fit_residuals_to(particle.pose, reading);
-  if (!std::isfinite(residual_energy(context, reading.residual))) return false;
-  draw_residuals_before(context, reading, rng);
+  if (rng.uniform() < 0.5) proposal.stance = other(particle.stance);
+  fit_residuals_to(particle.pose, proposal);
+  if (!std::isfinite(residual_energy(context, proposal.residual))) return false;
+  draw_residuals_before(context, proposal, rng);
   const MarkovConstants& c = row_of(kPace).process;
-  reading.residual[kPace] =
+  proposal.residual[kPace] =
       std::clamp(kSlower + kSlower_sd * rng.truncated_normal(3), c.lowest, c.highest);
-  reading.residual_before[kPace] = reading.residual[kPace];
-  stand_under(context.model, particle.pose, reading);
-  particle = reading;
+  proposal.residual_before[kPace] = proposal.residual[kPace];
+  stand_under(context.model, particle.pose, proposal);
+  particle = proposal;
   return true;
 }
 
 bool stops(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
-  WalkerParticle reading = particle;
-  stand(reading);
-  return try_reading(context, reading, particle,
-                     rng);  // a particle whose pose is that of a walk continues to walk
+  WalkerParticle proposal = particle;
+  stand(proposal);
+  return try_proposal(context, proposal, particle,
+                      rng);  // a particle whose pose is that of a walk continues to walk
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ inline namespace tracker {
 
 Eigen::Vector2d foot_sigma(const MotionContext& context, const WalkerParticle& particle) {
   const MotionConfig& config = context.config;
-  if (particle.arriving) return Eigen::Vector2d::Constant(config.start_position_sd);
+  if (particle.first_frame) return Eigen::Vector2d::Constant(config.start_position_sd);
   const double root = std::sqrt(context.dt);
   if (particle.regime == Regime::kStanding)
     return Eigen::Vector2d::Constant(config.ball_slip * root);
@@ -20,8 +20,8 @@ Eigen::Vector2d foot_sigma(const MotionContext& context, const WalkerParticle& p
 
 void change_feet(const BodyModel& model, const KneedState& shown, WalkerParticle& particle) {
   const Side landed = other(particle.stance);
-  // The pose with the new roles of the legs at the old place, at which the leg that now swings
-  // still stands.
+  // The pose with the new roles of the legs at the old place, at which the leg that now swings is
+  // still on the ground.
   particle.stance = landed;
   Pose pose = particle.pose;
   pose.tilt = shown.q[kTorso];

@@ -1,4 +1,4 @@
-// The stance foot: how uncertain its place is, and where the next foot comes down.
+// The supporting foot: the uncertainty of its place, and the place of the next foot.
 #pragma once
 
 #include "tracker/motion/propagate.h"
@@ -9,11 +9,11 @@ inline namespace tracker {
 // Standard deviations of the stance foot's place in a frame, along and across the heading, m.
 Eigen::Vector2d foot_sigma(const MotionContext& context, const WalkerParticle& particle);
 
-// The swing foot has come down, and the particle stands on it. The walker's legs have already
-// changed roles; `shown` is its state after that, with a person's leg angles.
+// The swing foot has landed and becomes the supporting foot. The walker's legs have already changed
+// roles; `shown` is its state after that, with a person's leg angles.
 void change_feet(const BodyModel& model, const KneedState& shown, WalkerParticle& particle);
 
-// Changes the aim of a new step a little from that of the last one.
+// Draws the target of a new step near that of the last one.
 void perturb_step_target(const MotionConfig& config, StepAim& aim, Rng& rng);
 
 }  // namespace tracker

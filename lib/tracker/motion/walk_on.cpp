@@ -30,7 +30,7 @@ void choose_controls(const MotionContext& context, WalkerParticle& particle, Rng
       {.relative = config.control_noise, .rest = 0.5 * config.control_noise, .torque = 0});
 }
 
-// The swing foot has come down: it becomes the stance foot, and a new step begins.
+// The swing foot has landed: it becomes the supporting foot, and a new step begins.
 void change_support(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
   change_feet(context.model,
               shown_state(particle.walker, other(particle.stance), particle.aim, particle.residual),
@@ -38,8 +38,7 @@ void change_support(const MotionContext& context, WalkerParticle& particle, Rng&
   choose_controls(context, particle, rng);
 }
 
-// A walker that stumbles catches the step: it continues as the gait that it aims at would at this
-// moment of the step.
+// A walker that stumbles continues with the state of its intended gait at this moment of the step.
 void catch_step(const MotionContext& context, WalkerParticle& particle) {
   const PriorGait gait = aimed_gait(context, particle);
   const double phase = std::clamp(particle.walker.since_transfer / gait.period, 0.0, 0.95);

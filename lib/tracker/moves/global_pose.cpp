@@ -39,7 +39,7 @@ Matrix factor_of(const Matrix& covariance) {
   return factor;
 }
 
-// The pose a frame ago, changed like its successor from `was` to `is`.
+// Changes the pose a frame ago in the same way as its successor, which was `was` and is `is`.
 void follow(const Pose& was, const Pose& is, Pose& before) {
   const double turn = is.heading - was.heading;
   const Vector2d arm = before.root.head<2>() - was.root.head<2>();
@@ -55,10 +55,10 @@ void follow(const Pose& was, const Pose& is, Pose& before) {
 
 }  // namespace
 
-CourseSpread course_spread(std::span<const WalkerParticle> particles,
-                           std::span<const double> log_weights) {
+GlobalPoseSpread global_pose_spread(std::span<const WalkerParticle> particles,
+                                    std::span<const double> log_weights) {
   const std::vector<double> weights = normalised_weights(log_weights);
-  CourseSpread out;
+  GlobalPoseSpread out;
   for (size_t i = 0; i < particles.size(); ++i)
     if (weights[i] > 0) out.mean += weights[i] * global_pose_of(particles[i]);
   Matrix covariance = Matrix::Zero();
@@ -71,8 +71,8 @@ CourseSpread course_spread(std::span<const WalkerParticle> particles,
   return out;
 }
 
-void move_global_pose(const MotionContext& context, const CourseSpread& spread, double step_size,
-                      WalkerParticle& particle, Rng& rng) {
+void move_global_pose(const MotionContext& context, const GlobalPoseSpread& spread,
+                      double step_size, WalkerParticle& particle, Rng& rng) {
   const GlobalPose now = global_pose_of(particle);
   GlobalPose normal;
   for (double& z : normal) z = rng.normal();

@@ -23,19 +23,19 @@ inline namespace tracker {
 // Root x, y (m), heading, crouch, tilt (rad).
 using GlobalPose = Eigen::Matrix<double, 5, 1>;
 
-struct CourseSpread {
+struct GlobalPoseSpread {
   GlobalPose mean = GlobalPose::Zero();
   Eigen::Matrix<double, 5, 5> factor = Eigen::Matrix<double, 5, 5>::Zero();  // S = factor factor^T
 };
 
 // Mean and covariance of particles to which noise has been applied; those with log-weights of
 // -infinity are left out.
-CourseSpread course_spread(std::span<const WalkerParticle> particles,
-                           std::span<const double> log_weights);
+GlobalPoseSpread global_pose_spread(std::span<const WalkerParticle> particles,
+                                    std::span<const double> log_weights);
 
 // Proposes another global pose; step_size in (0, 1].
-void move_global_pose(const MotionContext& context, const CourseSpread& spread, double step_size,
-                      WalkerParticle& particle, Rng& rng);
+void move_global_pose(const MotionContext& context, const GlobalPoseSpread& spread,
+                      double step_size, WalkerParticle& particle, Rng& rng);
 
 }  // namespace tracker
 }  // namespace walktrack

@@ -9,7 +9,7 @@ inline namespace tracker {
 
 namespace {
 
-// Legs that reach across the pelvis to each other's feet: abductions become this much less than
+// For legs that reach across the pelvis to each other's feet, abductions become this much less than
 // the negative of the other leg's, rad (to first order).
 double reach(const Body& body) { return body.lengths.hip_width / leg_length(body.lengths); }
 
@@ -22,7 +22,7 @@ void reach_across(double reach, ResidualAngles& residual) {
   for (const ResidualAngle i : {kAbduction, kAbductionRight}) residual[i] = -residual[i] - reach;
 }
 
-// Below the hips and the shoulders.
+// Pairs below the hips and the shoulders.
 constexpr std::pair<Joint, Joint> kPairs[] = {{Joint::kLeftKnee, Joint::kRightKnee},
                                               {Joint::kLeftAnkle, Joint::kRightAnkle},
                                               {Joint::kLeftToe, Joint::kRightToe},
@@ -52,7 +52,8 @@ Pose swapped_limbs(const Pose& pose) {
   return out;
 }
 
-// Legs that do not reach sideways: the pelvis stays where it is, and the feet change their places.
+// For legs that do not reach sideways: the pelvis stays in its place, and the feet swap their
+// places.
 void swap_feet(const MotionContext& context, WalkerParticle& particle) {
   const Eigen::Vector2d root = particle.pose.root.head<2>();
   context.moves.apply_noise(context, particle);

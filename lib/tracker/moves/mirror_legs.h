@@ -1,7 +1,7 @@
-// The same walk with the legs swapped: the left leg does what the right one did, half a stride
-// away, and each foot stays where a foot was. Arms swing against the legs and are swapped with
-// them. The pelvis stays as it is, so that each leg starts from the other hip and reaches its foot
-// by another abduction. Seen from the side nothing changes: the two are modes of one posterior
+// The same walk with the legs swapped: the left leg moves like the right one before, half a stride
+// away, and each foot stays where a foot was. Arms swing opposite to the legs and are swapped with
+// them. The pelvis does not move, so that each leg begins at the other hip and reaches its foot
+// with another abduction. Seen from the side nothing changes: the two are modes of one posterior
 // (tracker/modes/stride_modes.h), and this is the involution that maps one to the other.
 #pragma once
 
@@ -20,7 +20,7 @@ void swap_legs(JointPositions& joints);
 // already.
 void mirror_legs(const MotionContext& context, WalkerParticle& particle);
 
-// All of them.
+// Swaps all particles of the filter.
 void mirror_legs(const MotionContext& context, WalkerFilter& filter);
 
 // Swaps the estimate of a frame, its samples, and its phase in the stride.

@@ -9,12 +9,12 @@ bool try_phase_jump(const MotionContext& context, const StepLibrary& steps,
                     WalkerParticle& particle, Rng& rng) {
   const LibraryStep* step = steps.near(particle.aim, particle.residual[kHeading], rng);
   if (step == nullptr) return false;
-  WalkerParticle reading = particle;
-  reading.aim = step->aim;
-  reading.controls = step->controls;
-  reading.walker = step->moments[static_cast<size_t>(rng.uniform() * LibraryStep::kMoments)];
-  if (rng.uniform() < 0.5) reading.stance = other(particle.stance);
-  return try_reading(context, reading, particle, rng);
+  WalkerParticle proposal = particle;
+  proposal.aim = step->aim;
+  proposal.controls = step->controls;
+  proposal.walker = step->moments[static_cast<size_t>(rng.uniform() * LibraryStep::kMoments)];
+  if (rng.uniform() < 0.5) proposal.stance = other(particle.stance);
+  return try_proposal(context, proposal, particle, rng);
 }
 
 }  // namespace tracker

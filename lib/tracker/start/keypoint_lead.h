@@ -1,13 +1,13 @@
-// Whether one camera's outlines or its keypoints are to be believed more.
+// Decides whether one camera's outlines or its keypoints have more weight.
 //
-// Outlines tell distance and size only as well as the figure has the subject's shape. Arms, girth
-// and clothes that the figure has not make an outline that no pose of it covers, and poses are then
-// found that cover more of it: nearer, crouching, turned. The detector's points are some
-// centimetres off whatever somebody wears. So where a start's figure covers the subject badly,
-// points were seen, and the walk goes along the viewing ray, where place and steps hang on size, a
-// patch of the outline counts for less and a point for more. Across the ray outlines tell places.
-// tracker/reports/one_camera.md says what it is worth. Only with one camera: several cameras see
-// where an outline is wrong.
+// Distance and size follow from outlines only if the figure has the subject's shape. Arms, girth
+// and clothes that the figure lacks change the outline, and poses are then found that cover more of
+// it: nearer, crouching, turned. The detector's points have errors of some centimetres whatever
+// somebody wears. Therefore an outline's patch gets less weight and a point more if a start's
+// figure covers the subject badly, points were detected, and the walk is along the viewing ray,
+// where place and steps depend on size. Across the ray outlines determine the place.
+// tracker/reports/one_camera.md has the measurements. This is only done with one camera: several
+// cameras show where an outline is wrong.
 #pragma once
 
 #include <deque>
@@ -19,9 +19,10 @@
 namespace walktrack {
 inline namespace tracker {
 
-// Of the outlines' log-likelihood, and of a point's, while keypoints lead: a patch of three times
-// the side counts once, and a point for what it says. By hand, chosen on the two telephones, each
-// alone; a patch of five times the side, or three times the points' weight, does as well.
+// Factor of the outlines' log-likelihood, and weight of a point, while keypoints lead: a patch of
+// three times the side counts as one pixel, and a point is not tempered. By hand, chosen on the two
+// telephones, each alone; a patch of five times the side, or three times the points' weight, gives
+// equal results.
 inline constexpr double kLedOutlines = 1.0 / 9, kLeadingWeight = 1;
 // A mean overlap (observation/silhouette/overlap.h) below this is bad: the two telephones and the
 // real side view have .67 to .69, walks of two renderers .75 to .84.

@@ -11,7 +11,7 @@ namespace {
 // made walks with the right labels have -4 to +18 nats. By hand.
 constexpr double kPixelTemperature = 3;
 
-// Of the terms that distinguish a track's legs.
+// For the terms that distinguish a track's legs.
 double frame_log_odds(const TrackerScene& scene, const CameraEvidence& before,
                       const CameraEvidence& now, const Pose& pose_before, const Pose& pose) {
   const Body& body = scene.model.body;
@@ -39,7 +39,7 @@ double legs_log_odds(const TrackerScene& scene, const std::deque<SceneEvidence>&
 }
 
 double names_in_frame(const TrackerScene& scene, const SceneEvidence& evidence, const Pose& pose) {
-  // A detector that takes one leg for the other does so until the legs have passed each other.
+  // A detector that swaps the legs does so until the legs have passed each other.
   constexpr double kErrsFor = 0.15;  // s; by hand
   if (std::none_of(evidence.begin(), evidence.end(), KeypointTerm::says)) return 0;
   const PosedBody posed(scene.model.body, pose);

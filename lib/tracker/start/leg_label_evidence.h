@@ -1,4 +1,4 @@
-// Whether the legs of a track have the right labels, from the motion of the images where the legs
+// Whether the legs of a track have the right labels, from the motion of the images while the legs
 // pass each other (observation/flow/leg_order.h). It is used for one camera; from two sides
 // silhouettes suffice.
 #pragma once
@@ -13,12 +13,12 @@ namespace walktrack {
 inline namespace tracker {
 
 // Log-odds, nats, by the images of successive frames, that a track's legs have the right labels
-// instead of being swapped; 0 if the images do not show it. There is one record for each of the
-// first frames of `window`.
+// instead of being swapped; 0 if the images contain no evidence. There is one record for each of
+// the first frames of `window`.
 double legs_log_odds(const TrackerScene& scene, const std::deque<SceneEvidence>& window,
                      std::span<const FrameRecord> records);
 
-// The same by a frame's keypoints, for a pose's legs, nats that count once; 0 without keypoints.
+// The same by a frame's keypoints, for the legs of a pose, tempered nats; 0 without keypoints.
 double names_in_frame(const TrackerScene& scene, const SceneEvidence& evidence, const Pose& pose);
 
 }  // namespace tracker

@@ -11,7 +11,7 @@ inline namespace tracker {
 
 namespace {
 
-// Steps about as long as people's at that speed, m/s.
+// Draws steps with about the length of people's steps at that speed, m/s.
 StepAim draw_aim(const MotionContext& context, const StartConfig& config, double speed, Rng& rng) {
   const double leg = leg_length(context.model.body.lengths);
   const double unit_speed = std::sqrt(context.model.walker.parameters.gravity * leg);

@@ -27,7 +27,7 @@ StartHypotheses::StartHypotheses(const MotionContext& motion, const StartConfig&
     : filter_(filter), seed_(seed), frames_to_decide_(frames_in(start.seconds, motion.dt)) {
   FilterConfig small = filter;
   small.particles = start.particles;
-  if (detected.standing) {  // in no phase of a stride
+  if (detected.standing) {  // standing has no phase
     hypotheses_.push_back({WalkerFilter(filter, seed, threads), seed, 0, {}, false});
     StartConfig all = start;
     all.particles = filter.particles;
@@ -36,7 +36,7 @@ StartHypotheses::StartHypotheses(const MotionContext& motion, const StartConfig&
   }
   for (const PhaseRange& range :
        stride_phase ? phase_ranges(start, *stride_phase) : phase_ranges(start)) {
-    // Streams of its own.
+    // Separate streams of random numbers.
     const uint64_t own = seed + 0x9E3779B97F4A7C15u * (hypotheses_.size() + 1);
     hypotheses_.push_back({WalkerFilter(small, own, threads), own, 0, {}, false});
     hypotheses_.back().filter.start(spawn(motion, start, detected, range, own));
@@ -81,7 +81,7 @@ std::optional<uint64_t> StartHypotheses::mirror_hypothesis() const {
   return best ? std::optional(best->seed) : std::nullopt;
 }
 
-// Of the newest frame: how probable are hypotheses with legs swapped against one's own.
+// For the newest frame: the probability of hypotheses with swapped legs, relative to this one.
 void StartHypotheses::weigh_modes() {
   std::vector<double> evidence, phases;
   for (const Hypothesis& each : hypotheses_) {

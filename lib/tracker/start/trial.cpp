@@ -79,8 +79,8 @@ Attempt with_mirrored_legs(const WindowFrames& window, const Attempt& attempt) {
   return other;
 }
 
-Attempt with_legs_named(const WindowFrames& window, Attempt first) {
-  double doubt = std::get<Tracking>(first.mode).p_legs_swapped, odds = first.legs;
+Attempt with_labelled_legs(const WindowFrames& window, Attempt first) {
+  double p_swapped = std::get<Tracking>(first.mode).p_legs_swapped, odds = first.legs;
   if (odds < kAgreed) {
     Attempt other = with_mirrored_legs(window, first);
     odds = 0.5 * (first.legs - other.legs);
@@ -88,11 +88,11 @@ Attempt with_legs_named(const WindowFrames& window, Attempt first) {
     std::get<Tracking>(first.mode).mean_pose = other.records.back().estimate.pose;
     if (is_tracking(other.mode) && odds < -kSwapped) {
       first = std::move(other);
-      doubt = 0.5;  // the outlines contain little evidence here
+      p_swapped = 0.5;  // the outlines contain little evidence here
       odds = -odds;
     }
   }
-  const double p_legs_swapped = updated(doubt, odds);
+  const double p_legs_swapped = updated(p_swapped, odds);
   std::get<Tracking>(first.mode).p_legs_swapped = p_legs_swapped;
   for (FrameRecord& record : first.records) record.modes.p_legs_swapped = p_legs_swapped;
   return first;
@@ -112,7 +112,7 @@ Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& wi
   const WindowFrames frames{context, window, first_frame};
   Attempt attempt{.mode = start_around(context, walk, std::nullopt, number, before)};
   follow_rest(frames, attempt);
-  if (attempt.legs != 0) attempt = with_legs_named(frames, std::move(attempt));
+  if (attempt.legs != 0) attempt = with_labelled_legs(frames, std::move(attempt));
   const double walk_score = walk.score * static_cast<double>(window.size());
   if (is_searching(attempt.mode) || explained(attempt) < walk_score)
     return {Searching{filter_of(std::move(attempt.mode)), before.last_seen}};

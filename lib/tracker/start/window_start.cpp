@@ -10,7 +10,7 @@ inline namespace tracker {
 
 namespace {
 
-struct Window {
+struct SearchedWindow {
   TrackedSubject& subject;
   WalkSearch& search;
   uint32_t first_frame;
@@ -22,13 +22,13 @@ struct Window {
   SearchMoment moment() const { return {first_frame, searching().last_seen}; }
 };
 
-void set_height(Window& window, double height, const std::optional<Stature>& estimate) {
+void set_height(SearchedWindow& window, double height, const std::optional<Stature>& estimate) {
   window.subject.set_height(height, estimate);
   window.search.forget_places();
 }
 
 // Tracks the window's frames from a walk on, and `lead` frames before them.
-std::optional<WindowStart> start_at(Window& window, const DetectedWalk& walk, size_t lead) {
+std::optional<WindowStart> start_at(SearchedWindow& window, const DetectedWalk& walk, size_t lead) {
   WalkSearch& search = window.search;
   search.reach_back(lead);
   const uint32_t first = window.first_frame - static_cast<uint32_t>(lead);
@@ -45,7 +45,7 @@ std::optional<WindowStart> start_at(Window& window, const DetectedWalk& walk, si
 }
 
 // Starts where the subject stands before the walk, if they do; otherwise with the walk.
-std::optional<WindowStart> start_sized(Window& window, const DetectedWalk& walk) {
+std::optional<WindowStart> start_sized(SearchedWindow& window, const DetectedWalk& walk) {
   if (const auto lead = window.search.standing_lead(window.subject.context(), walk)) {
     std::optional<WindowStart> start = start_at(window, lead->detected, lead->frames);
     if (start || window.outlines_misled) return start;
@@ -53,7 +53,7 @@ std::optional<WindowStart> start_sized(Window& window, const DetectedWalk& walk)
   return start_at(window, walk, 0);
 }
 
-std::optional<WindowStart> start_unsized(Window& window, const DetectedWalk& walk) {
+std::optional<WindowStart> start_unsized(SearchedWindow& window, const DetectedWalk& walk) {
   const double height_before = window.subject.scene.model.body.subject.height;
   const SizedWalk sized = window.search.with_size(window.subject.context(), window.moment(), walk);
   set_height(window, sized.stature.height, sized.stature);
@@ -62,7 +62,7 @@ std::optional<WindowStart> start_unsized(Window& window, const DetectedWalk& wal
   return start;
 }
 
-std::optional<WindowStart> start_with_walk(Window& window) {
+std::optional<WindowStart> start_with_walk(SearchedWindow& window) {
   const std::optional<DetectedWalk> walk =
       window.search.find(window.subject.context(), window.moment());
   if (!walk) return std::nullopt;
@@ -74,7 +74,7 @@ std::optional<WindowStart> start_with_walk(Window& window) {
 std::optional<WindowStart> start_in_window(TrackedSubject& subject, WalkSearch& search,
                                            uint32_t first_frame, uint32_t& starts,
                                            TrackMode& mode) {
-  Window window{subject, search, first_frame, starts, mode};
+  SearchedWindow window{subject, search, first_frame, starts, mode};
   std::optional<WindowStart> start = start_with_walk(window);
   if (!window.outlines_misled) return start;
   let_keypoints_lead(subject.scene.observation);
@@ -84,7 +84,7 @@ std::optional<WindowStart> start_in_window(TrackedSubject& subject, WalkSearch& 
 
 void start_as_given(TrackedSubject& subject, WalkSearch& search, uint32_t first_frame,
                     uint32_t& starts, TrackMode& mode) {
-  Window window{subject, search, first_frame, starts, mode};
+  SearchedWindow window{subject, search, first_frame, starts, mode};
   const DetectedWalk given = *std::exchange(subject.scene.initial, std::nullopt);
   if (subject.wants_size()) {
     const Stature stature =

@@ -1,5 +1,5 @@
-// The numbers of a pose that are free in a model, as a vector. Those that are sideways stay on a
-// sagittal path; arms are those of a body that has them.
+// The numbers of a pose that are free in a model, as a vector. Sideways numbers are constant on a
+// sagittal path; arms are free for a body that has them.
 #pragma once
 
 #include <vector>
@@ -12,17 +12,17 @@
 namespace walktrack {
 inline namespace tracker {
 
-// Places in kPoseNumbers, ascending.
+// Indices in kPoseNumbers, ascending.
 using FreeNumbers = std::vector<size_t>;
 
 FreeNumbers free_numbers(const BodyModel& model);
 
 Eigen::VectorXd values_of(const FreeNumbers& free, const Pose& pose);
 
-// The pose with these values, none below what its number may be.
+// The pose with these values, none below its lower limit.
 Pose with_values(const FreeNumbers& free, Pose pose, const Eigen::VectorXd& values);
 
-// From one pose to another, number by number, angles that turn by the shorter way.
+// From one pose to another, number by number; for angles that turn, by the shorter way.
 Eigen::VectorXd difference(const FreeNumbers& free, const Pose& from, const Pose& to);
 
 // PoseNumber::spread.

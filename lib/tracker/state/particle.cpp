@@ -18,8 +18,8 @@ constexpr int kTableSlopes = 5;
 
 size_t index(Side side) { return static_cast<size_t>(side); }
 
-// Knees do not bend backwards, nor further than until the heel meets the thigh: there the leg's
-// shank follows its thigh.
+// Knees do not bend backwards, nor further than until the heel meets the thigh: at these limits the
+// shank follows the thigh.
 void clamp_knees(KneedState& s) {
   constexpr double kDeepestBend = anthropometry::kDeepestKneeBendDeg * kPi / 180;  // rad
   const auto keep = [&](int shank, int thigh) {
@@ -57,7 +57,7 @@ KneedState shown_state(const KneedState& walker, Side stance, const StepAim& aim
   const double half_stride = 0.5 * std::min(1.0, walker.since_transfer / aim.duration());
   const LegDifference stands = leg_difference(half_stride);
   const LegDifference swings = leg_difference(0.5 + half_stride);
-  // Thigh and shank are about as long: the hip sinks straight down.
+  // Thigh and shank have nearly equal lengths, so that the hip sinks straight down.
   const double crouch = 0.5 * residual[kCrouch];
   KneedState shown = walker;
   shown.q[kTorso] += residual[kTilt];
@@ -106,7 +106,7 @@ void realise_walker(const BodyModel& model, const NoiseScale& scale, WalkerParti
     particle.residual[i] = particle.predicted_residual[i] +
                            scale.residual[i] * (i == kHeading ? heavy_tailed(noise) : noise);
   }
-  if (particle.arriving) particle.residual_before = particle.residual;
+  if (particle.first_frame) particle.residual_before = particle.residual;
   const double heading = particle.residual[kHeading];
   const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
   particle.ball =

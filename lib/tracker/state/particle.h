@@ -23,14 +23,14 @@
 namespace walktrack {
 inline namespace tracker {
 
-// The paths that walkers may take:
-//   spatial anywhere over the ground, with turns
-//   sagittal  straight on: everything moves in upright planes of one heading, found at the start,
-//             and only where feet come to stand may be off to the side; what one camera sees of a
-//             walk from the side
+// The paths of walkers:
+//   spatial   anywhere over the ground, with turns
+//   sagittal  straight ahead: everything moves in upright planes of one heading, which is found at
+//             the start, and only the places of feet may be off to the side; this is what one
+//             camera sees of a walk from the side
 enum class Path { kSpatial, kSagittal };
 
-// What a particle does (tracker/motion/standing.h).
+// The regime of a particle (tracker/motion/standing.h).
 enum class Regime : uint8_t { kWalking, kStanding };
 
 // The coordinates on which the noise of a frame acts.
@@ -75,8 +75,8 @@ struct WalkerParticle {
   Pose pose, pose_before;                          // now and one frame ago
   // Mean velocity of the root over about the last step, forward and to the left, m/s.
   Eigen::Vector2d way = Eigen::Vector2d::Zero();
-  bool arriving = false;  // whether this is the first frame: there is no frame before, and residual
-                          // angles start at rest
+  // Whether this is the first frame: there is no frame before, and residual angles start at rest.
+  bool first_frame = false;
   Regime regime = Regime::kWalking;
 
   KneedControls controls;
@@ -141,8 +141,8 @@ Pose pose_showing(const BodyModel& model, const KneedState& shown, double shank,
 // BodyLengths::ball_forward ahead of the ankle; the hip moves as smoothly as the walker's.
 Eigen::Vector2d rolled_ankle(const BodyModel& model, double shank);
 
-// The place where the ball of the `landed` foot stands: from it the ankle, with the shank leaning
-// by `shank`, has rolled to its place in `pose`.
+// The place of the ball of the `landed` foot: from it the ankle, with the shank leaning by `shank`,
+// has rolled to its place in `pose`.
 Eigen::Vector2d landing_ball(const BodyModel& model, const Pose& pose, Side landed, double shank);
 
 // Horizontal gravity along `heading`, m/s^2.

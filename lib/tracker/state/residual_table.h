@@ -23,7 +23,7 @@ inline namespace tracker {
 enum ResidualAngle {
   kHeading,
   kList,
-  kAbduction,  // of the left leg, and so for all coordinates that come in pairs
+  kAbduction,  // of the left leg; likewise for all coordinates in pairs
   kAbductionRight,
   kRotation,
   kRotationRight,
@@ -50,17 +50,18 @@ using ResidualAngles = std::array<double, kResidualCount>;  // rad
 struct MarkovConstants {
   double rest, time, spread;                                // rad, s, rad (the heading: rad/s)
   double lowest, highest;                                   // rad
-  double period = std::numeric_limits<double>::infinity();  // s, of its swinging; infinite: none
+  double period = std::numeric_limits<double>::infinity();  // s, period of its oscillation;
+                                                            // infinite: none
 };
 
 // What a coordinate moves; coordinates that move the same are changed together.
 enum class Moves { kTrunk, kLeg, kArm, kWalker };
 
 struct ResidualRow {
-  ResidualAngle left, right;  // the same where there is one
+  ResidualAngle left, right;  // equal for a single coordinate
   Moves moves;
   bool sideways;            // whether it moves out of the upright plane of the heading
-  bool strays;              // whether it is a deviation from an angle that the walker has
+  bool is_deviation;        // whether it is a deviation from an angle that the walker has
   MarkovConstants process;  // of the kneed model, before MotionConfig::residual_scale
   double standing_time;     // s, the time of the process while the subject stands
 
@@ -77,15 +78,15 @@ inline constexpr bool kSideways = true, kInPlane = false, kStrays = true, kOwn =
 
 // All by hand, none fitted. Rests are the mean offsets of walking people from the walker, spreads
 // are the differences between people and those along a stride that the walker does not have (walks
-// of the developing set, 2026-11-21), limits anatomical. Sensitivity: not measured one by one;
-// `motion.residual_scale` multiplies the spreads of those that stray. A standing person sways and
-// shifts weight in seconds, where a walker's residuals change in a tenth.
+// of the development set, 2026-11-21), limits are anatomical. Sensitivity: not measured separately;
+// `motion.residual_scale` multiplies the spreads of deviations. A standing person sways and shifts
+// weight within seconds, while a walker's residuals change within a tenth of a second.
 inline constexpr std::array kResidualTable = [] {
   using namespace residual_table;
   using enum Moves;
   // clang-format off
   return std::array<ResidualRow, 13>{{
-    // left, right, moves, plane, strays, {rest, time, spread, lowest, highest}, standing time
+    // left, right, moves, plane, is_deviation, {rest, time, spread, lowest, highest}, standing time
     {kHeading, kHeading, kTrunk, kSideways, kOwn, {0, .5, .3, -1e9, 1e9}, .5},
     {kList, kList, kTrunk, kSideways, kOwn, {0, .15, deg(3), deg(-15), deg(15)}, .6},
     {kAbduction, kAbductionRight, kLeg, kSideways, kOwn, {deg(-2.5), .15, deg(3.5), deg(-20), deg(30)}, .6},
@@ -121,7 +122,7 @@ constexpr const ResidualRow& row_of(ResidualAngle angle) {
   return kResidualTable[residual_table::kRows[angle]];
 }
 
-// Of a pair, which is named by its left one, or of a single coordinate.
+// The coordinate of one side, by its left one, or a single coordinate.
 constexpr size_t of_side(ResidualAngle left, Side side) { return row_of(left).of(side); }
 
 // Some of the residual angles, in ascending order.
@@ -146,9 +147,9 @@ constexpr ResidualList residuals_where(const Wanted& wanted) {
 
 inline constexpr ResidualList kAllResiduals =
     residuals_where([](const ResidualRow&) { return true; });
-// The deviations from angles that the walker has: of trunk, thighs and shanks.
-inline constexpr ResidualList kStraying =
-    residuals_where([](const ResidualRow& row) { return row.strays; });
+// The deviations from angles of the walker: of trunk, thighs and shanks.
+inline constexpr ResidualList kDeviations =
+    residuals_where([](const ResidualRow& row) { return row.is_deviation; });
 
 }  // namespace tracker
 }  // namespace walktrack

@@ -9,10 +9,10 @@ namespace walktrack {
 inline namespace walker {
 namespace {
 
-constexpr double kHastyTransfer = 0.02;  // s; by hand: a step takes more than ten times that
+constexpr double kHastyTransfer = 0.02;  // s; by hand: a step takes more than ten times as long
 constexpr int kMaxHastyTransfers = 8;    // in a row; by hand
 
-// A point of the trajectory with the acceleration and the swing foot there.
+// A point of the trajectory with its acceleration and swing foot.
 struct Node {
   KneedState state;
   KneedAcceleration acceleration;
@@ -32,7 +32,7 @@ struct Motion {
     return {state, at(state), kneed_swing_foot(model, state)};
   }
 
-  // One RK4 step with the stops held as they are.
+  // One RK4 step with constant stops.
   Node step(const Node& from, double h) const {
     const KneedState& s = from.state;
     const Vector5& a1 = from.acceleration.qdd;
@@ -69,7 +69,8 @@ double guard_value(KneedGuard guard, const Node& node) {
   return 0;
 }
 
-// Time in (begin, end] at which the guard, positive before and not positive at `end`, reaches zero.
+// The time in (begin, end] at which the guard, which is positive before and not positive at `end`,
+// reaches zero.
 double locate(const Motion& motion, KneedGuard guard, const Node& from, double begin, double end) {
   const auto value = [&](double t) {
     return guard_value(guard, t == 0 ? from : motion.step(from, t));
@@ -101,7 +102,7 @@ bool foot_incident(const Motion& motion, const Node& from, const Node& to, doubl
   return true;
 }
 
-// The first event within a step, if any.
+// The first event within a step, if there is any.
 bool first_incident(const Motion& motion, const Node& from, const Node& to, double h,
                     Incident& first) {
   bool found = foot_incident(motion, from, to, h, first);
@@ -129,8 +130,8 @@ bool has_fallen(const KneedModel& model, const KneedState& s, const KneedLimits&
          std::abs(s.q[kTorso]) > limits.max_torso_lean;
 }
 
-// Keeps the least local minimum of the swing foot's height: between falling and rising the height
-// is taken as a parabola.
+// Updates the lowest local minimum of the swing foot's height: between falling and rising the
+// height is approximated by a parabola.
 void note_clearance(const Node& from, Node& to) {
   const double fall = from.foot.height_rate, rise = to.foot.height_rate;
   if (fall >= 0 || rise <= 0) return;

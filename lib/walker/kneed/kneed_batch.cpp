@@ -1,5 +1,5 @@
-// A walker's state lies in its KneedState between visits to a vector; inside a visit it is a lane
-// of `Lanes`. Who is served when: LaneQueues.
+// Between visits to a vector a walker's state is in its KneedState; during a visit it is a lane of
+// `Lanes`. LaneQueues decides the order.
 #include "walker/kneed/kneed_batch.h"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ struct Stepper {
     queues.serve(lane_limit, go_on, meet);
   }
 
-  // The last walkers of a queue, evaluated.
+  // Moves the last walkers of a queue into lanes and evaluates them.
   void take(std::pmr::vector<size_t>& queue, Lanes& lanes) {
     LaneQueues::seat(queue, lane_limit, lanes);
     for (size_t lane = 0; lane < lane_limit; ++lane) {
@@ -82,7 +82,8 @@ struct Stepper {
 
   void settle(size_t i) { settle_knee_stops(in.model, in.controls[i], in.noise[i], in.states[i]); }
 
-  // The first visit in a call: stops made consistent, sub-steps chosen, the impossible sorted out.
+  // For the first visit in a call: makes stops consistent, chooses sub-steps, and removes invalid
+  // states.
   void begin(Lanes& lanes) {
     bool changed = false;
     for (size_t lane = 0; lane < lanes.count; ++lane) {
@@ -148,7 +149,7 @@ struct Stepper {
   void apply(const LaneIncident& incident, Lanes& lanes, size_t lane);
 };
 
-// Finds the first event of every lane: trials of all lanes' searches share vectors.
+// Finds the first event of every lane; evaluations for all lanes' searches share vectors.
 void Stepper::locate(const Lanes& lanes, const LanePoint& end, const double* h,
                      std::array<LaneIncident, kMaxLanes>& incidents) const {
   for (size_t lane = 0; lane < lanes.count; ++lane)
@@ -190,7 +191,7 @@ void Stepper::resolve(Lanes& lanes) {
   }
 }
 
-// What the event does to a walker that has arrived at it.
+// Applies an event to the walker that has reached it.
 void Stepper::apply(const LaneIncident& incident, Lanes& lanes, size_t lane) {
   const size_t i = lanes.index[lane];
   const auto is = [&](IncidentKind kind) {

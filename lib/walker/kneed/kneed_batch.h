@@ -1,11 +1,11 @@
-// Many kneed walkers through time at once: kneed_advance() for every one of them, several to a
+// Advances many kneed walkers in time at once: kneed_advance() for each of them, several in a
 // vector (double precision, Google Highway, instruction set chosen at run time).
 //
-// A lane that meets an event - a knee's stop, a strike - leaves its vector; events are located in
-// vectors of their own and their walkers go on with others, so nobody waits. Every walker's result
-// depends on that walker alone: the same bytes in any batch, in any order, on any number of
-// threads, for one instruction set. It is that of kneed_advance() but for rounding (1e-9 over a
-// step); instruction sets without fused multiply-add round differently.
+// A lane with an event (a knee's stop, a strike) leaves its vector; events are located in vectors
+// of their own, and their walkers continue in others, so that no walker waits. Every walker's
+// result depends on that walker alone: the same bytes in any batch, in any order, on any number of
+// threads, for one instruction set. It equals that of kneed_advance() except for rounding (1e-9
+// over a step); instruction sets without fused multiply-add round differently.
 #pragma once
 
 #include <span>
@@ -15,9 +15,9 @@
 namespace walktrack {
 inline namespace walker {
 
-// Moves states[i] on by durations[i] (s) or to its next transfer under controls[i] and noise[i] and
-// writes what kneed_advance() returns to results[i]. A walker without time (duration 0) stays as it
-// is and costs nothing. All spans have the same size.
+// Advances states[i] by durations[i] (s) or to its next transfer with controls[i] and noise[i], and
+// writes the result of kneed_advance() to results[i]. A walker with duration 0 does not change and
+// costs nothing. All spans have the same size.
 void kneed_advance_batch(const KneedModel& model, std::span<const KneedControls> controls,
                          std::span<const Vector5> noise, std::span<const double> durations,
                          std::span<KneedState> states, std::span<KneedAdvance> results,

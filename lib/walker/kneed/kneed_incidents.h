@@ -1,4 +1,4 @@
-// What is said of events once for kneed_advance() and kneed_advance_batch(); internal to
+// Definitions of events that kneed_advance() and kneed_advance_batch() share; internal to
 // lib/walker.
 #pragma once
 
@@ -9,21 +9,22 @@
 namespace walktrack {
 inline namespace walker {
 
-// s, by hand; a walker that needs less is reported as diverged
+// s, by hand; a walker that needs smaller steps is reported as diverged
 inline constexpr double kMinStep = 1e-7;
-inline constexpr double kMaxRate = 1e3;          // rad/s; ten times what a sprinter's shank reaches
-inline constexpr int kMaxStopEvents = 64;        // in one call, by hand; a step has about four
-inline constexpr double kTimeTolerance = 1e-13;  // s, of a located event
-inline constexpr double kGuardTolerance = 1e-13;  // rad, m or N m: rounding of a guard
-// Sub-steps of kneed_step_size(): RK4 is stable to 2.8 of its bound; 0.5 keeps its error per radian
+inline constexpr double kMaxRate = 1e3;           // rad/s; ten times the rate of a sprinter's shank
+inline constexpr int kMaxStopEvents = 64;         // in one call, by hand; a step has about four
+inline constexpr double kTimeTolerance = 1e-13;   // s, of a located event
+inline constexpr double kGuardTolerance = 1e-13;  // rad, m or N m: rounding error of a guard
+// Factor of kneed_step_size(): RK4 is stable up to 2.8 of its bound; 0.5 keeps its error per radian
 // of oscillation below 1e-3.
 inline constexpr double kStepReach = 0.5;
-// Flexion below which a knee is at its stop, rad, and flexion rate below which it rests there,
-// rad/s: far above rounding, far below what anybody can see.
+// Flexion below which a knee is at its stop, rad, and flexion rate below which it is at rest there,
+// rad/s: far above rounding, far below anything visible.
 inline constexpr double kAtStop = 1e-9;
 inline constexpr double kAtRest = 1e-9;
 
-// Positive while all is well (a held stop's torque included); an event is the fall through zero.
+// Guards are positive between events (including a held stop's torque); an event is a sign change to
+// negative.
 enum class KneedGuard { kStanceKnee, kSwingKnee, kFootHeight, kFootBehind };
 
 enum class IncidentKind { kStop, kStrike, kStumble };
@@ -33,9 +34,9 @@ struct Incident {
   IncidentKind kind = IncidentKind::kStop;
 };
 
-// Where a guard, positive before and not positive at the end, reaches zero: the Illinois variant of
-// regula falsi (a bracket's end that stays twice loses half its weight), and bisection while the
-// guard still leaves zero itself.
+// Finds the root of a guard that is positive before and not positive at the end: the Illinois
+// variant of regula falsi (the end of a bracket that is kept twice gets half its weight), with
+// bisection while the guard has not risen from zero.
 class FallSearch {
  public:
   FallSearch() = default;
@@ -44,10 +45,10 @@ class FallSearch {
     finish_or_propose();
   }
   bool done() const { return done_; }
-  double trial() const { return trial_; }  // where the guard is wanted next
+  double trial() const { return trial_; }  // the time of the next evaluation
   double root() const { return root_; }    // when done
 
-  void take(double value) {  // of the guard at trial()
+  void take(double value) {  // value of the guard at trial()
     if (secant_ && std::abs(value) <= kGuardTolerance) {
       root_ = trial_;
       done_ = true;
@@ -69,7 +70,7 @@ class FallSearch {
 
  private:
   void finish_or_propose() {
-    constexpr int kMaxTrials = 60;  // halvings alone reach the time tolerance in 40
+    constexpr int kMaxTrials = 60;  // bisections alone reach the time tolerance in 40
     root_ = high_;
     done_ = trials_++ == kMaxTrials || !(high_ - low_ > kTimeTolerance);
     secant_ = at_low_ > kGuardTolerance;
@@ -82,7 +83,7 @@ class FallSearch {
   bool secant_ = false, done_ = true;
 };
 
-// The support transfer at a strike, applied to `state` and written to `result`.
+// Applies the support transfer of a strike to `state`, and writes it to `result`.
 void transfer_support(const KneedModel& model, const KneedControls& controls, const Vector5& noise,
                       KneedState& state, KneedAdvance& result);
 

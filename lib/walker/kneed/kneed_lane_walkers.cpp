@@ -130,7 +130,7 @@ void LaneIncident::note(double time, IncidentKind kind) {
   found_ = true;
 }
 
-// The foot has come ahead: does it strike at once, or later?
+// The foot has passed the stance foot: decides whether it strikes at once or later.
 void LaneIncident::foot_ahead(double height, double height_rate, const LanePoint& end) {
   if (height < -kGuardTolerance)
     note(ahead_since_, height_rate < 0 ? IncidentKind::kStrike : IncidentKind::kStumble);
@@ -164,7 +164,7 @@ void LaneIncident::take(const Lanes& lanes, const LanePoint& at, const LanePoint
   const bool behind = current_ == KneedGuard::kFootBehind;
   if (!search_.done()) {
     search_.take(guard_value(current_, lanes, at, lane_));
-    // The foot's height is wanted where it passes: that is one more trial, at the root.
+    // The foot's height is needed at the time of passing: one more evaluation, at the root.
     if (behind || !search_.done()) return;
   }
   if (behind) {

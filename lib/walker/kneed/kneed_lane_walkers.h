@@ -1,4 +1,4 @@
-// Walkers in and out of lanes, and the search for a lane's first event; internal to lib/walker.
+// Loads walkers into lanes, stores them, and searches a lane's first event; internal to lib/walker.
 #pragma once
 
 #include "walker/kneed/kneed_incidents.h"
@@ -10,30 +10,31 @@ inline namespace walker {
 LaneModel lane_model(const KneedModel& model);
 
 void load_forces(const KneedControls& controls, const Vector5& noise, size_t lane, Lanes& lanes);
-// A knee at its stop moves with its thigh exactly: what rounding left is put right.
+// A knee at its stop moves exactly with its thigh; rounding errors are corrected.
 void load_state(const KneedState& state, size_t lane, Lanes& lanes);
 void store_state(const Lanes& lanes, size_t lane, KneedState& state);
 
-// Whether the stops are as settle_knee_stops() would leave them: a held knee rests and its stop
-// pushes, a free one is bent.
+// Whether the stops are consistent, as after settle_knee_stops(): a held knee is at rest and its
+// stop pushes, a free one is flexed.
 bool is_settled(const Lanes& lanes, size_t lane);
 
 // Whether numbers are finite and rates below kMaxRate.
 bool is_sound(const LanePoint& at, size_t lane);
 
-// The search for the first event of one lane within a sub-step from lanes.at to `end`; its guards
-// are looked at one after the other, as kneed_advance() does.
+// Searches the first event of one lane within a sub-step from lanes.at to `end`; guards are tested
+// one after the other, in the same way as by kneed_advance().
 class LaneIncident {
  public:
   LaneIncident() = default;
   LaneIncident(const Lanes& lanes, const LanePoint& end, size_t lane, double h);
 
   bool searching() const { return searching_; }
-  // Where the walker is wanted next, s since the sub-step's begin; 0 when the search is over.
+  // The time of the next evaluation, s since the sub-step's beginning; 0 when the search is
+  // finished.
   double trial() const;
   void take(const Lanes& lanes, const LanePoint& at, const LanePoint& end);
 
-  // When the search is over: whether anything happens, and what.
+  // When the search is finished: whether there is an event, and which.
   bool found() const { return found_; }
   const Incident& first() const { return first_; }
 

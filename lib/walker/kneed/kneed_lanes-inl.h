@@ -1,18 +1,19 @@
-// The kneed walker's dynamics for a vector of walkers, one a lane; included by kneed_batch.cpp once
-// for every instruction set (Highway's way, hence the guard).
+// The kneed walker's dynamics for a vector of walkers, one in each lane; included by
+// kneed_lanes.cpp once for every instruction set (as Highway requires, hence the guard).
 //
-// Coordinates are (torso, stance thigh, swing thigh, stance flexion, swing flexion), the rates
-// likewise: a knee at its stop then is a coordinate that stands still, so its row of the equations
+// Coordinates are (torso, stance thigh, swing thigh, stance flexion, swing flexion), and rates
+// likewise: a knee at its stop then is a constant coordinate, so that its row of the equations
 // becomes "acceleration = 0" in that lane and nothing else changes.
 //
-// Equations. Every pair of parts of which one carries the other has, with P_j = (u_j, v_j) the link
-// of the inner part turned by its angle and (x_k, z_k) the outer part's first moment turned by its,
+// Equations. For every pair of parts of which one carries the other, with P_j = (u_j, v_j) the link
+// of the inner part rotated by its angle and (x_k, z_k) the outer part's first moment rotated by
+// its angle,
 //   M_jk = u_j x_k + v_j z_k,   pull_jk = u_j z_k - v_j x_k,
 //   force_j += pull_jk qd_k^2,  force_k -= pull_jk qd_j^2
 // (kneed_walker.cpp: couple_jk + i skew_jk is the product of link and moment as complex numbers).
-// The stance shank carries all, the stance thigh all but it, the swing thigh its shank; torso and
-// swing leg do not meet. Eliminated from the leaves inwards, the matrix keeps its zeros
-// (Featherstone, "Rigid Body Dynamics Algorithms", 2008, section 6.5).
+// The stance shank carries all other parts, the stance thigh all except the shank, the swing thigh
+// its shank; torso and swing leg are not coupled. If it is eliminated from the leaves inwards, the
+// matrix keeps its zeros (Featherstone, "Rigid Body Dynamics Algorithms", 2008, section 6.5).
 #if defined(WALKTRACK_KNEED_LANES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef WALKTRACK_KNEED_LANES_H
 #undef WALKTRACK_KNEED_LANES_H
@@ -30,14 +31,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Motion = MotionOf<5>;  // in the coordinates above
 
-// Everything of a step that does not change within it.
+// Values that are constant within a step.
 struct Setting {
   const LaneModel& model;
   const LaneForces& forces;
   Mask held[2];  // knees at their stops
 };
 
-// What an evaluation at a state gives beside accelerations.
+// Results of an evaluation at a state, besides accelerations.
 struct Surroundings {
   V stop_torque[2];                  // N m, of held knees; 0 elsewhere
   V height, lead, height_rate, hip;  // SwingFoot, and the hip's height, m
@@ -50,8 +51,8 @@ HWY_INLINE void add_flexions(const V (&relative)[5], V (&absolute)[5]) {
   absolute[4] = hn::Add(relative[2], relative[4]);
 }
 
-// The symmetric mass matrix, lower triangle in the order of elimination: row j holds its own
-// diagonal and what it shares with the parts that carry it.
+// The symmetric mass matrix, lower triangle in the order of elimination: row j contains its
+// diagonal and the elements for the parts that carry it.
 struct Equations {
   V m00, m01, m03;
   V m44, m42, m41, m43;
@@ -74,7 +75,7 @@ HWY_INLINE Turned turned(const LaneModel& p, const V (&angle)[5]) {
     t.c[k] = sc.cosine;
     t.s[k] = sc.sine;
   }
-  for (int k = 0; k < 3; ++k) {  // torso and thighs lie on their axes
+  for (int k = 0; k < 3; ++k) {  // torso and thighs have their masses on their axes
     t.x[k] = hn::Mul(all(p.along[k]), t.c[k]);
     t.z[k] = hn::Mul(all(p.along[k]), t.s[k]);
   }
@@ -106,7 +107,7 @@ HWY_INLINE void to_flexions(Equations& e) {
   e.f[2] = Add(e.f[2], e.f[4]);
 }
 
-// Gravity, Coriolis forces and the mass matrix; no torques yet.
+// Gravity, Coriolis forces and the mass matrix, without torques.
 HWY_INLINE Equations equations(const LaneModel& p, const Turned& t, const V (&rate)[5]) {
   const V radius = all(p.radius);
   V square[5];
@@ -179,8 +180,8 @@ struct Pivots {
   V inverse[5];
 };
 
-// Eliminates the leaves from the matrix, in place: what is left of row j are its factors times its
-// pivot. `forward` does the same to a right-hand side.
+// Eliminates the leaves from the matrix, in place: row j then contains its factors times its pivot.
+// `forward` does the same to a right-hand side.
 HWY_INLINE Pivots eliminate(Equations& e) {
   Pivots p;
   p.inverse[4] = hn::Div(all(1), e.m44);
@@ -228,7 +229,7 @@ HWY_INLINE void backward(const Equations& e, const Pivots& p, const V (&f)[5], V
   x[4] = hn::Mul(hn::NegMulAdd(e.m42, x[2], hn::NegMulAdd(e.m41, x[1], x[4])), p.inverse[4]);
 }
 
-// Accelerations; with `around` also what surrounds them.
+// Accelerations; with `around` the other results as well.
 HWY_INLINE void accelerations(const Setting& at, const Motion& motion, V (&qdd)[5],
                               Surroundings* around = nullptr) {
   V angle[5], rate[5];

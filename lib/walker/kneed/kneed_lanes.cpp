@@ -1,5 +1,5 @@
-// The kernels of kneed_lanes.h for every instruction set; the best that the machine has is chosen
-// at run time.
+// The kernels of kneed_lanes.h for every instruction set; the best one of the machine is chosen at
+// run time.
 #include "walker/kneed/kneed_lanes.h"
 
 #include "walker/kneed/kneed_incidents.h"
@@ -8,7 +8,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "walker/kneed/kneed_lanes.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
+// After foreach_target.h, as Highway requires.
 #include "walker/kneed/kneed_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -75,11 +75,11 @@ HWY_INLINE Mask is_sound(const Arrival& to) {
     sum = hn::Add(sum, hn::Add(hn::Abs(to.motion.q[k]), hn::Abs(to.qdd[k])));
     slow = hn::And(slow, hn::Lt(hn::Abs(to.motion.qd[k]), all(kMaxRate)));
   }
-  return hn::And(slow, hn::Lt(sum, all(1e300)));  // which no NaN is
+  return hn::And(slow, hn::Lt(sum, all(1e300)));  // false for NaN
 }
 
-// A superset: the foot under the ground at either end and ahead at the second, a knee beyond its
-// stop, a stop that pulls.
+// A superset of the events: the foot below the ground at either end and in front at the second, a
+// knee beyond its stop, a stop that pulls.
 HWY_INLINE Mask suspects_event(const Setting& at, const LanePoint& from, const Arrival& to) {
   const V none = hn::Zero(Tag()), height = hn::Load(Tag(), from.height[0]);
   Mask event =
@@ -92,7 +92,7 @@ HWY_INLINE Mask suspects_event(const Setting& at, const LanePoint& from, const A
   return event;
 }
 
-// KneedState::clearance: between falling and rising the height is taken as a parabola.
+// KneedState::clearance: between falling and rising the height is approximated by a parabola.
 HWY_INLINE V clearance_after(const Lanes& lanes, V h, V rise) {
   const Tag d;
   const V none = hn::Zero(d), clearance = hn::Load(d, lanes.clearance[0]);

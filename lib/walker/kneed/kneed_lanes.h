@@ -1,5 +1,5 @@
-// A vector of kneed walkers, and what is done to it in vector instructions; internal to lib/walker.
-// kneed_batch.cpp fills the lanes and decides what happens to whom.
+// A vector of kneed walkers and its operations in vector instructions; internal to lib/walker.
+// kneed_batch.cpp assigns walkers to lanes.
 #pragma once
 
 #include "walker/lanes/lanes.h"
@@ -7,7 +7,7 @@
 namespace walktrack {
 inline namespace walker {
 
-// A model's sums, as the pairs of parts need them (kneed_lanes-inl.h).
+// The sums of a model that are needed for pairs of parts (kneed_lanes-inl.h).
 struct LaneModel {
   double along[5], across[5];               // kg m, first moments
   double diagonal[5];                       // kg m^2
@@ -22,7 +22,7 @@ struct LaneForces {
   LaneRows<5> noise;
 };
 
-// Walkers at one point of their ways, with what surrounds them there.
+// Walkers at one time each, with the results of an evaluation there.
 struct LanePoint {
   LaneRows<5> q, qd, qdd;                      // torso, thighs, flexions
   LaneRows<2> stop_torque;                     // KneedAcceleration
@@ -36,25 +36,25 @@ struct Lanes : LaneGroup {
   LaneRows<1> clearance;
 };
 
-// Bounds beyond which a walker has fallen.
+// Limits beyond which a walker has fallen.
 struct LaneBounds {
   double least_hip, max_lean;  // m, rad
 };
 
-// Accelerations and surroundings at lanes.at.
+// Evaluates accelerations and other results at lanes.at.
 void evaluate_lanes(const LaneModel& model, Lanes& lanes);
 
 // kneed_step_size() of every lane.
 void lane_step_sizes(const LaneModel& model, const Lanes& lanes, double max_step, double* sizes);
 
-// Where a sub-step of h[lane] leads.
+// The state after a sub-step of h[lane].
 void step_lanes_to(const LaneModel& model, const Lanes& lanes, const double* h, LanePoint& end);
 
 // The length of every lane's next sub-step: an even share of the time that remains.
 void next_lane_steps(const Lanes& lanes, double* h);
 
-// One sub-step of every live lane. Those that diverge or suspect an event within it stay where they
-// were; `ended` have no time left or have fallen.
+// One sub-step of every live lane. Lanes that diverge or may have an event within it keep their
+// state; `ended` have no time left or have fallen.
 LaneVerdict sub_step_lanes(const LaneModel& model, const LaneBounds& bounds, Lanes& lanes);
 
 }  // namespace walker

@@ -27,7 +27,7 @@ struct KneedTrig {
 
 using PointJacobian = Eigen::Matrix<double, 2, 5>;
 
-// Columns dp/dq_k = along_k w(q_k) - across_k u(q_k), and (R, 0) more for the stance shank.
+// Columns dp/dq_k = along_k w(q_k) - across_k u(q_k), with (R, 0) added for the stance shank.
 PointJacobian point_jacobian(const KneedPoint& point, const KneedTrig& trig, double foot_radius);
 
 Vector2 point_position(const KneedPoint& point, const KneedTrig& trig, const KneedParameters& p,
@@ -41,8 +41,8 @@ std::array<double, 5> part_inertias(const KneedParameters& p);
 KneedPoint hip_point(const KneedParameters& p);
 KneedPoint swing_foot_point(const KneedParameters& p);
 
-// In place Cholesky factor of a symmetric positive definite matrix (lower triangle), the diagonal
-// inverted. A matrix that is not positive definite gives non-finite numbers, never a trap.
+// In-place Cholesky factor of a symmetric positive definite matrix (lower triangle), with the
+// diagonal inverted. A matrix that is not positive definite gives numbers that are not finite.
 inline void factorise(Matrix5& m) {
   for (int j = 0; j < 5; ++j) {
     for (int k = 0; k < j; ++k) m(j, j) -= m(j, k) * m(j, k);

@@ -1,8 +1,8 @@
 // Complementarity of the two knee stops, at the level of rates (impulse) and of accelerations
 // (reactive torque): with the positive definite 2 x 2 matrix W = a' M^-1 a find
 //   push >= 0,  gain = free + W push >= 0,  push . gain = 0
-// over the knees at their stops. The solution is unique, so trying every set of pushing stops,
-// fewest first, finds it.
+// over the knees at their stops. The solution is unique, so that it is found by trying every set of
+// pushing stops, smallest sets first.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,7 +46,7 @@ Vector2 pushes(const StopSet& set, const Vector2& free, bool first, bool second)
   return {first ? -free[0] / w(0, 0) : 0.0, second ? -free[1] / w(1, 1) : 0.0};
 }
 
-// The set of pushing stops; `tolerance` bounds what counts as motion into a stop.
+// The set of pushing stops; `tolerance` limits what counts as motion into a stop.
 std::array<bool, 2> pushing_stops(const StopSet& set, const Vector2& free, double tolerance) {
   constexpr std::array<std::array<bool, 2>, 4> kSets{
       {{false, false}, {true, false}, {false, true}, {true, true}}};
@@ -59,7 +59,7 @@ std::array<bool, 2> pushing_stops(const StopSet& set, const Vector2& free, doubl
       fits = fits && push[k] >= 0 && (!set.at[size_t(k)] || gain[k] >= -tolerance);
     if (fits) return trial;
   }
-  return set.at;  // only rounding can lead here; holding both is the safe side
+  return set.at;  // only rounding leads here; holding both is safe
 }
 
 void put_on_stops(KneedState& state, std::array<bool, 2> at) {
@@ -98,8 +98,8 @@ std::array<double, 2> settle_knee_stops(const KneedModel& model, const KneedCont
 
 double kneed_step_size(const KneedModel& model, const KneedControls& controls,
                        const KneedState& state, double max_step) {
-  // Row r of every spring: bounds of the largest eigenvalues of M^-1 K and M^-1 D are the sums of
-  // stiffness r' M^-1 r and damping r' M^-1 r.
+  // For row r of every spring, the sums of stiffness r' M^-1 r and damping r' M^-1 r are upper
+  // bounds of the largest eigenvalues of M^-1 K and M^-1 D.
   constexpr std::array<std::array<double, 5>, 4> kRows{
       {{1, -1, 0, 0, 0}, {0, -1, 1, 0, 0}, {0, -1, 0, 1, 0}, {0, 0, -1, 0, 1}}};
   const std::array<const SpringDamper*, 4> springs{&controls.torso, &controls.hip,

@@ -18,7 +18,7 @@ struct Dynamics {
   Vector5 force;  // gravity minus Coriolis
 };
 
-// Rates of the first moments: (sum_i m_i dp_i/dq_k) without the rolling contact's share.
+// Rates of the first moments: (sum_i m_i dp_i/dq_k) without the part of the rolling contact.
 struct MomentRates {
   Vector5 x, z;
 };

@@ -60,7 +60,7 @@ struct SpringDamper {
   double rest = 0;       // rad
 };
 
-// Held from one support transfer to the next.
+// Constant from one support transfer to the next.
 struct KneedControls {
   SpringDamper torso;          // against the vertical, reacts on the stance thigh
   SpringDamper hip;            // on stance thigh - swing thigh
@@ -77,8 +77,8 @@ struct KneedState {
   double contact_x = 0;       // m, x0: the ground point below the arc centre at q3 = 0
   double since_transfer = 0;  // s
   double clearance = 1;       // m, least local minimum of the swing foot's height since then
-  int transfers = 0;          // how often the legs changed places
-  int hasty_transfers = 0;    // how many of them in an unbroken row came at once
+  int transfers = 0;          // number of support transfers
+  int hasty_transfers = 0;    // number of the last transfers that followed each other at once
 };
 
 // Parameters with the sums over the parts that the dynamics needs:
@@ -109,13 +109,13 @@ struct KneedAcceleration {
   std::array<double, 2> stop_torque{};  // N m, stance and swing knee; positive pushes into flexion
 };
 
-// Solves M qdd = torques + noise - Coriolis + gravity, with the flexion of every knee whose stop is
-// set held constant (the augmented system). `noise` is a generalised torque, N m.
+// Solves M qdd = torques + noise - Coriolis + gravity, with constant flexion of every knee whose
+// stop is active (the augmented system). `noise` is a generalised torque, N m.
 KneedAcceleration kneed_accelerations(const KneedModel& model, const KneedControls& controls,
                                       const Vector5& noise, const KneedState& state);
 
-// Kinetic and potential energy, J. The potential is zero at the origin of the ground frame and
-// leaves out the springs.
+// Kinetic and potential energy, J. The potential is zero at the origin of the ground frame and does
+// not include the springs.
 struct KneedEnergy {
   double kinetic = 0;
   double potential = 0;
@@ -125,17 +125,17 @@ KneedEnergy kneed_energy(const KneedModel& model, const KneedState& state);
 // Ground reaction on the stance foot (forward, up), N, for given accelerations.
 Vector2 kneed_contact_force(const KneedModel& model, const KneedState& state, const Vector5& qdd);
 
-// Points in the walking plane (x forward, z up), m. They are continuous through a transfer, when
-// stance and swing names are exchanged. `foot` is the arc centre; the sole touches the ground at R
-// below it.
+// Points in the plane of walking (x forward, z up), m. They are continuous through a transfer, at
+// which stance and swing leg swap. `foot` is the arc centre; the sole touches the ground at R below
+// it.
 struct KneedPosture {
   Vector2 stance_foot, stance_ankle, stance_knee, hip, torso_com, swing_knee, swing_ankle,
       swing_foot;
 };
 KneedPosture kneed_posture(const KneedModel& model, const KneedState& state);
 
-// Lowest point of the swing foot's arc: height above ground and lead over the stance foot, m, with
-// their rates, m/s.
+// Lowest point of the swing foot's arc: height above the ground and distance in front of the stance
+// foot, m, with their rates, m/s.
 struct SwingFoot {
   double height = 0, lead = 0, height_rate = 0, lead_rate = 0;
 };
@@ -143,7 +143,7 @@ SwingFoot kneed_swing_foot(const KneedModel& model, const KneedState& state);
 
 // Support transfer with toe-off: (B+' H B+) qd+ = B+' (H B- qd- + S). The toe-off impulse acts on
 // the old stance foot at its arc centre towards the hip; the new stance foot sticks and rolls.
-// Afterwards the legs' names are exchanged. Knee stops take no part (see settle_knee_stops).
+// Afterwards stance and swing leg swap. Knee stops are not part of it (see settle_knee_stops).
 struct KneedTransfer {
   KneedState state;
   Vector2 impulse;  // of the ground on the new stance foot, N s

@@ -1,5 +1,5 @@
-// What the batch kernels share in vector instructions; included by each of them once for every
-// instruction set (Highway's way, hence the guard).
+// Vector code that the batch kernels share; included by each of them once for every instruction set
+// (as Highway requires, hence the guard).
 #if defined(WALKTRACK_LANES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef WALKTRACK_LANES_H
 #undef WALKTRACK_LANES_H
@@ -28,12 +28,12 @@ struct SineCosine {
   V sine, cosine;
 };
 
-// To rounding for |a| < 1e5: a = k pi/2 + r, then the polynomials of fdlibm (Sun Microsystems,
-// 1993).
+// Exact to rounding for |a| < 1e5: a = k pi/2 + r, then the polynomials of fdlibm (Sun
+// Microsystems, 1993).
 HWY_INLINE SineCosine sine_cosine(V a) {
   const Tag d;
   const hn::RebindToUnsigned<Tag> du;
-  const V magic = all(0x1.8p52);  // the sum's lowest bits are k
+  const V magic = all(0x1.8p52);  // the lowest bits of the sum are k
   const V sum = hn::MulAdd(a, all(2 / kPi), magic);
   const V k = hn::Sub(sum, magic);
   const V r = hn::NegMulAdd(k, all(6.123233995736766e-17), hn::NegMulAdd(k, all(kPi / 2), a));
@@ -84,21 +84,21 @@ HWY_INLINE uint64_t bits_of(Mask mask) {
   return bits;
 }
 
-// The length of every lane's next sub-step: an even share of the time that remains.
+// The length of every lane's next sub-step: an equal share of the remaining time.
 HWY_INLINE V next_step(const LaneGroup& lanes, V& remaining) {
   const Tag d;
   remaining = hn::Sub(hn::Load(d, lanes.duration[0]), hn::Load(d, lanes.elapsed[0]));
   return hn::Div(remaining, hn::Ceil(hn::Div(remaining, hn::Load(d, lanes.step[0]))));
 }
 
-// The time passed after a sub-step of h: exactly the duration after the last.
+// The elapsed time after a sub-step of h: exactly the duration after the last one.
 HWY_INLINE V passed(const LaneGroup& lanes, V h, V remaining) {
   const V later = hn::Add(hn::Load(Tag(), lanes.elapsed[0]), h);
   return hn::IfThenElse(hn::Eq(h, remaining), hn::Load(Tag(), lanes.duration[0]), later);
 }
 
 // One RK4 step of h; `a1` are the accelerations at `from`. A kernel's accelerations(at, motion,
-// qdd) is found by the namespace of `at`.
+// qdd) is found in the namespace of `at`.
 template <typename Setting, int kCount>
 HWY_INLINE void rk4(const Setting& at, const MotionOf<kCount>& from, const V (&a1)[kCount], V h,
                     MotionOf<kCount>& to) {

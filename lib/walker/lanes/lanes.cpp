@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "walker/lanes/lanes.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
+// After foreach_target.h, as Highway requires.
 #include "walker/lanes/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,5 +1,5 @@
-// What all batch kernels share: walkers as lanes of vectors, in structures of arrays, and the
-// queues they wait in; internal to lib/walker. lanes-inl.h is the part in vector instructions.
+// Common parts of all batch kernels: walkers as lanes of vectors, in structures of arrays, and
+// their queues; internal to lib/walker. lanes-inl.h contains the vector code.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace walktrack {
 inline namespace walker {
 
-// Walkers in a vector at most: doubles in the widest vectors there are.
+// Largest number of walkers in a vector: doubles in the widest vectors.
 inline constexpr size_t kMaxLanes = 8;
 
 template <size_t kCount>
@@ -23,20 +23,20 @@ struct alignas(64) LaneRows {
   const double* operator[](size_t i) const { return rows[i]; }
 };
 
-// Who is in a vector, and how far in time.
+// The walkers in a vector, with their times.
 struct LaneGroup {
-  size_t count = 0;                            // walkers; lanes beyond repeat the first
+  size_t count = 0;                            // walkers; lanes after them repeat the first
   size_t index[kMaxLanes]{};                   // into the batch
-  LaneRows<1> live;                            // 1 for a lane that goes on
+  LaneRows<1> live;                            // 1 for a lane that continues
   LaneRows<1> step, elapsed, duration, since;  // s
 };
 
-// What a sub-step has led to, one bit a lane.
+// The outcome of a sub-step, one bit for each lane.
 struct LaneVerdict {
   uint64_t diverged, event, ended;
 };
 
-// How far a walker has come in a call.
+// The progress of a walker in a call.
 struct LaneProgress {
   double elapsed = 0, step = 0;  // s; step 0 before the first visit
   int stop_events = 0;           // of a walker with knees
@@ -46,11 +46,11 @@ struct LaneProgress {
 size_t lane_count();
 const char* lane_target();
 
-// What a call keeps of its walkers fits on the stack for as many as the tracker moves together.
+// The data of a call fit on the stack for as many walkers as the tracker advances together.
 using BatchScratch = Scratch<4096>;
 
-// Walkers wait in two queues: those that can go on, and those that know of an event within their
-// next sub-step. Both are served a vector at a time, full vectors first.
+// Walkers wait in two queues: those that can continue, and those with an event within their next
+// sub-step. Both are processed a vector at a time, full vectors first.
 struct LaneQueues {
   std::pmr::vector<size_t> ready, met;
 
@@ -71,7 +71,7 @@ struct LaneQueues {
     }
   }
 
-  // The last walkers of a queue leave it and take their seats.
+  // Removes the last walkers of a queue and assigns them to lanes.
   static void seat(std::pmr::vector<size_t>& queue, size_t lanes, LaneGroup& group) {
     group.count = std::min(lanes, queue.size());
     for (size_t lane = 0; lane < lanes; ++lane) {

@@ -1,6 +1,6 @@
-// Walkers with feet that roll: rimless wheel, straight-legged and kneed walkers are all linkages of
-// rigid parts that hang on a hip, assembled by mechanics/planar.h from tables of points. This
-// header is the table; linkage_walker.h the walker that comes of it; models.h fills tables.
+// Walkers with rolling feet: rimless wheel, straight-legged and kneed walkers are all linkages of
+// rigid parts around a hip, assembled by mechanics/planar.h from tables of points. This header
+// defines the table, linkage_walker.h the walker, and models.h fills tables.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ inline namespace walker {
 
 // A spring and damper, or an actuator: generalised force = pull * tau,
 //   tau = stiffness (rest - measure . q) - damping measure . qd.
-// Where pull = measure it has a potential; otherwise it is an actuator (the torso's law refers to
-// the vertical and reacts on a thigh).
+// If pull = measure it has a potential; otherwise it is an actuator (the torso's law measures the
+// angle to the vertical, and its reaction acts on a thigh).
 struct LinkageSpring {
   Eigen::VectorXd measure, pull;
   double stiffness = 0;  // N m/rad
@@ -23,7 +23,7 @@ struct LinkageSpring {
   double rest = 0;       // rad
 };
 
-// Parts and points relative to the hip, in n angles.
+// Parts and points relative to the hip, as functions of n angles.
 struct Linkage {
   std::vector<std::string> angles;  // names of the coordinates
   std::vector<PlanarPart> parts;    // com relative to the hip
@@ -39,17 +39,18 @@ struct Linkage {
   Eigen::VectorXd shift;
 
   std::vector<LinkageSpring> springs;
-  double toe_off_impulse = 0;  // N s, on the old foot's arc centre towards the hip
+  double toe_off_impulse = 0;  // N s, at the old foot's arc centre towards the hip
 
-  // Limits a . q >= b: knee stops first (stance, swing), others behind them.
+  // Limits a . q >= b: first the knee stops (stance, swing), then others.
   std::vector<Limit> limits;
-  // Latched walkers: the stance knee is rigid, the swing knee becomes so at its stop, both stay so
-  // through the strike, then the new swing knee is freed. Limits 0 and 1 are then the knees.
+  // Latched walkers: the stance knee is rigid; the swing knee becomes rigid at its stop, and both
+  // remain so through the strike; then the new swing knee is released. Limits 0 and 1 are then the
+  // knees.
   bool latched = false;
 
-  bool may_scuff = false;  // the swing foot may pass below ground level (straight legs)
-  bool may_fly = false;    // the stance foot is released when the ground would pull
-  double lowest_hip = 0;   // m; below it the walker has fallen
+  bool may_scuff = false;  // whether the swing foot may pass below the ground (straight legs)
+  bool may_fly = false;    // whether the stance foot is released when the ground would pull
+  double lowest_hip = 0;   // m; a walker with a lower hip has fallen
 
   struct Line {
     PlanarPoint from, to;  // relative to the hip

@@ -14,15 +14,15 @@ using Eigen::VectorXd;
 
 enum LinkageGuard { kSwingFoot, kPassing, kNormalForce, kHip, kStanceFoot, kFirstLimit };
 
-// A limit touches when its gap is within rounding of an event's location. It rests when its rate is
-// what a plastic impulse leaves of it, or the tiny rebound after it: one of 1e-6 rad/s lasts
-// nanoseconds and rises 1e-14 rad where a knee is pushed back at 100 rad/s^2.
+// A limit is touched if its gap is within rounding of an event's location. It is at rest if its
+// rate is that after a plastic impulse, or the tiny rebound after it: one of 1e-6 rad/s lasts
+// nanoseconds and rises 1e-14 rad if a knee is pushed back at 100 rad/s^2.
 constexpr double kTouching = 1e-9;  // rad
 constexpr double kResting = 1e-6;   // rad/s
 constexpr double kStill = 1e-9;     // rad/s, rounding of an impulse
 
-// A foot is ahead when it leads by more than an event's location leaves uncertain: straight legs
-// meet at ground level exactly when they pass each other.
+// A foot is in front if its lead exceeds the uncertainty of an event's location: straight legs meet
+// at ground level exactly when they pass each other.
 constexpr double kAhead = 1e-9;  // m
 
 bool acts(const WalkerState& state, size_t limit) { return (state.active >> limit & 1u) != 0; }
@@ -77,7 +77,7 @@ WalkerState LinkageWalker::settled(WalkerState state) const {
     if (excess < 0 || is_latched(state, i)) state.q.head(n_) -= excess / row.squaredNorm() * row;
   }
   state = with_plastic_stops(std::move(state));
-  // A stop acts from now on where touching, resting and pushing hold together.
+  // A stop is active from now on if it is touched, at rest and pushing.
   std::vector<LimitRole> roles(linkage_.limits.size(), LimitRole::kFree);
   for (size_t i = 0; i < roles.size(); ++i) {
     const bool rests = gap(state, i) <= kTouching && std::abs(gap_rate(state, i)) <= kResting;
@@ -95,7 +95,7 @@ WalkerState LinkageWalker::settled(WalkerState state) const {
     state.active = (state.active & ~(1u << i)) | (on ? 1u << i : 0u);
     rebounds = rebounds || (on && std::abs(gap_rate(state, i)) > kStill);
   }
-  // Who rests does so from now on: what is left of the rebound is taken away.
+  // Walkers at rest remain at rest: the rest of the rebound is removed.
   if (rebounds) {
     state.qd =
         solve_limited(now.mass, now.mass * state.qd, limits_for(state), acting_roles(state)).rate;
@@ -135,7 +135,7 @@ std::vector<Guard> LinkageWalker::guards(const WalkerState& state) const {
 Transition LinkageWalker::stopped(const WalkerState& state, size_t limit) const {
   Transition transition{.kind = EventKind::kStop, .index = static_cast<int>(limit), .after = state};
   if (acts(state, limit)) {
-    // The stop would have to pull: the others may change as well, this one is off.
+    // The stop would have to pull: it is released, and the others may change as well.
     transition.kind = EventKind::kRelease;
     transition.after.active &= ~(1u << limit);
     WalkerState others = settled(transition.after);
@@ -169,8 +169,9 @@ WalkerState LinkageWalker::taken_off(const WalkerState& state, double& work) con
   return settled(flying);
 }
 
-// The direction comes from the foot relative to the hip, and its generalised impulse before any
-// rounding of its length: along a straight leg the products cancel exactly, which light legs need.
+// The direction is computed from the foot relative to the hip, and the generalised impulse before
+// any rounding of its length: along a straight leg the products cancel exactly, which matters for
+// light legs.
 LinkageWalker::ToeOff LinkageWalker::toe_off(const Placed& placed, const PlanarPoint& foot,
                                              const VectorXd& q) const {
   ToeOff push;
@@ -184,7 +185,7 @@ LinkageWalker::ToeOff LinkageWalker::toe_off(const Placed& placed, const PlanarP
   return push;
 }
 
-// The rates at a strike, legs still under their old names, and the impulses that change them.
+// The rates at a strike, before the legs swap, and the impulses that change them.
 void LinkageWalker::transfer_support(const WalkerState& state, bool swing, WalkerState& stance,
                                      Transition& transition) const {
   const Placed& before = frame(state);
@@ -193,7 +194,7 @@ void LinkageWalker::transfer_support(const WalkerState& state, bool swing, Walke
   const VectorXd v = part_jacobian(before.parts, state.q) * state.qd;
   const MatrixXd T = part_jacobian(after.parts, stance.q);
   ToeOff push = toe_off(after, swing ? after.stance_foot : after.swing_foot, stance.q);
-  if (!swing || state.phase == kFlight) {  // nothing pushes: the old foot is in the air
+  if (!swing || state.phase == kFlight) {  // the old foot is in the air and cannot push
     push.impulse.setZero();
     push.generalised.setZero();
   }
@@ -216,7 +217,7 @@ void LinkageWalker::transfer_support(const WalkerState& state, bool swing, Walke
   transition.old_foot_lifts = state.phase == kFlight || old_after.y() >= 0;
 }
 
-// The swing leg takes the stance leg's name and place.
+// The swing leg and the stance leg swap.
 void LinkageWalker::mirror_legs(WalkerState& stance) const {
   VectorXd q(n_), qd(n_);
   for (Index i = 0; i < n_; ++i) {
@@ -278,7 +279,7 @@ std::optional<Transition> LinkageWalker::event(int id, const WalkerState& state)
     default:
       return stopped(state, static_cast<size_t>(id - kFirstLimit));
   }
-  // A latched walker whose swing knee is still bent cannot stand on it.
+  // A latched walker cannot stand on a swing knee that is still flexed.
   if (linkage_.latched && !acts(state, 1)) return fallen();
   return strike(state, true);
 }
@@ -291,7 +292,7 @@ MatrixXd LinkageWalker::section_rows(const WalkerState& state) const {
     whole.segment(at, row.size()) = row;
     rows.push_back(whole);
   };
-  constexpr double kOnTheGround = 1e-6;  // m: a guess typed with six digits counts as standing
+  constexpr double kOnTheGround = 1e-6;  // m: a guess with six digits counts as standing
   if (std::abs(foot_height(state, true)) < kOnTheGround) {
     add(jacobian(frame(state).swing_foot, state.q).row(1).transpose(), 0);
   }

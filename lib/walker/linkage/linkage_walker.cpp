@@ -11,7 +11,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-// The same point in more coordinates.
+// The same point with additional coordinates.
 PlanarPoint extended(const PlanarPoint& point, Index coordinates) {
   PlanarPoint result(coordinates);
   const Index n = point.along.size();
@@ -123,7 +123,7 @@ std::vector<Limit> LinkageWalker::limits_for(const WalkerState& state) const {
   return limits;
 }
 
-// Between events an acting limit is an equality: its force is watched by a guard.
+// Between events an active limit is an equality: its force is watched by a guard.
 std::vector<LimitRole> LinkageWalker::acting_roles(const WalkerState& state) const {
   std::vector<LimitRole> roles(linkage_.limits.size(), LimitRole::kFree);
   for (size_t i = 0; i < roles.size(); ++i) {

@@ -1,14 +1,14 @@
-// The walker made of a Linkage. One route for all models with feet; the hand-written kernel of the
-// kneed walker (kneed_walker.h) is tested against it.
+// The walker that a Linkage describes, used for all models with feet. The hand-written kernel of
+// the kneed walker (kneed_walker.h) is tested against it.
 //
-// Phases: kStance has the n angles as coordinates, the arc centre of the stance foot at
+// Phases: kStance has the n angles as coordinates, with the arc centre of the stance foot at
 // (contact + R q_foot, R) rolling without slip; kFlight has the angles and the hip's x and z.
 // contacts[0] is that contact reference.
 //
 // Support transfer with the toe-off impulse S on the old foot: with T the Jacobian of the parts'
-// coordinates standing on the new foot, M the parts' masses and v their velocities before,
+// coordinates for standing on the new foot, M the parts' masses and v their velocities before,
 //   (T' M T) qd+ = T' M v + S-term   (latched limits stacked below as an augmented system),
-// then legs exchange their names. Stops act afterwards by their own plastic impulse.
+// then stance and swing leg swap. Stops act afterwards by their own plastic impulse.
 #pragma once
 
 #include "walker/linkage/linkage.h"
@@ -26,10 +26,11 @@ class LinkageWalker : public Walker {
   const Linkage& linkage() const { return linkage_; }
   TmtSystem system(const WalkerState& state) const;  // with springs, without limits
   LimitedMotion limited_motion(const WalkerState& state) const;
-  // Arc centres' heights over the ground when the foot touches it, and lead over the other foot.
+  // Heights of the arc centres above their height at contact, and distance in front of the other
+  // foot.
   double foot_height(const WalkerState& state, bool swing) const;
   double swing_lead(const WalkerState& state) const;
-  // The strike of the swing foot (or of the stance foot, back from flight), whatever its height.
+  // The strike of the swing foot (or of the stance foot, after flight), whatever its height.
   Transition strike(const WalkerState& state, bool swing) const;
 
   std::vector<std::string> coordinates() const override;
@@ -49,7 +50,7 @@ class LinkageWalker : public Walker {
   Eigen::MatrixXd section_rows(const WalkerState& state) const override;
 
  private:
-  // The linkage placed in the world for one set of coordinates.
+  // The linkage in the world for one set of coordinates.
   struct Placed {
     std::vector<PlanarPart> parts;
     PlanarPoint hip{0}, stance_foot{0}, swing_foot{0};
@@ -67,8 +68,8 @@ class LinkageWalker : public Walker {
   double normal_force(const WalkerState& state) const;
   WalkerState with_plastic_stops(WalkerState state) const;
   WalkerState taken_off(const WalkerState& state, double& work) const;
-  // The toe-off impulse at the arc centre `foot`: as a force impulse (N s), along the coordinates,
-  // and the Jacobian of that point.
+  // The toe-off impulse at the arc centre `foot`: as a force impulse (N s), as a generalised
+  // impulse, and the Jacobian of that point.
   struct ToeOff {
     Eigen::Vector2d impulse;
     Eigen::VectorXd generalised;

@@ -14,10 +14,11 @@ using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-// A hip lower than this share of the standing height has fallen: people walk above .85 of it.
+// A walker whose hip is lower than this share of the standing height has fallen: people walk above
+// .85 of it.
 constexpr double kFallenShare = 0.6;
 
-constexpr int kMostSpokes = 60;  // by hand: more cannot be told apart in a picture
+constexpr int kMostSpokes = 60;  // by hand: more cannot be distinguished in an image
 
 Vector2d gravity_vector(double gravity, double slope) {
   return gravity * Vector2d(std::sin(slope), -std::cos(slope));
@@ -25,7 +26,7 @@ Vector2d gravity_vector(double gravity, double slope) {
 
 VectorXd unit(Index n, Index i) { return VectorXd::Unit(n, i); }
 
-// The sole to draw: the arc that rolls while its part leans from -.4 to .7 rad.
+// Adds the sole for drawing: the arc that is in contact while its part leans from -.4 to .7 rad.
 void add_sole(Linkage& linkage, const PlanarPoint& centre, Index angle, int group) {
   if (linkage.foot_radius == 0) return;
   constexpr int kPieces = 6;  // of the drawn arc, by hand
@@ -40,8 +41,8 @@ void add_sole(Linkage& linkage, const PlanarPoint& centre, Index angle, int grou
 
 PlanarPoint origin(Index n) { return PlanarPoint(n); }
 
-// Where the kneed walker's angles stand in q (without a torso the legs come first), and its points
-// by them.
+// The indices of the kneed walker's angles in q (without a torso the legs come first), and its
+// points as functions of them.
 struct KneedChain {
   explicit KneedChain(const KneedParameters& parameters)
       : p(parameters),
@@ -107,7 +108,7 @@ Linkage rimless_wheel(const RimlessWheelParameters& p) {
   Linkage linkage;
   linkage.angles = {"spoke"};
   linkage.parts = {{p.mass, p.mass * p.gyration * p.gyration, origin(1), 0}};
-  // The next spoke points 2 a ahead: u(q - 2a) = cos 2a u(q) - sin 2a w(q).
+  // The next spoke is 2 a in front: u(q - 2a) = cos 2a u(q) - sin 2a w(q).
   const double c = std::cos(2 * p.half_angle), s = std::sin(2 * p.half_angle);
   linkage.stance_foot = bar(1, 0, -p.spoke);
   linkage.swing_foot = bar(1, 0, -p.spoke * c, p.spoke * s);

@@ -1,5 +1,5 @@
-// The models with feet, as tables for LinkageWalker. Angles of the published tables count the other
-// way round: flip the sign of every angle and rate; the slope keeps its sign (core/conventions.h).
+// The models with feet, as tables for LinkageWalker. Published tables have the opposite sign of
+// angles: change the sign of every angle and rate; the slope keeps its sign (core/conventions.h).
 #pragma once
 
 #include "walker/kneed/kneed_walker.h"
@@ -34,19 +34,19 @@ struct StraightLeggedParameters {
   double foot_radius = 0.3;         // m
   double hip_stiffness = 0;         // N m/rad, on the angle between the legs
   double toe_off_impulse = 0;       // N s
-  double widest_spread = 0;         // rad, legs open no further; 0: no such limit
+  double widest_spread = 0;         // rad, largest angle between the legs; 0: no limit
   bool may_fly = false;             // release the stance foot when the ground would pull
 };
 Linkage straight_legged(const StraightLeggedParameters& parameters);
 
-// How a kneed walker uses its knees and feet.
+// The use of knees and feet in a kneed walker.
 struct KneedStyle {
   bool latched = false;  // passive walkers: see Linkage::latched
   bool may_fly = true;   // running
 };
 
 // Torso, two thighs, two shanks; q = (torso, stance thigh, swing thigh, stance shank, swing shank).
-// A torso without inertia whose mass sits at the hip has no angle: q then starts at the stance
+// A torso without inertia whose mass is at the hip has no angle: q then begins with the stance
 // thigh.
 Linkage kneed(const KneedParameters& parameters, const KneedControls& controls,
               const KneedStyle& style);

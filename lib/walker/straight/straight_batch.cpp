@@ -1,4 +1,4 @@
-// As kneed_batch.cpp with one kind of event: a strike, which ends the call.
+// Like kneed_batch.cpp with one kind of event: a strike, which ends the call.
 #include "walker/straight/straight_batch.h"
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace walktrack {
 inline namespace walker {
 namespace {
 
-// A foot leads by more than what an event's location leaves uncertain, rad: see LinkageWalker.
+// Uncertainty of an event's location, rad, which the lead of a foot has to exceed: see
+// LinkageWalker.
 constexpr double kAheadAngle = 1e-9;
 
 struct StraightInput {
@@ -60,7 +61,7 @@ struct StraightStepper {
     queues.serve(lane_limit, go_on, meet);
   }
 
-  // The last walkers of a queue, evaluated.
+  // Moves the last walkers of a queue into lanes and evaluates them.
   void take(std::pmr::vector<size_t>& queue, StraightLanes& lanes) {
     LaneQueues::seat(queue, lane_limit, lanes);
     for (size_t lane = 0; lane < lane_limit; ++lane) {
@@ -94,7 +95,7 @@ struct StraightStepper {
     lanes.live[0][lane] = 0;
   }
 
-  // The first visit in a call: sub-steps chosen, the impossible sorted out.
+  // For the first visit in a call: chooses sub-steps and removes invalid states.
   void begin(StraightLanes& lanes) {
     LaneRows<1> steps;
     lane_step_sizes(in.model, lanes, in.max_step, steps[0]);
@@ -154,8 +155,8 @@ struct StraightStepper {
   void arrive(StraightLanes& lanes, size_t lane, bool strikes);
 };
 
-// Shortens the sub-steps h to the strikes within them; trials of all lanes share vectors. Legs that
-// cross the ground where they pass each other do not strike: they keep their sub-step.
+// Shortens the sub-steps h to the strikes within them; evaluations for all lanes share vectors.
+// Legs that cross the ground while they pass each other do not strike: they keep their sub-step.
 std::array<bool, kMaxLanes> StraightStepper::locate(const StraightLanes& lanes, double* h) const {
   StraightLanePoint at;
   step_lanes_to(in.model, lanes, h, at);

@@ -1,7 +1,7 @@
-// Many anthropomorphic walkers through time at once, several to a vector, as kneed_batch.h does it:
-// RK4 between strikes that are located in time, every walker's result its own alone, the same bytes
-// in any batch, in any order, on any number of threads, for one instruction set. It is that of
-// LinkageWalker (straight_legged()) but for rounding, 1e-9 over a step.
+// Advances many anthropomorphic walkers in time at once, several in a vector, like kneed_batch.h:
+// RK4 between strikes that are located in time. Every walker's result depends on that walker alone:
+// the same bytes in any batch, in any order, on any number of threads, for one instruction set. It
+// equals that of LinkageWalker (straight_legged()) except for rounding, 1e-9 over a step.
 #pragma once
 
 #include <span>
@@ -22,9 +22,9 @@ struct StraightAdvance {
   bool old_foot_lifts = true;
 };
 
-// Moves states[i] on by durations[i] (s) or to its next transfer, under controls[i] and the
-// generalised torque noise[i] (N m), in sub-steps of at most `max_step` (s), fewer where the spring
-// asks for them. A walker without time stays as it is. All spans have the same size.
+// Advances states[i] by durations[i] (s) or to its next transfer, with controls[i] and the
+// generalised torque noise[i] (N m), in sub-steps of at most `max_step` (s), shorter if the spring
+// requires it. A walker with duration 0 does not change. All spans have the same size.
 void straight_advance_batch(const StraightModel& model, std::span<const StraightControls> controls,
                             std::span<const Vector2> noise, std::span<const double> durations,
                             std::span<StraightState> states, std::span<StraightAdvance> results,

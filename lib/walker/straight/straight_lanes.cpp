@@ -6,7 +6,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "walker/straight/straight_lanes.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h, as Highway wants it.
+// After foreach_target.h, as Highway requires.
 #include "walker/lanes/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -131,10 +131,10 @@ HWY_INLINE Mask is_sound(const LegsArrival& to) {
     fastest = hn::Max(fastest, hn::Abs(to.motion.qd[k]));
     sum = hn::Add(sum, hn::Abs(to.motion.qd[k]));
   }
-  return hn::And(hn::Lt(fastest, all(kMaxRate)), hn::Lt(sum, all(1e300)));  // which no NaN is
+  return hn::And(hn::Lt(fastest, all(kMaxRate)), hn::Lt(sum, all(1e300)));  // false for NaN
 }
 
-// The legs' sum rises through zero and the swing foot is ahead afterwards.
+// The sum of the legs' angles rises through zero and the swing foot is in front afterwards.
 HWY_INLINE Mask may_strike(const StraightLanePoint& from, const LegsArrival& to) {
   const Tag d;
   const V none = hn::Zero(d);

@@ -80,10 +80,11 @@ StraightTransfer straight_support_transfer(const StraightModel& m, double toe_of
   const Leg old_leg(before.q[0]), new_leg(before.q[1]);
   const double old_rate = before.qd[0], new_rate = before.qd[1], r = m.radius;
   const double roll = r * m.swing_moment;
-  // Momenta along the coordinates of standing on the new foot, (new leg, old leg).
+  // Momenta along the coordinates for standing on the new foot, (new leg, old leg).
   const double ahead = r * (r * m.mass + m.stance_moment * (old_leg.u.y() + new_leg.u.y())) +
                        m.transfer_cross * old_leg.u.dot(new_leg.u);
-  const double lever = m.leg * old_leg.w.dot(-new_leg.u) + r * old_leg.u.x();  // of the push
+  // Of the toe-off impulse.
+  const double lever = m.leg * old_leg.w.dot(-new_leg.u) + r * old_leg.u.x();
   const Vector2 momentum(ahead * old_rate + (m.transfer_leg + roll * new_leg.u.y()) * new_rate +
                              toe_off_impulse * lever,
                          (m.transfer_leg + roll * old_leg.u.y()) * old_rate);

@@ -1,14 +1,13 @@
 // The anthropomorphic walker (McGeer 1990; Kuo 2002; StraightLeggedParameters): two straight legs
-// with rolling feet, a point mass at the hip, a spring between the legs, a push at toe-off. These
-// are its closed forms for particles; straight_batch.h takes crowds of them through time. It is the
-// walker of straight_legged() but for flight and a widest spread, which it does not know.
+// with rolling feet, a point mass at the hip, a spring between the legs, an impulse at toe-off.
+// These are its closed forms for particles; straight_batch.h advances many walkers in time. It is
+// the walker of straight_legged() without flight and without a limit of the spread.
 //
-// q = (stance leg, swing leg). With c_jk and a_j the sums over the parts below and R the feet's
-// radius,
+// q = (stance leg, swing leg). With c_jk and a_j the sums over the parts and R the feet's radius,
 //   M00 = c00 + R^2 m + 2 R a0 cos q0,  M01 = c01 cos(q0 - q1) + R a1 cos q1,  M11 = c11.
-// Both feet are arcs about points at the same distance from the hip, so the swing foot is on the
-// ground where q1 = -q0 or q1 = q0, and a strike is q0 + q1 rising through zero while it is ahead:
-// what happens behind and while the legs pass each other is a scuff, which is ignored.
+// Both feet are arcs about points at the same distance from the hip, so that the swing foot is on
+// the ground if q1 = -q0 or q1 = q0. A strike is q0 + q1 rising through zero with the foot in
+// front; contact behind, or while the legs pass each other, is ignored.
 #pragma once
 
 #include "walker/linkage/models.h"
@@ -16,7 +15,7 @@
 namespace walktrack {
 inline namespace walker {
 
-// Held from one support transfer to the next.
+// Constant from one support transfer to the next.
 struct StraightControls {
   double stiffness = 0;        // N m/rad, of the spring between the legs
   double toe_off_impulse = 0;  // N s, at the transfer that ends the step
@@ -27,10 +26,10 @@ struct StraightState {
   Vector2 qd = Vector2::Zero();  // rad/s
   double contact_x = 0;          // m, the ground point below the stance foot's arc centre at q0 = 0
   double since_transfer = 0;     // s
-  int transfers = 0;             // how often the legs changed places
+  int transfers = 0;             // number of support transfers
 };
 
-// Sums over the parts; a point's distances from the stance foot's arc centre are along q0, q1.
+// Sums over the parts; distances of points from the stance foot's arc centre are along q0, q1.
 struct StraightModel {
   double leg = 0, radius = 0;                  // m, hip to arc centre; of the foot
   double mass = 0;                             // kg
@@ -41,7 +40,7 @@ struct StraightModel {
   double least_hip = 0;                         // m, below it the walker has fallen
 };
 
-// Without the controls that `parameters` hold.
+// Does not include the controls in `parameters`.
 StraightModel straight_model(const StraightLeggedParameters& parameters);
 
 // `noise` is a generalised torque, N m.
@@ -52,9 +51,9 @@ Vector2 straight_accelerations(const StraightModel& model, double stiffness, con
 Vector2 straight_contact_force(const StraightModel& model, const StraightState& state,
                                const Vector2& qdd);
 
-// Support transfer with toe-off as kneed_support_transfer(); the push acts along the leg.
+// Support transfer with toe-off like kneed_support_transfer(); the impulse acts along the leg.
 struct StraightTransfer {
-  StraightState state;  // the legs' names exchanged
+  StraightState state;  // with stance and swing leg swapped
   Vector2 impulse;      // N s, of the ground on the new stance foot
   double step_length;   // m, between the feet's arc centres
   double toe_off_work;  // J
