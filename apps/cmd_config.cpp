@@ -16,7 +16,7 @@ int run_config(const Arguments& arguments) {
                     .example = "walktrack config --set seed=7"});
   line.options().add_options()("changed", boost::program_options::bool_switch(&changed),
                                "print only values that differ from the defaults")(
-      "keys", boost::program_options::bool_switch(&keys), "print only the names, one a line");
+      "keys", boost::program_options::bool_switch(&keys), "print only the names, one in each line");
   if (!line.parse(arguments)) return kDone;
   if (keys) {
     for (const auto& [key, value] : config_values(line.config().values)) fmt::print("{}\n", key);

@@ -1,4 +1,4 @@
-// What an error says.
+// The message of an error.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace walktrack {
 
-// The message of the Error that the call throws; empty, which no test expects, when it throws none.
+// The message of the Error that the call throws; empty, which no test expects, if it throws none.
 template <typename Error = InputError>
 std::string message_of(const std::function<void()>& call) {
   try {

@@ -1,4 +1,4 @@
-// What particles move in, where no tracker has made it.
+// The context of particles without a tracker.
 #pragma once
 
 #include "tracker/motion/propagate.h"

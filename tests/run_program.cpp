@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Starts it with what it says going to two files.
+// Starts it with its output going to two files.
 pid_t start(const std::string& path, const std::vector<std::string>& arguments,
             const std::string& out, const std::string& err) {
   std::vector<std::string> words{path};
@@ -42,7 +42,7 @@ pid_t start(const std::string& path, const std::vector<std::string>& arguments,
   return child;
 }
 
-// What is written to a terminal until the last program that has it open is gone.
+// Everything that is written to a terminal until the last program that has it open ends.
 std::string read_terminal(int terminal) {
   std::string text;
   char part[4096];
@@ -115,7 +115,7 @@ TemporaryFolder::~TemporaryFolder() {
 std::string TemporaryFolder::write(const std::string& name, const std::string& content) const {
   const fs::path file = path_ / name;
   fs::create_directories(file.parent_path());
-  fs::remove(file);  // file systems flush a file that is cut short and written anew
+  fs::remove(file);  // file systems flush a file that is truncated and written again
   std::ofstream(file, std::ios::binary) << content;
   return file.string();
 }

@@ -1,4 +1,4 @@
-// Runs a program as a user would, without a shell, and collects what it says.
+// Runs a program as a user would, without a shell, and collects its output.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 namespace walktrack {
 
 struct ProgramResult {
-  int exit_code;  // 128 + signal when killed by one
+  int exit_code;  // 128 + signal if it was killed by one
   std::string out, err;
 };
 
@@ -17,7 +17,8 @@ ProgramResult run_program(const std::string& path, const std::vector<std::string
 // The same with its stderr on a terminal, whose lines end in "\r\n".
 ProgramResult run_on_terminal(const std::string& path, const std::vector<std::string>& arguments);
 
-// A program that runs while the test goes on; killed at the end of the scope. It says nothing.
+// A program that runs while the test continues; killed at the end of the scope. Its output is
+// discarded.
 class StartedProgram {
  public:
   StartedProgram(const std::string& path, const std::vector<std::string>& arguments);
@@ -26,9 +27,9 @@ class StartedProgram {
   StartedProgram& operator=(const StartedProgram&) = delete;
 
   void send(int signal) const;
-  // Waits for its end; the exit code, 128 + signal when killed by one.
+  // Waits for its end and returns the exit code, 128 + signal if it was killed by one.
   int wait();
-  // Most memory that it, or a process of its own, ever had; known after wait(). MB.
+  // Peak memory of the program or of one of its processes, MB; known after wait().
   double peak_memory() const { return peak_memory_; }
 
  private:

@@ -1,4 +1,5 @@
-// Whether a sanitizer has this program's memory: it takes several times as much, and the operators.
+// Whether this program is built with a sanitizer, which takes several times as much memory and
+// replaces operator new.
 #pragma once
 
 namespace walktrack {

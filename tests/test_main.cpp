@@ -1,6 +1,6 @@
-// Every test draws its random numbers from generators keyed by its own name, so the order of tests
-// never matters and no seeding happens here. Temporary files go into a folder of this process's
-// own, so that the same tests can run twice at a time.
+// Every test draws its random numbers from generators keyed by its own name, so that the order of
+// tests does not matter and nothing is seeded here. Temporary files are written into a folder of
+// this process, so that the same tests can run twice at a time.
 #include <cstdlib>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Run again with another configuration or other inputs, nothing of the old is taken for the new:
-// what differs is named, and -y makes it again.
+// A command that is run again with another configuration or other inputs does not take the old
+// result for the new one: it states the differences, and computes the result again with -y.
 #include <filesystem>
 #include <stdexcept>
 
@@ -31,7 +31,7 @@ class Changes : public testing::Test {
 
   Changes() { record("in/a", 1), record("in/b", 2); }
 
-  // Other seeds, other noise in the pictures.
+  // Another seed gives other noise in the images.
   void record(const std::string& name, int seed) const {
     const std::string options = folder_.write("walk.yaml", kWalk);
     const ProgramResult made = run_walktrack({"render", "--options", options, "--seed",
@@ -90,7 +90,7 @@ TEST_F(Changes, ATrackSaysWhatHasChanged) {
   EXPECT_THAT(track().err, HasSubstr("these very settings and inputs"));
 }
 
-TEST_F(Changes, AVersionIsOneOfThem) {
+TEST_F(Changes, AnotherProgramVersionIsStated) {
   ASSERT_EQ(track().exit_code, 0);
   std::string text = record("a");
   const size_t at = text.find("\"version\": \"") + 12;
@@ -98,7 +98,8 @@ TEST_F(Changes, AVersionIsOneOfThem) {
   EXPECT_THAT(track().err, HasSubstr("(version of the program older "));
 }
 
-// What is complete and of other settings stays, the rest is done; named once, with its cause.
+// Complete results of other settings are kept, the rest is tracked; the difference is stated once,
+// with its cause.
 TEST_F(Changes, ABatchKeepsNamesAndDoesTheRest) {
   ASSERT_EQ(batch().exit_code, 0);
   const std::string a = record("out/a"), b = record("out/b");
@@ -137,7 +138,7 @@ TEST_F(Changes, ABatchSeesAnotherVideoAndAnotherCalibration) {
   EXPECT_THAT(again.err, AllOf(HasSubstr("side.mp4 has changed"), HasSubstr(": a\n"),
                                HasSubstr("\n  side.yaml has changed: b\n")));
   EXPECT_EQ(joints("out/a"), a);
-  // Also where the video has kept its size and its time, as only its content tells.
+  // A changed video is also detected if its size and time are the same, by its content.
   EXPECT_EQ(batch({"-y"}).exit_code, 0);
   const fs::path video = folder_.path() / "in/a/side_background.mp4";
   const auto time = fs::last_write_time(video);
@@ -166,7 +167,8 @@ TEST_F(Changes, ABatchOfVideosSeesAnotherTemplate) {
   EXPECT_THAT(run(words, {}).exit_code, AnyOf(0, 4));
 }
 
-// What was to be made again and failed is no success because the earlier result is still there.
+// A result that was to be made again and failed is no success, although the earlier result still
+// exists.
 TEST_F(Changes, ABatchSaysThatRemakingFailed) {
   ASSERT_THAT(batch().exit_code, AnyOf(0, 4));
   const std::string kept = record("out/a");

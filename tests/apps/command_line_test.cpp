@@ -1,4 +1,4 @@
-// The command line from outside: exit codes, where output goes, and what messages say.
+// The command line from outside: exit codes, output streams, and messages.
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -66,7 +66,7 @@ TEST(CommandLine, SaysItsVersionAndBuild) {
   EXPECT_THAT(result.out, MatchesRegex("walktrack [0-9.]+\ncommit [0-9a-z]+\nbuilt .+ by .+\n"));
 }
 
-// One place says it; the package takes it from there too (apps/install.cmake).
+// The version is stated in one place, from which the package takes it, too (apps/install.cmake).
 TEST(CommandLine, ItsVersionIsThatOfTheProject) {
   const std::string project = read_file(WALKTRACK_SOURCE_DIR "/CMakeLists.txt");
   const std::string before = "project(walktrack VERSION ";
@@ -83,7 +83,7 @@ TEST(CommandLine, WithoutACommandShowsTheOverview) {
   EXPECT_THAT(result.err, IsEmpty());
 }
 
-// The program as `cmake --install` lays it down: PREFIX/bin, and the demo in PREFIX/share.
+// The program as `cmake --install` installs it: PREFIX/bin, and the demo in PREFIX/share.
 TEST(CommandLine, InstalledItsExamplesNameTheInstalledDemo) {
   const TemporaryFolder prefix;
   namespace fs = std::filesystem;

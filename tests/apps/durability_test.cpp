@@ -1,5 +1,6 @@
-// The batch and what may happen to it: killed at any moment, told to stop, no space, no permission,
-// sequences that are broken in every way. With WALKTRACK_SLOW set, at the scale that is promised.
+// The batch under adverse conditions: killed at any moment, interrupted, without space, without
+// permission, and with sequences that are broken in every way. With WALKTRACK_SLOW set, at the
+// scale that is promised.
 #include <signal.h>
 
 #include <chrono>
@@ -68,13 +69,14 @@ class Durability : public testing::Test {
   std::vector<std::string> batch(const std::string& out) const {
     return {"batch", in().string(), "-o", folder_ / out, "--jobs", "2", "--threads", "1", "--set",
             "filter.particles=20", "--set", "start.particles=10",
-            // Half a second of walking need not hold a step.
+            // Half a second of walking need not contain a step.
             "-c", kAnyQuality,
-            // Whoever is killed while tracking, which begins soon, leaves a checkpoint.
+            // A process that is killed during tracking, which begins soon, leaves a checkpoint.
             "--set", "checkpoint.seconds=0", "--set", "start.seconds=0.1"};
   }
 
-  // What must not depend on when the batch ran: all files but logs, times and what shows them.
+  // What must not depend on the time of the batch: all files except logs, times and files that
+  // contain times.
   std::map<std::string, std::string> results(const std::string& out) const {
     std::map<std::string, std::string> found;
     if (!fs::exists(folder_.path() / out)) return found;  // killed before it did anything
@@ -102,7 +104,7 @@ class Durability : public testing::Test {
     }
     return kept;
   }
-  // Who holds a run.json holds the right bytes, whatever happened to the batch.
+  // Sequences with a run.json have the right bytes, whatever happened to the batch.
   void expect_complete_ones_sound(const std::string& out,
                                   const std::map<std::string, std::string>& sound) const {
     const auto found = results(out);
@@ -133,7 +135,7 @@ class Durability : public testing::Test {
       again.insert(again.end(), options.begin(), options.end());
       {
         StartedProgram program(WALKTRACK_BINARY, again);
-        // Up to the expected end.
+        // Waits for up to the expected duration.
         std::this_thread::sleep_for(whole * (static_cast<double>(random()) / std::mt19937::max()));
         program.send(SIGKILL);
         unfinished += program.wait() == 128 + SIGKILL;
@@ -152,10 +154,11 @@ class Durability : public testing::Test {
         EXPECT_TRUE(sound.contains(each.first)) << each.first << ", kill " << kill;
       fs::remove_all(folder_.path() / out);
     }
-    // Else the test has killed little; on a busy machine the first run takes longer than others.
+    // Otherwise the test has killed little; on a busy machine the first run takes longer than
+    // others.
     EXPECT_GE(unfinished, kills / 4);
   }
-  // With a work folder a sequence is there with all its files or not at all.
+  // With a work folder a sequence has either all its files or none.
   void expect_whole_ones_only(const std::string& out) const {
     for (int i = 0; i < 3; ++i) {
       const fs::path place = folder_.path() / out / numbered(i);
@@ -190,7 +193,7 @@ TEST_F(Durability, StopsWhenToldAndGoesOnLater) {
   EXPECT_EQ(results("stopped2"), results("stopped15"));
 }
 
-// A limit on the size of a file fails writes as a full disk does, wherever it strikes.
+// A limit on the size of files makes writes fail like a full disk, at any place.
 TEST_F(Durability, WithoutSpaceNothingHalfWrittenIsTakenForComplete) {
   add_sequences(1);
   const std::string shell =
@@ -211,7 +214,7 @@ TEST_F(Durability, WithoutSpaceNothingHalfWrittenIsTakenForComplete) {
     const bool complete = fs::exists(folder_.path() / "full/s0/run.json");
     EXPECT_EQ(run.exit_code, complete ? 0 : 1) << blocks << run.err;
     failed += !complete;
-    if (!complete) {  // somebody has made room
+    if (!complete) {  // there is space again
       track.push_back("--resume");
       EXPECT_EQ(run_walktrack(track).exit_code, 0);
       track.pop_back();
@@ -223,14 +226,14 @@ TEST_F(Durability, WithoutSpaceNothingHalfWrittenIsTakenForComplete) {
 
 TEST_F(Durability, SaysWhereItMayNotWrite) {
   add_sequences(1);
-  // Not even root makes folders there.
+  // Not even root can create folders there.
   const ProgramResult run =
       run_walktrack({"track", (in() / "s0/scene.yaml").string(), "-o", "/proc/walktrack"});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err, HasSubstr("/proc/walktrack"));
 }
 
-// Faults that recordings and scenes have had, each planted into the sequence of its number.
+// Faults of recordings and scenes, each planted into the sequence with its number.
 using Plant = void (*)(const fs::path& sequence, const std::string& scene);
 
 void put(const fs::path& file, const std::string& content) {
@@ -265,7 +268,7 @@ const std::vector<Plant>& faults() {
       [](const fs::path& s, const std::string&) { fs::remove(s / "side.mp4"); },
       [](const fs::path& s, const std::string&) { put(s / "side.mp4", ""); },
       [](const fs::path& s, const std::string&) { put(s / "side.mp4", "no video at all"); },
-      [](const fs::path& s, const std::string&) {  // cut off in the middle: no index
+      [](const fs::path& s, const std::string&) {  // truncated in the middle: no index
         fs::resize_file(s / "side.mp4", fs::file_size(s / "side.mp4") / 2);
       },
       [](const fs::path& s, const std::string&) {  // a folder without images
@@ -283,7 +286,7 @@ const std::vector<Plant>& faults() {
         put(s / "side.yaml", replaced(text, "image_width: 96", "image_width: .nan"));
       },
       [](const fs::path& s, const std::string&) { put(s / "side_background.mp4", "no video"); },
-      [](const fs::path& s, const std::string&) {  // images that change their size
+      [](const fs::path& s, const std::string&) {  // images of different sizes
         fs::remove(s / "side.mp4");
         fs::create_directory(s / "side.mp4");
         std::string large = "P6 96 72 255\n", small = "P6 96 71 255\n";
@@ -321,7 +324,7 @@ TEST_F(Durability, BrokenSequencesCostOneRowEach) {
   EXPECT_EQ(named, kinds);
   EXPECT_THAT(read_file(folder_ / "out/failures.txt"), HasSubstr("frame 1 is 96x71 px"));
   RecordProperty("peak_memory_mb", static_cast<int>(program.peak_memory()));
-  // The largest process of all: one that tracks 96 x 72 pixels, not a batch that grows.
+  // The largest process is one that tracks 96 x 72 pixels, not a growing batch.
   if (!kSanitized) {
     EXPECT_LT(program.peak_memory(), 200);
   }

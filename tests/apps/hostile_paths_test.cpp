@@ -1,5 +1,5 @@
-// Names that files may have, and links that lie where results go: nothing is written outside the
-// output folder, and what names hold is data wherever it is printed.
+// Unusual file names, and links in output folders: nothing is written outside the output folder,
+// and names are escaped wherever they are printed.
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -39,7 +39,7 @@ class HostilePaths : public testing::Test {
     return run_walktrack({"batch", in, "-o", out, "--threads", "1", "--set", "filter.particles=5",
                           "--set", "start.particles=5", "-c", kAnyQuality});
   }
-  // Every file below the folder, the output folder left out, with what it holds.
+  // Every file below the folder, except for the output folder, with its content.
   std::map<std::string, std::string> outside() const {
     std::map<std::string, std::string> found;
     for (auto entry = fs::recursive_directory_iterator(folder_.path()); entry != fs::end(entry);
@@ -84,7 +84,7 @@ TEST_F(HostilePaths, NamesAreDataWhateverTheyHold) {
   EXPECT_THAT(report, HasSubstr("<title>&lt;b&gt;&amp;&quot;"));
 }
 
-// A scene may point anywhere for what it reads; what is written stays in the output folder.
+// A scene may refer to inputs anywhere; everything that is written stays in the output folder.
 TEST_F(HostilePaths, DotsAndLinksOfScenesLeadNoResultAstray) {
   const std::string scene = read_file(folder_ / "walk/scene.yaml");
   std::string up = scene;
@@ -111,7 +111,7 @@ TEST_F(HostilePaths, LinksInTheOutputAreRefusedAndNotFollowed) {
     fs::create_directories(folder_.path() / "out/s");
     fs::create_symlink(target, link);
     const ProgramResult run = batch(folder_ / "in", folder_ / "out");
-    // What the batch itself would write stops it; the rest costs the sequence.
+    // A link at a file of the batch itself stops it; any other link fails one sequence.
     EXPECT_THAT(run.err, HasSubstr(std::string(file) + ": found a file that 'walktrack "));
     EXPECT_NE(run.exit_code, 0);
     EXPECT_EQ(read_file(target), "mine");

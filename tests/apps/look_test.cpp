@@ -1,5 +1,5 @@
-// `track` and `batch` look at a scene before they begin: what is wrong with it stops them with its
-// cure, unless that is to be ignored. The shipped demo with one fault at a time.
+// `track` and `batch` check a scene before they begin: failures stop them with advice, unless they
+// are to be ignored. The tests use the shipped demo with one fault at a time.
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
@@ -61,7 +61,7 @@ class Look : public testing::Test {
                                "filter.particles=60", "--set", "start.particles=30"});
     return run_walktrack(more);
   }
-  // Refused in one line, before anything is written.
+  // The error is one line, and nothing is written.
   void expect_refused(const testing::Matcher<const std::string&>& said) const {
     const ProgramResult result = run("track", "in/scene.yaml");
     EXPECT_EQ(result.exit_code, 3) << result.err;
@@ -135,7 +135,7 @@ TEST_F(Look, IgnoresFailuresWhenTold) {
   EXPECT_THAT(read_file(folder_ / "out/report.html"), HasSubstr(said));
 }
 
-TEST_F(Look, ABatchLooksToo) {
+TEST_F(Look, ABatchChecksItsScenesToo) {
   set_scene("", "frame_rate: 60\n");
   ProgramResult result = run("batch", "");
   EXPECT_EQ(result.exit_code, 1) << result.err;

@@ -1,4 +1,4 @@
-// The manual page and the completion, which are made of the program's own declarations.
+// The manual page and the completion, which are generated from the program's own declarations.
 #include <cstdlib>
 
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ TEST(Manual, HasEveryCommandWithItsOptionsAndExample) {
   EXPECT_THAT(page, HasSubstr(".SH EXIT STATUS"));
 }
 
-// A line that starts with a point or a quote is a request; only those of man(7) may be there.
+// A line that begins with a point or a quote is a request; only those of man(7) may occur.
 TEST(Manual, HasNoRequestsByAccident) {
   for (const std::string& line : lines(run_walktrack({"--help-man"}).out)) {
     if (!line.starts_with(".") && !line.starts_with("'")) continue;
@@ -42,7 +42,7 @@ TEST(Manual, HasNoRequestsByAccident) {
   }
 }
 
-// What the shell would offer after these words, the last of them being typed.
+// The completions after these words, the last of which is being typed.
 std::vector<std::string> offered(const std::string& words, int at) {
   const std::string script = "set -u; compopt() { :; }; source '" WALKTRACK_SOURCE_DIR
                              "/apps/completion.bash'; "

@@ -1,4 +1,4 @@
-// A program that has been copied somewhere without its network says so.
+// A program that was copied without its network reports that.
 #include <filesystem>
 #include <string>
 
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(MissingNetwork, IsSaidWhereItWouldBeAsked) {
+TEST(MissingNetwork, IsReportedWhereItWouldBeUsed) {
   const TemporaryFolder folder;
   const std::string program = folder / "walktrack", demo = kDemo.string();
   fs::copy_file(WALKTRACK_BINARY, program);

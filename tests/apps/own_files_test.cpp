@@ -1,5 +1,5 @@
-// Whatever command writes into whatever folder: files of the user's are neither removed nor
-// overwritten, also with -y, and the message says what to do.
+// No command removes or overwrites the user's files in any folder, also with -y, and the message
+// gives advice.
 #include <signal.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class OwnFiles : public testing::Test {
             "-c",        kAnyQuality,
             "-o",        output};
   }
-  // The walk as somebody else has made it: without our marker.
+  // The walk in a scene that somebody else has made, without a marker.
   std::string foreign_scene(const std::string& name) const {
     const fs::path to = folder_.path() / name;
     fs::copy(folder_ / "walk", to, fs::copy_options::recursive);
@@ -109,7 +109,7 @@ TEST_F(OwnFiles, TrackReplacesItsOwnAndNothingElse) {
   again.insert(again.end(), {"-y", "--no-overlay"});
   EXPECT_THAT(run_walktrack(again).exit_code, AnyOf(0, 4));
   EXPECT_EQ(read_file(out + "/notes.txt"), "mine");
-  EXPECT_FALSE(fs::exists(out + "/overlay_side.mp4"));  // which this run did not make
+  EXPECT_FALSE(fs::exists(out + "/overlay_side.mp4"));  // of an earlier run
 }
 
 TEST_F(OwnFiles, RenderReplacesOnlyItsOwnScenes) {
@@ -127,7 +127,8 @@ TEST_F(OwnFiles, RenderReplacesOnlyItsOwnScenes) {
   EXPECT_EQ(read_file(folder_ / "walk/side_points.csv"), "mine");
 }
 
-// The options may lie in the folder, as those of the demo do; a camera's name leads nowhere else.
+// The options file may be in the folder, as that of the demo is; a camera's name cannot be a path
+// to another folder.
 TEST_F(OwnFiles, RenderTakesOptionsFromItsFolder) {
   const std::string options = folder_.write("scene/options.yaml", kWalkAndFilm);
   Words words{"render", "--options", options, "-o", folder_ / "scene"};

@@ -1,5 +1,5 @@
-// What programs read from a run: progress, messages and errors as JSON, one line with the result,
-// and logs of long runs.
+// Output for programs: progress, messages and errors as JSON, one line with the result, and logs of
+// long runs.
 #include "apps/progress_pace.h"
 
 #include <algorithm>

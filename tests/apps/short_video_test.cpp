@@ -1,5 +1,5 @@
-// Videos that are shorter than the window in which a walk is looked for, and what is said of those
-// in which nobody is found.
+// Videos that are shorter than the window in which a walk is searched, and messages for videos in
+// which nobody is found.
 #include <chrono>
 #include <filesystem>
 #include <iomanip>
@@ -24,7 +24,7 @@ class ShortVideo : public testing::Test {
     return run_walktrack({"track", scene, "-o", folder_ / "out", "-y", "--no-overlay", "--set",
                           "filter.particles=100"});
   }
-  // The demo's first frames, or its empty room.
+  // The first frames of the demo, or its empty room.
   std::string demo(int frames, const std::string& video = "") const {
     std::string text =
         "frame_rate: 30\nsubject: {height: 1.75}\nlast_frame: " + std::to_string(frames - 1) +
@@ -64,9 +64,10 @@ TEST_F(ShortVideo, IsSearchedFromHalfASecondOn) {
   }
 }
 
-// Frames over the time of the whole command, the same in the terminal and in the files.
+// The speed is the number of frames over the time of the whole command, the same in the terminal
+// and in the files.
 TEST_F(ShortVideo, StatesOneSpeedAndThatInTheStride) {
-  constexpr int kFrames = 50;  // longer than the search looks ahead, so that some are followed
+  constexpr int kFrames = 50;  // longer than the search window, so that some are followed
   const auto start = std::chrono::steady_clock::now();
   const ProgramResult result = track(demo(kFrames));
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
@@ -112,7 +113,7 @@ TEST_F(ShortVideo, OfSomebodyFarAwaySaysHowSmall) {
   EXPECT_THAT(result.err, testing::ContainsRegex("2[4-9] px high, at least 24 px are needed"));
 }
 
-// Somebody who stands still in the middle of a step.
+// A person who stands still in the middle of a step.
 TEST_F(ShortVideo, OfSomebodyWhoStandsIsNoWalk) {
   std::istringstream truth(read_file(kDemo / "truth.csv"));
   std::string header, row;

@@ -1,4 +1,4 @@
-// Synthetic worlds from outside: what `render` makes, `evaluate` measures.
+// Synthetic worlds from outside: `evaluate` measures scenes of `render`.
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -36,7 +36,7 @@ TEST(RenderCommand, TakesAGaitOrAResultFolderOrSaysWhatIsMissing) {
       run_walktrack({"render", folder / "result", "--options", plain, "-o", folder / "again"});
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(read_file(folder / "again/truth.csv"), read_file(folder / "scene/truth.csv"));
-  EXPECT_FALSE(fs::exists(folder / "again/kinetics.csv"));  // a motion alone has no physics
+  EXPECT_FALSE(fs::exists(folder / "again/kinetics.csv"));  // a motion without forces
   const ProgramResult nothing =
       run_walktrack({"render", "--options", plain, "-o", folder / "nothing"});
   EXPECT_EQ(nothing.exit_code, 2);

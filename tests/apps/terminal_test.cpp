@@ -1,4 +1,4 @@
-// What a person at a terminal sees, and what goes into a file instead.
+// The output on a terminal, and the output into a file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ class TerminalTest : public testing::Test {
 };
 
 TEST_F(TerminalTest, ShowsProgressInColourWithThePaceAndWhatIsLeft) {
-  const std::string seen = seen_with("NO_COLOR=");  // set, but empty: as if it were not
+  const std::string seen = seen_with("NO_COLOR=");  // set but empty counts as not set
   EXPECT_THAT(seen, HasSubstr("simulating [\033[32m"));
   EXPECT_THAT(seen, ContainsRegex("/20000  [0-9]+\\.[0-9]/s  [0-9]+ s left"));
   EXPECT_THAT(seen, HasSubstr("walktrack: kneed: "));

@@ -78,7 +78,7 @@ TEST(SimulateCommand, WalksOutOfTheAnthropomorphicWalkersTable) {
   EXPECT_TRUE(std::filesystem::exists(table));
 }
 
-// The picture's scale follows the figure; a foot of a thousand kilometres once took forever to
+// The scale of the image follows the figure: a foot of a thousand kilometres once took forever to
 // draw.
 TEST(SimulateCommand, DrawsGiants) {
   const TemporaryFolder temporary;
@@ -90,7 +90,7 @@ TEST(SimulateCommand, DrawsGiants) {
   EXPECT_TRUE(std::filesystem::exists(folder + "/animation.mp4"));
 }
 
-TEST(SimulateCommand, HasAnExitCodeForWhoDoesNotHoldOut) {
+TEST(SimulateCommand, HasAnExitCodeForWalkersThatFall) {
   const TemporaryFolder temporary;
   const ProgramResult fallen =
       run_walktrack({"simulate", "--model", "rimless_wheel", "--set", "start.qd=-0.5", "--duration",
@@ -105,7 +105,7 @@ TEST(SimulateCommand, HasAnExitCodeForWhoDoesNotHoldOut) {
   EXPECT_THAT(diverged.err, HasSubstr("diverged"));
 }
 
-// Nothing is clamped, ignored or tried for ever: one line says what is allowed.
+// Nothing is clamped, ignored or tried for ever: one line states what is allowed.
 TEST(SimulateCommand, RefusesWhatItWouldNotDo) {
   const TemporaryFolder temporary;
   const auto refused = [&](const std::vector<std::string>& words, const std::string& message) {
@@ -146,7 +146,7 @@ TEST(PriorCommand, RefusesOptionsOfItsOtherHalf) {
       2);
 }
 
-// A model file that is wrong is not a model that is missing.
+// The error for a wrong model file differs from that for a missing one.
 TEST(WalkerCommands, NameWhatIsWrongInAModelFile) {
   const TemporaryFolder temporary;
   const std::string file = temporary / "model.yaml";

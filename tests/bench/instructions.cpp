@@ -1,5 +1,5 @@
 // Fixed work for callgrind: every group of functions runs between two marks, and callgrind writes
-// what it counted to a file of the group's name. tests/bench/count_instructions.py runs and reads.
+// its counts to a file with the group's name, for tests/bench/count_instructions.py.
 #include <valgrind/callgrind.h>
 
 #include <cmath>

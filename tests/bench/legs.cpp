@@ -15,8 +15,8 @@ constexpr int kSubSteps = 17;
 constexpr double kFrame = 0.108;  // 1/30 s for an adult, in units L = M = g = 1
 constexpr double kStep = kFrame / kSubSteps * (1 + 1e-9);
 
-// Walkers all over the steps of a published cycle (configs/models/kuo_level_spring.yaml), none of
-// which ends within a frame.
+// Walkers at all moments of the steps of a published cycle (configs/models/kuo_level_spring.yaml),
+// none of which ends within a frame.
 struct LegsCrowd {
   StraightModel model = straight_model({.gravity = 1});
   std::vector<StraightControls> controls;
@@ -59,8 +59,8 @@ std::vector<double> columns(Vector2 StraightState::*field) {
   return out;
 }
 
-// Four evaluations for each sub-step of a frame, one at the begin; strikes looked for, states
-// loaded and stored.
+// Four evaluations for each sub-step of a frame and one at the beginning, including the search for
+// strikes, loading and storing.
 void legs_batch(benchmark::State& state) {
   const LegsCrowd& c = crowd();
   const std::vector<double> durations(kWalkers, kFrame);

@@ -1,4 +1,4 @@
-// The anthropomorphic walker's benchmarks, legs.cpp, and what all benchmarks say.
+// The anthropomorphic walker's benchmarks, legs.cpp, and the counters of all benchmarks.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -11,7 +11,7 @@ inline void set_items(benchmark::State& state, double items) {
   state.counters["s_each"] = Counter(items, Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
-// Throws unless the limit of the anthropomorphic walker computes what the walker does.
+// Throws unless the limit of the anthropomorphic walker computes the same as the walker.
 void check_legs();
 
 }  // namespace walktrack

@@ -1,6 +1,6 @@
-// How fast this machine can be at all: the least code for the same numbers, without our duties
-// (torques, knee stops, events, any lens, any machine). Compiled for the machine at hand with all
-// freedom for the compiler, hence plain types only.
+// The limits of this machine: the least code for the same numbers, without the other tasks
+// (torques, knee stops, events, any lens, any machine). Compiled for the present machine with all
+// optimisations, hence plain types only.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace walktrack::limits {
 
-// Forward dynamics under gravity and Coriolis forces, angles below pi/2. The model's fields as in
-// KneedModel. Arrays are [coordinate][walker]; `count`, a multiple of 8, is their pitch.
+// Forward dynamics with gravity and Coriolis forces, angles below pi/2. The model's fields are
+// those of KneedModel. Arrays are [coordinate][walker]; `count`, a multiple of 8, is their pitch.
 struct Linkage {
   double couple[5][5], skew[5][5], along[5], across[5];
   double radius, total_mass, gravity_x, gravity_z;
@@ -26,7 +26,7 @@ struct Legs {
 void accelerations(const Legs& legs, size_t count, const double* q, const double* qd, double* qdd);
 
 // A silhouette: edges row by row in single precision, overlaps of parts counted once, one plane of
-// prefix sums for all. Pixels.
+// prefix sums for all. In pixels.
 struct TaperedPart {
   float x[2], y[2], radius[2];
 };

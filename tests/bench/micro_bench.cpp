@@ -1,5 +1,5 @@
-// Times of the kernels and of what they are compared with. Every benchmark reports `s_each`,
-// seconds for one item; tests/bench/ratios.py makes ratios of them.
+// Times of the kernels and of their alternatives. Every benchmark reports `s_each`, the seconds for
+// one item; tests/bench/ratios.py computes ratios.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -142,7 +142,7 @@ void frame_batch(benchmark::State& state) {
 BENCHMARK(frame_batch);
 
 // One evaluation of the dynamics inside the batch kernel: four for each of 17 sub-steps, one at the
-// begin. Walkers who meet no event; loading and storing of states included.
+// beginning. The walkers have no event; loading and storing of states is included.
 void dynamics_batch(benchmark::State& state) {
   const WalkerCrowd& c = crowd();
   const KneedLimits limits{.max_step = 0.002};
@@ -259,7 +259,7 @@ void gait_lookup(benchmark::State& state) {
 }
 BENCHMARK(gait_lookup);
 
-// Peers and limits must compute what we compute, or their times mean nothing.
+// Alternatives and limits must compute the same, or their times mean nothing.
 void check_dynamics() {
   const WalkerCrowd& c = crowd();
   const TmtWalker tmt(c.model);
@@ -295,7 +295,7 @@ void check_silhouettes() {
       throw std::runtime_error("the sum over pixels is another");
     const auto limit =
         static_cast<double>(limits::silhouette(limit_plane(ones), limit_parts(list)));
-    constexpr double kSinglePrecision = 1e-3;  // a border pixel here and there
+    constexpr double kSinglePrecision = 1e-3;  // some pixels at borders differ
     if (!(std::abs(limit / LogRatioPlanes::kNat / pixels - 1) < kSinglePrecision))
       throw std::runtime_error("the limit of a silhouette computes something else");
   }

@@ -1,4 +1,4 @@
-// What the kernels are compared with: other ways to compute the same.
+// Alternatives to the kernels: other ways to compute the same.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace walktrack {
 
-// Forward dynamics of the kneed walker as textbooks write it: with the parts' Jacobian T (15x5) and
-// the diagonal M, (T'MT) qdd = T'(f - M dT/dt qd) + torques, Eigen and its Cholesky factorisation.
+// Forward dynamics of the kneed walker as in textbooks: with the parts' Jacobian T (15x5) and the
+// diagonal M, (T'MT) qdd = T'(f - M dT/dt qd) + torques, Eigen and its Cholesky factorisation.
 struct TmtWalker {
   explicit TmtWalker(const KneedModel& model);
   Vector5 accelerations(const KneedControls& controls, const KneedState& state) const;
@@ -23,11 +23,11 @@ struct TmtWalker {
   double foot_radius;
 };
 
-// A planar biped of five links in MuJoCo, its stance foot hinged to the ground, joints with springs
-// and dampers, without contacts: one evaluation of its accelerations.
+// A planar biped of five links in MuJoCo, with its stance foot hinged to the ground, joints with
+// springs and dampers, without contacts: one evaluation of its accelerations.
 class MujocoBiped {
  public:
-  MujocoBiped();  // throws std::runtime_error where MuJoCo refuses the model
+  MujocoBiped();  // throws std::runtime_error if MuJoCo refuses the model
   ~MujocoBiped();
   // Joint angles and rates; returns an acceleration.
   double evaluate(const Vector5& q, const Vector5& qd);
@@ -37,7 +37,7 @@ class MujocoBiped {
   std::unique_ptr<World> world_;
 };
 
-// The sum over the visible silhouette by asking every pixel of every part's bounding box.
+// The sum over the visible silhouette by testing every pixel of every part's bounding box.
 double per_pixel_silhouette(const LogRatioPlanes& planes, const CapsuleList& capsules);
 
 }  // namespace walktrack

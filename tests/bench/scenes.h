@@ -1,5 +1,5 @@
-// Fixed work for benchmarks and instruction counts: walkers in the middle of a gait, a figure
-// before a camera, particles of the tracker. The same on every machine.
+// Fixed work for benchmarks and instruction counts: walkers in the middle of a gait, a figure in
+// front of a camera, particles of the tracker. The same on every machine.
 #pragma once
 
 #include <vector>
@@ -25,8 +25,8 @@ struct WalkerCrowd {
 };
 WalkerCrowd walker_crowd(size_t count);
 
-// Walking figures some 450 px high before a 640x480 camera: about 1,200 rows of parts and 45,000
-// pixels each, with planes of log-ratios of three appearances.
+// Walking figures some 450 px high in front of a 640x480 camera: about 1,200 rows of parts and
+// 45,000 pixels each, with planes of log-ratios of three appearances.
 struct FigureScene {
   Camera camera;
   Body body;
@@ -37,7 +37,7 @@ struct FigureScene {
 };
 FigureScene figure_scene(size_t poses);
 
-// Particles of the tracker that walk at 1.3 m/s, 30 frames a second.
+// Particles of the tracker that walk at 1.3 m/s, with 30 frames per second.
 struct ParticleScene {
   BodyModel model;
   GaitPrior prior;

@@ -1,4 +1,4 @@
-// A motion with something done to each of its rows: faults that trackers have, planted.
+// A motion with each of its rows changed, to plant faults of trackers.
 #pragma once
 
 #include <utility>

@@ -5,7 +5,7 @@
 
 namespace walktrack {
 
-// Even between -limit and limit.
+// Uniform between -limit and limit.
 inline double draw(Rng& rng, double limit) { return limit * (2 * rng.uniform() - 1); }
 
 }  // namespace walktrack

@@ -19,7 +19,7 @@ TEST(JointAngles, UprightIsZero) {
   for (const double angle : joint_angles({})) EXPECT_EQ(angle, 0);
 }
 
-// A mirrored pose has the other side's angles; turns to a side change sign, tilts do not.
+// A mirrored pose has the other side's angles; rotations to a side change sign, tilts do not.
 TEST(JointAngles, OfAMirroredPoseAreExchanged) {
   const Pose pose = some_pose();
   Pose mirror = pose;

@@ -78,7 +78,7 @@ TEST(ForwardKinematics, SignsOfTheAngles) {
   pose.tilt = 0.3;
   EXPECT_GT(forward_kinematics(body, pose).joints[Joint::kHead].x(), 0.1);
   EXPECT_GT(forward_kinematics(body, pose).joints[Joint::kLeftKnee].x(),
-            -0.2);  // the thigh keeps its angle to the pelvis, so it leans back
+            -0.2);  // the thigh keeps its angle to the pelvis, and therefore leans back
   pose = {};
   pose.heading = kPi / 2;
   EXPECT_GT(forward_kinematics(body, pose).joints[Joint::kLeftToe].y(), 0.1);
@@ -180,7 +180,7 @@ TEST(StandOn, LaysTheSoleAtItsPitchWhenTheLegMovesInItsPlane) {
     stand_on(body, Side::kLeft, ball, ankle_from_ball(body.lengths, pitch), pose);
     const Skeleton skeleton = forward_kinematics(body, pose);
     EXPECT_NEAR(std::asin(-skeleton.axes(Segment::kLeftFoot)(2, 0)), pitch, 1e-9);
-    // The joint lies above the point of contact by the ball's height and tips over with the foot.
+    // The joint is above the point of contact by the ball's height and tips over with the foot.
     const Vector3d toe = skeleton.joints[Joint::kLeftToe];
     EXPECT_NEAR((toe.head<2>() - ball.head<2>()).norm(), body.lengths.ball_height * std::sin(pitch),
                 1e-9);

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A motion whose every joint is at f(t) on each axis.
+// A motion in which every joint is at f(t) on each axis.
 template <typename F>
 Motion motion_of(std::vector<double> times, F f) {
   Motion motion{std::move(times), {}};

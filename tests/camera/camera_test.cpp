@@ -18,7 +18,7 @@ class EveryLens : public testing::TestWithParam<SampleCamera> {
  protected:
   Camera camera_ = sample_camera(GetParam());
   Rng rng_{7, Purpose::kTest};
-  // A point about the origin that lands in the image or close to it.
+  // A point around the origin that is in the image or near it.
   Vector3d random_point() {
     return {4 * rng_.uniform() - 2, 4 * rng_.uniform() - 2, 2.2 * rng_.uniform()};
   }
@@ -177,7 +177,7 @@ TEST(Camera, NoGroundAboveTheHorizon) {
 
 TEST(Camera, FisheyeHasNoRayBeyondItsHalfSpace) {
   const Camera camera = sample_camera({"fisheye", {0, 0, 0, 0}, true});
-  // theta_d = theta without coefficients: 90 degrees lie pi/2 focal lengths off the centre.
+  // theta_d = theta without coefficients: 90 degrees are pi/2 focal lengths from the centre.
   EXPECT_TRUE(unproject(camera, camera.centre_px + Vector2d(520 * 1.55, 0)));
   EXPECT_FALSE(unproject(camera, camera.centre_px + Vector2d(520 * 1.7, 0)));
 }

@@ -70,7 +70,7 @@ TEST(LensCoversImage, NoticesAFoldInsideTheImage) {
   for (const SampleCamera& lens : sample_lenses()) {
     EXPECT_TRUE(lens_covers_image(sample_camera(lens))) << lens.name;
   }
-  // r (1 - 1.5 r^2) turns round at r = 0.47; the corner is at 0.76.
+  // r (1 - 1.5 r^2) has its maximum at r = 0.47; the corner is at 0.76.
   EXPECT_FALSE(lens_covers_image(sample_camera({"folding", {-1.5, 0, 0, 0, 0}})));
 }
 

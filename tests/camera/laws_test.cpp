@@ -26,7 +26,7 @@ Eigen::Matrix3d some_rotation() {
   return Eigen::AngleAxisd(between(-3, 3), axis.normalized()).toRotationMatrix();
 }
 
-// Any place, lens and picture, as far as lenses bend.
+// A camera with any pose, lens and image size, within the usual limits of distortion.
 Camera some_camera() {
   Camera camera;
   camera.width_px = *rc::gen::inRange(16, 4000);
@@ -55,7 +55,7 @@ Camera some_camera() {
   return camera;
 }
 
-// What is seen somewhere in the picture, as far as the lens has a ray there.
+// A point that is visible in the image, if the lens has a ray there.
 struct Seen {
   Camera camera = some_camera();
   Eigen::Vector2d pixel{between(0, camera.width_px - 1), between(0, camera.height_px - 1)};

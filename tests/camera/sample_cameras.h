@@ -1,4 +1,4 @@
-// One camera of every lens model, for tests of whatever projects.
+// One camera for every lens model, for tests of projection.
 #pragma once
 
 #include <string>
@@ -26,7 +26,7 @@ inline std::vector<SampleCamera> sample_lenses() {
   };
 }
 
-// 3.2 m above the ground, 6 m off the origin, looking at it; 640 x 480.
+// 3.2 m above the ground, 6 m from the origin, looking at it; 640 x 480.
 inline Camera sample_camera(const SampleCamera& lens) {
   return looking_at(
       walktrack::lens({640, 480}, {520, 530}, {315, 245}, lens.coefficients, lens.fisheye),

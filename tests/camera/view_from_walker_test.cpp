@@ -79,8 +79,8 @@ TEST(ViewFromWalker, NearAndFarPlacesTellHeightAndTilt) {
   EXPECT_LT(view.height.sd, 1e-2);
 }
 
-// Of a walk straight across, the tilt is an assumption: so much for the height, nothing for the
-// scale.
+// For a walk straight across, the tilt is an assumption, which contributes to the uncertainty of
+// the height and not to that of the scale.
 TEST(ViewFromWalker, OneDistanceLeavesTheTiltOpen) {
   const Camera truth = made_camera(1000, 1.3, 0, 0);
   const WalkerView view = view_from_walker(seen_along(truth, {-2, 6}, {2, 6}, 1.7), usual(1000));
@@ -89,7 +89,7 @@ TEST(ViewFromWalker, OneDistanceLeavesTheTiltOpen) {
   EXPECT_LT(view.metres_per_px.sd / view.metres_per_px.value, 0.01);
 }
 
-// A wrong focal length makes the distance wrong by as much, and leaves the scale as it is.
+// A wrong focal length changes the distance in proportion, and does not affect the scale.
 TEST(ViewFromWalker, ScaleDoesNotNeedTheFocalLength) {
   const auto seen = seen_along(made_camera(1000, 1.3, 0, 0), {-2, 6}, {2, 6}, 1.7);
   ViewAssumptions given = usual(1200);
@@ -100,7 +100,7 @@ TEST(ViewFromWalker, ScaleDoesNotNeedTheFocalLength) {
   EXPECT_NEAR(view.distance.sd, 0.72, 0.1);
 }
 
-// The sides and diagonals of a tile, seen by the camera.
+// The sides and diagonals of a tile in the camera's image.
 std::vector<FloorLength> tile(const Camera& camera, Eigen::Vector2d at, double side) {
   const std::array<Eigen::Vector2d, 4> corners{at, at + Eigen::Vector2d(side, 0),
                                                at + Eigen::Vector2d(side, side),
@@ -116,7 +116,8 @@ std::vector<FloorLength> tile(const Camera& camera, Eigen::Vector2d at, double s
   return out;
 }
 
-// A tile on the floor tells what a walk straight across leaves open: tilt, focal length, distance.
+// A tile on the floor determines what a walk straight across does not: tilt, focal length,
+// distance.
 TEST(ViewFromWalker, ATileTellsTiltAndLens) {
   const Camera truth = made_camera(1000, 1.3, rad_from_deg(3), rad_from_deg(0.5));
   ViewAssumptions given = usual(1150);
@@ -141,7 +142,7 @@ TEST(ViewFromWalker, TwoPointsOnTheFloorTellTheScaleWhereTheStatureIsWrong) {
   ViewAssumptions given = usual(1000);
   given.tilt_sd = rad_from_deg(0.1);
   const auto seen = seen_along(truth, {-2, 6}, {2, 6}, 1.7);
-  given.row_sd = 0.05;  // the stature is a guess
+  given.row_sd = 0.05;  // the stature is uncertain
   given.floor = {{*project(truth, {-1, 5, 0}), *project(truth, {1, 5, 0}), 2}};
   given.stature = 1.7 * 1.04;
   const WalkerView view = view_from_walker(seen, given);
@@ -155,7 +156,8 @@ TEST(ViewFromWalker, SaysWhenAPointOfTheFloorIsInTheSky) {
   EXPECT_THROW(view_from_walker(seen_along(truth, {-2, 6}, {2, 6}, 1.7), given), InputError);
 }
 
-// Drawn from what is assumed, truth lies within two standard deviations as often as they say.
+// If the truth is drawn from the assumptions, it is within two standard deviations as often as
+// stated.
 TEST(ViewFromWalker, BandsHold) {
   constexpr int kTrials = 300;
   int height = 0, scale = 0, distance = 0;

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Axes as they come: z up, y up (OpenSim), z down, tilted floors, normals of any length.
+// Common axes: z up, y up (OpenSim), z down, tilted floors, normals of any length.
 const std::vector<std::pair<Vector3d, double>> kGrounds{
     {{0, 0, 1}, 0},  {{0, 0, 1}, 0.4},        {{0, 1, 0}, -0.2},  {{0, 0, -1}, 0.1},
     {{1, 0, 0}, 1},  {{0.1, -0.05, 1}, 0.03}, {{1e-8, 0, -1}, 0}, {{0, 0, 2}, 1},

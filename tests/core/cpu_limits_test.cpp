@@ -50,7 +50,7 @@ TEST(CpuLimits, GroupsAreThoseOfTheProcessAndAllAboveThem) {
     EXPECT_NO_THROW(cpu_groups(odd)) << odd;
 }
 
-// A file system as a container's process sees it.
+// A file system as a process in a container sees it.
 class Groups : public testing::Test {
  protected:
   std::optional<double> limit() const { return cpu_time_limit(root_.path()); }
@@ -69,7 +69,7 @@ TEST_F(Groups, TheTightestLimitOnTheWayUpHolds) {
   EXPECT_EQ(limit(), 3);
 }
 
-// The path is the host's, where the container sees its own group alone.
+// The path is the host's, although the container sees only its own group.
 TEST_F(Groups, OfVersionOneInAContainer) {
   root_.write("proc/self/cgroup", "4:cpu,cpuacct:/docker/0123\n0::/\n");
   root_.write("sys/fs/cgroup/cpu,cpuacct/cpu.cfs_quota_us", "-1\n");
@@ -79,7 +79,7 @@ TEST_F(Groups, OfVersionOneInAContainer) {
   EXPECT_EQ(limit(), 2.5);
 }
 
-// As `taskset -c 0` or a Slurm job of one CPU: a process that may use one of many.
+// As with `taskset -c 0` or a Slurm job with one CPU: a process that may use one of many.
 TEST(HardwareThreads, AreThoseThatTheProcessMayUse) {
   const pid_t child = fork();
   if (child == 0) {

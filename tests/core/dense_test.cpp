@@ -16,7 +16,7 @@ MatrixXd rank_one() {
   return out;
 }
 
-// The residual is orthogonal to all that `a` can reach, the solution to all that it cannot see.
+// The residual is orthogonal to the range of `a`, the solution to its null space.
 TEST(LeastSquares, IsShortestOfTheBest) {
   const MatrixXd a = rank_one();
   const VectorXd b = Eigen::Vector2d(1, 5), x = least_squares(a, b);
@@ -34,7 +34,7 @@ TEST(NullSpace, IsOrthonormal) {
 }
 
 TEST(Eigenvalues, AreInOrder) {
-  MatrixXd turning(3, 3);  // a quarter turn, twice as large, and a shrinking axis
+  MatrixXd turning(3, 3);  // a quarter turn, scaled by two, and a shrinking axis
   turning << 0, -2, 0, 2, 0, 0, 0, 0, 0.5;
   const Eigen::VectorXcd values = eigenvalues(turning);
   EXPECT_LT(std::abs(values(0) - std::complex<double>(0, 2)), 1e-14);
@@ -54,8 +54,8 @@ TEST(MinimiseSquares, FollowsAValley) {
   EXPECT_LT(fit.residuals.norm(), 1e-8);
 }
 
-// The mean of numbers, each of standard deviation 1, is known to 1 / sqrt(n).
-TEST(MinimiseSquares, KnowsHowWell) {
+// The mean of n numbers with standard deviation 1 has the standard deviation 1 / sqrt(n).
+TEST(MinimiseSquares, StatesTheUncertainty) {
   const Eigen::Vector4d numbers(1, 2, 4, 9);
   const LeastSquaresFit fit = minimise_squares(
       [&](const VectorXd& x) { return VectorXd(numbers.array() - x[0]); }, VectorXd::Zero(1));

@@ -27,7 +27,7 @@ TEST(NearestWord, FindsATypoAndRefusesAStranger) {
   EXPECT_EQ(nearest_word("vidoe", {"name", "video"}), "video");  // one edit, no more are allowed
   EXPECT_EQ(nearest_word("background", keys), "");
   EXPECT_EQ(nearest_word("", {}), "");
-  // At the bound: two letters more than six, of which two may differ.
+  // At the limit: two letters more than six, of which two may differ.
   EXPECT_EQ(nearest_word("speeds", {"speedsxx"}), "speedsxx");
   EXPECT_EQ(nearest_word("speeds", {"speedsxxx"}), "");
 }

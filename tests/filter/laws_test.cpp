@@ -1,4 +1,4 @@
-// Laws of weights, resampling and the filter, for whatever numbers come along.
+// Laws of weights, resampling and the filter, for random inputs.
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDead = -std::numeric_limits<double>::infinity();
 
-// Log-weights of every size that images make them, some dead.
+// Log-weights of all magnitudes that images give, some of them dead.
 std::vector<double> some_log_weights() {
   const auto weight = rc::gen::oneOf(
       rc::gen::just(kDead), rc::gen::map(rc::gen::inRange(-50, 50), [](int w) { return 0.2 * w; }),
@@ -32,7 +32,7 @@ RC_GTEST_PROP(LogWeightsLaw, NormaliseToOneAndCountBetweenOneAndAll, ()) {
   const std::vector<double> p = normalised_weights(w);
   const double sum = std::accumulate(p.begin(), p.end(), 0.0), ess = effective_sample_size(w);
   const auto alive = static_cast<double>(w.size() - size_t(std::count(w.begin(), w.end(), kDead)));
-  // A logarithm of 1e6 is rounded by 1e-10, which the weights then are off, relatively.
+  // A logarithm of 1e6 is rounded by 1e-10, which is the relative error of the weights.
   RC_ASSERT(std::abs(sum - (alive > 0 ? 1 : 0)) < 1e-9);
   RC_ASSERT(ess <= alive * (1 + 1e-9));
   RC_ASSERT(alive == 0 || ess >= 1 - 1e-9);
@@ -54,7 +54,7 @@ RC_GTEST_PROP(ResamplingLaw, CountsAreExpectedOnesRoundedAndTheDeadAreNeverChose
   }
 }
 
-// A filter on a line under a likelihood of steps: any finite height, or none at all.
+// A filter in one dimension with a piecewise constant likelihood: any finite values, or zero.
 struct Steps {
   std::vector<double> heights;
   double operator()(double x) const {
@@ -110,7 +110,7 @@ RC_GTEST_PROP(FilterLaw, NeverANumberThatIsNoneForAnyThreadsAndFromAnyState, ())
     RC_ASSERT(report.ess >= 1 - 1e-9);
     RC_ASSERT(report.ess <= config.particles * (1 + 1e-9));
     RC_ASSERT(report.accepted >= 0 && report.accepted <= 1);
-    // Another filter that takes the state goes on to the same particles.
+    // Another filter that takes the state continues to the same particles.
     resumed.filter().resume(one.filter().state());
     Line same = one;
     same.step(frame + 1, likelihood);

@@ -13,7 +13,7 @@ namespace {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-// The function for many points, counting them.
+// Evaluates the function for many points and counts them.
 template <typename F>
 auto for_all(const F& f, int* count = nullptr) {
   return [=](std::span<const Vector> points, std::span<double> values) {
@@ -28,7 +28,7 @@ Vector drawn(Eigen::Index n, Rng& rng) {
   return out;
 }
 
-// Kalman's update, of any number of correlated measurements, in one step.
+// Kalman's update, for any number of correlated measurements, in one step.
 TEST(MapEstimate, IsExactForNormalLikelihoods) {
   Rng rng(1, Purpose::kTest);
   for (Eigen::Index n = 1; n <= 6; ++n) {
@@ -49,7 +49,7 @@ TEST(MapEstimate, IsExactForNormalLikelihoods) {
   }
 }
 
-// On a grid, of something that is neither normal nor concave everywhere.
+// Compared with a grid, for a posterior that is neither normal nor concave everywhere.
 TEST(MapEstimate, ClimbsToThePeakOfOtherOnes) {
   const auto f = [](const Vector& x) {
     const double ridge = x[1] - 0.4 * x[0];
@@ -72,15 +72,15 @@ TEST(MapEstimate, ClimbsToThePeakOfOtherOnes) {
   EXPECT_LT(off.dot(found.covariance.inverse() * off), 0.25) << "half a standard deviation";
 }
 
-// Between two peaks, where the likelihood is hollow.
-TEST(MapEstimate, LeavesAHollow) {
+// Between two peaks, where the likelihood is convex.
+TEST(MapEstimate, LeavesAMinimumBetweenTwoPeaks) {
   const auto f = [](const Vector& x) { return -30 * std::abs(std::abs(x[0]) - 1); };
   const Vector mean = Vector::Constant(1, 0.15), sd = Vector::Constant(1, 1);
   const auto found = map_estimate(mean, sd, 8, for_all(f));
   EXPECT_GT(f(found.at), f(mean) + 20);
 }
 
-// An edge that is far sharper than the prior: its shape is that of no normal distribution.
+// An edge that is far sharper than the prior, unlike any normal distribution.
 TEST(MapEstimate, ClimbsSharpEdges) {
   const Vector edge = Eigen::Vector4d(0.8, -1.1, 0.5, 1.4);
   const auto f = [&](const Vector& x) { return -200 * (x - edge).cwiseAbs().maxCoeff(); };
@@ -97,7 +97,7 @@ TEST(MapEstimate, StaysWhereNothingIsSaid) {
   EXPECT_LT((found.covariance - Matrix(sd.cwiseAbs2().asDiagonal())).norm(), 1e-12);
 }
 
-// Steps like a silhouette's over pixels, and worse.
+// Steps like those of a silhouette over pixels, and larger ones.
 TEST(MapEstimate, NeverEndsBelowThePriorsMean) {
   Rng rng(2, Purpose::kTest);
   for (int trial = 0; trial < 200; ++trial) {

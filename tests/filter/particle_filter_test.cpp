@@ -14,8 +14,8 @@
 namespace walktrack {
 namespace {
 
-// The model whose answer is known: x' = a x + q noise, y = x + r noise. A state is kept as what was
-// predicted and the standardised noise on top, so that a move is reversible with respect to the
+// The model with a known solution: x' = a x + q noise, y = x + r noise. A state consists of the
+// prediction and the standardised noise on top, so that a move is reversible with respect to the
 // prior (preconditioned Crank-Nicolson).
 struct LinearState {
   double predicted = 0, noise = 0;
@@ -40,7 +40,7 @@ struct LinearRun {
   std::vector<LinearState> states;
 };
 
-// The log-likelihood of one number, as if parts of it came from different cameras.
+// The log-likelihood of one number, split as if parts of it came from different cameras.
 struct InStages {
   std::function<double(const LinearState&)> whole;
   std::array<std::atomic<int>, kMaxStages>* asked;
@@ -113,7 +113,7 @@ void expect_kalman(const FilterConfig& config, double r, double spread,
     z_mean += std::pow((run.mean[t] - run.exact_mean[t]) / sigma, 2) / double(run.mean.size());
     z_evidence += (run.log_evidence[t] - run.exact_evidence[t]) / double(run.mean.size());
   }
-  EXPECT_GT(z_mean, 0.01);  // the tolerance is not idle
+  EXPECT_GT(z_mean, 0.01);  // the tolerance is small enough
   EXPECT_NEAR(z_evidence, 0, 5 * std::sqrt(spread / config.particles / 60.0));
 }
 

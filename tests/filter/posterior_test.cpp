@@ -1,8 +1,8 @@
-// The filter against exact posteriors of a small nonlinear model, and its evidence against the true
-// one, over many runs.
+// The filter compared with exact posteriors of a small nonlinear model, and its evidence with the
+// exact one, over many runs.
 //
-// The model is the growth model of Gordon, Salmond & Smith 1993, whose observation cannot tell x
-// from -x, so that posteriors have two modes:
+// The model is the growth model of Gordon, Salmond & Smith 1993, whose observation does not
+// distinguish x from -x, so that posteriors have two modes:
 //   x' = x/2 + 25 x / (1 + x^2) + 8 cos(1.2 t) + sqrt(10) n,   y = x^2 / 20 + n
 // Its exact filter is a sum over a fine grid.
 #include <algorithm>
@@ -19,8 +19,8 @@
 namespace walktrack {
 namespace {
 
-// What was predicted and the standardised noise on top, so that a move is reversible with respect
-// to the prior.
+// The prediction and the standardised noise on top, so that a move is reversible with respect to
+// the prior.
 struct GrowthState {
   double predicted = 0, noise = 0;
 };
@@ -43,7 +43,7 @@ std::vector<double> observations(uint32_t frames, uint64_t seed) {
   return y;
 }
 
-// Exact to the grid's fineness: a tenth of the narrowest scale.
+// Exact up to the grid's resolution: a tenth of the narrowest scale.
 class GridFilter {
  public:
   GridFilter() {
@@ -110,7 +110,8 @@ class GrowthFilter {
   ParticleFilter<GrowthState> filter_;
 };
 
-// Distribution functions at points all over both modes. `spread`: particles per effective one.
+// Compares distribution functions at points all over both modes. `spread`: particles per effective
+// one.
 void expect_exact(const FilterConfig& config, double spread) {
   constexpr uint32_t kFrames = 20;
   const std::vector<double> y = observations(kFrames, 3);
@@ -122,13 +123,13 @@ void expect_exact(const FilterConfig& config, double spread) {
     EXPECT_NEAR(filter.step(y[t], t), evidence, 5 * std::sqrt(spread / config.particles)) << t;
     for (double bound = -20; bound <= 20; bound += 2.5) {
       const double share = std::min(1.0, exact.below(bound));
-      // A grid cell beyond: its edge is not the bound.
+      // One grid cell further: the edge of the grid is not the limit.
       const double sigma = std::sqrt(share * (1 - share) * spread / config.particles);
       EXPECT_NEAR(filter.below(bound), share, 5 * sigma + 0.02) << t << ", below " << bound;
       largest = std::max(largest, std::min(share, 1 - share));
     }
   }
-  EXPECT_GT(largest, 0.3);  // there was something to tell
+  EXPECT_GT(largest, 0.3);  // the modes were distinct
 }
 
 TEST(Posterior, OfTwoModesIsFoundByThePlainFilter) {
@@ -140,8 +141,8 @@ TEST(Posterior, OfTwoModesIsFoundByTemperingAndMoves) {
 }
 
 // The estimate of the evidence, not of its logarithm, is unbiased for any number of particles (Del
-// Moral, "Feynman-Kac Formulae", 2004, theorem 7.4.2): its mean over runs is the exact one.
-// Adaptive tempering gives that up in principle; it may not show.
+// Moral, "Feynman-Kac Formulae", 2004, theorem 7.4.2): its mean over runs is the exact one. With
+// adaptive tempering this is not guaranteed, but a bias must not be visible.
 void expect_unbiased(FilterConfig config, int runs) {
   constexpr uint32_t kFrames = 6;
   const std::vector<double> y = observations(kFrames, 5);
@@ -159,7 +160,7 @@ void expect_unbiased(FilterConfig config, int runs) {
   double variance = 0;
   for (const double each : ratio) variance += (each - mean) * (each - mean) / (runs - 1);
   EXPECT_NEAR(mean, 1, 5 * std::sqrt(variance / runs));
-  // Sharp enough to see a bias of a tenth.
+  // The test is precise enough to see a bias of a tenth.
   EXPECT_LT(5 * std::sqrt(variance / runs), 0.1);
 }
 

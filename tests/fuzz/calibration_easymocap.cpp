@@ -1,4 +1,4 @@
-// One text stands for both files, for their keys differ.
+// One text is used for both files, because their keys differ.
 #include <string>
 
 #include "io/calibration/calibration.h"

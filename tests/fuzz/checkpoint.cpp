@@ -1,4 +1,4 @@
-// What follows a checkpoint's digest: any bytes, and a sound checkpoint with some bytes changed.
+// The part after a checkpoint's digest: any bytes, and a valid checkpoint with some bytes changed.
 #include "io/archive/checkpoint_file.h"
 #include "tests/fuzz/edited.h"
 #include "tests/fuzz/target.h"
@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
   static const std::string sound = checkpoint_bytes(sample_checkpoint({}));
   for (const std::string& text : {std::string(text_of(bytes, size)), edited(sound, bytes, size)}) {
     const FoundCheckpoint found = parse_checkpoint(text, "checkpoint.bin", {});
-    // What is believed is written as it was read.
+    // A checkpoint that is accepted is written as it was read.
     if (found.checkpoint && checkpoint_bytes(*found.checkpoint) != text) __builtin_trap();
   }
   return 0;

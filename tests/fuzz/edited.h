@@ -1,5 +1,6 @@
-// Sound bytes with some of them replaced, as a fuzz target's input says: two bytes of the place,
-// one of the value, and so on. Reaches what any bytes hardly would, whatever the format's version.
+// Valid bytes with some of them replaced according to a fuzz target's input: two bytes for the
+// place, one for the value, and so on. This reaches code that random bytes hardly reach, for any
+// version of the format.
 #pragma once
 
 #include <cstdint>

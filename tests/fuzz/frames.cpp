@@ -1,4 +1,4 @@
-// A file of frames: any bytes, and two sound records with some bytes changed.
+// A file of frames: any bytes, and two valid records with some bytes changed.
 #include "io/archive/files.h"
 #include "io/archive/frame_file.h"
 #include "tests/fuzz/edited.h"
@@ -23,7 +23,7 @@ void read(std::string_view text) {
   expect_value_or_error([&] {
     const FrameFile file(path, kRecords);
     for (size_t i = 0; i < kRecords; ++i) file[i];
-    // Whole files that are read back are those without trouble.
+    // The files that are read completely are those without an error.
     if (!trouble.empty() && file.bytes() == text.size()) __builtin_trap();
   });
 }

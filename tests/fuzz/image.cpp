@@ -1,5 +1,5 @@
-// Sizes are read from any bytes; small images are decoded too. The decoders are OpenCV's: faults in
-// them are not ours to find, but their exceptions are ours to catch.
+// Sizes are read from any bytes; small images are decoded, too. Faults in OpenCV's decoders are not
+// tested here, but their exceptions have to be caught.
 #include "io/video/image_size.h"
 
 #include <cstdlib>
@@ -11,7 +11,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
   using namespace walktrack;
-  constexpr int64_t kMostPixels = 4096;  // that are worth the time to decode
+  constexpr int64_t kMostPixels = 4096;  // limit of images that are decoded
   const auto image_size = image_size_from_header({bytes, size});
   if (!image_size) return 0;
   if (image_size->width < 1 || image_size->height < 1) std::abort();

@@ -1,4 +1,4 @@
-// A scene beside a camera file and a video, which it may name.
+// A scene beside a camera file and a video, to which it may refer.
 #include "io/scene/scene.h"
 #include "tests/fuzz/target.h"
 #include "tests/io/sample_files.h"

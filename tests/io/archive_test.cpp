@@ -60,7 +60,7 @@ TEST(Archive, WhatWasWrittenComesBack) {
   writer(full(), int64_t{-7});
   ArchiveReader reader(writer.bytes(), "a.bin");
   Everything found;
-  found.none = Inner{};  // what the reader finds there before does not stay
+  found.none = Inner{};  // the former value is replaced
   int64_t number = 0;
   reader(found, number);
   EXPECT_EQ(found, full());
@@ -86,7 +86,7 @@ TEST(Archive, ALengthBeyondTheBytesTakesNoMemory) {
   EXPECT_THROW(reader(list), InputError);
 }
 
-// What two ends of the same bytes make of them: one value written as A, read as B.
+// Writes a value as A and reads its bytes as B.
 template <typename Written, typename Read>
 Read read_as(const Written& written) {
   ArchiveWriter writer;
@@ -145,7 +145,7 @@ void fields(Archive& archive, T& value) {
   archive(inner);
 }
 
-// 1,000 bytes cannot hold 1,000 elements of 960: they are refused before there is memory for them.
+// 1,000 bytes cannot contain 1,000 elements of 960: the list is refused before memory is allocated.
 TEST(Archive, AListIsNoLongerThanTheBytesCanHold) {
   EXPECT_EQ(least_bytes<Wide>(), 960u);
   ArchiveWriter writer;

@@ -1,6 +1,6 @@
-// BVH files read without a line of the writer, and where their joints are: forward kinematics as
-// "Motion Capture File Formats Explained" (Meredith & Maddock 2001) has it, channels in their
-// order.
+// Reads BVH files independently of the writer, and computes the positions of their joints: forward
+// kinematics according to "Motion Capture File Formats Explained" (Meredith & Maddock 2001), with
+// channels in their order.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@
 namespace walktrack {
 
 struct BvhNode {
-  std::string name;  // of an end site: its parent's with "/end" behind it
+  std::string name;  // for an end site: its parent's with "/end" appended
   int parent = -1;
   Eigen::Vector3d offset{0, 0, 0};
   std::vector<std::string> channels{};

@@ -149,7 +149,7 @@ TEST(C3d, LongMotionsHaveMoreFramesThanTheHeaderCanCount) {
   EXPECT_NEAR(file.frames.back()[0].at.x(), 699990, 0.1);
 }
 
-// What Mokka and ezc3d draw: the stored vector turned into the laboratory's axes.
+// Mokka and ezc3d show the stored vector in the laboratory's axes.
 TEST(C3d, PlatesGiveForcesCentresAndFreeMomentsBack) {
   const Motion motion = numbered_motion(3);
   Kinetics forces;

@@ -1,4 +1,4 @@
-// C3D files as the C3D User Guide (c3d.org) describes them, read without a line of the writer:
+// Reads C3D files as the C3D User Guide (c3d.org) describes them, independently of the writer:
 // header, parameters by following their pointers, floats of the data section.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace walktrack {
 struct C3dValue {
   int type = 0;
   std::vector<size_t> dimensions;
-  std::vector<std::string> texts;  // of characters: without the blanks behind them
+  std::vector<std::string> texts;  // without the blanks after them
   std::vector<double> numbers;
 };
 
@@ -30,11 +30,11 @@ struct ReadC3d {
   double scale = 0, rate = 0;
   std::map<std::string, C3dValue> parameters;  // "POINT:LABELS"
   std::vector<std::vector<C3dPoint>> frames;
-  std::vector<std::vector<double>> channels;  // a frame's analog values
+  std::vector<std::vector<double>> channels;  // analog values of a frame
   size_t bytes = 0;
 
   const C3dValue& at(const std::string& name) const { return parameters.at(name); }
-  // A list that may go on as NAME2, NAME3, …
+  // A list that may continue as NAME2, NAME3, …
   std::vector<std::string> all_texts(const std::string& name) const {
     std::vector<std::string> out = at(name).texts;
     for (int k = 2; parameters.contains(name + std::to_string(k)); ++k)
@@ -153,8 +153,8 @@ inline ReadC3d read_c3d(const std::string& text) {
   return out;
 }
 
-// What a plate of type 2 says, in the laboratory's axes: the vector as it is stored, turned, and
-// the centre of pressure.
+// The values of a plate of type 2 in the laboratory's axes: the vector as it is stored, rotated,
+// and the centre of pressure.
 struct PlateReading {
   Eigen::Vector3d force, centre;
   double free_moment;  // about the vertical through the centre

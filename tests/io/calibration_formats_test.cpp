@@ -1,4 +1,4 @@
-// Calibration files of other people's tools: small ones of the same form, and real ones.
+// Calibration files of other tools: small ones of the same form, and real ones.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -129,7 +129,7 @@ TEST(TsaiCalibration, AgreesWithTheOpenCvFileOfTheRealPetsCamera) {
   const std::string tsai = shared_data("calibration/View_001.xml");
   if (!std::filesystem::exists(tsai)) GTEST_SKIP() << "no " << tsai;
   const Camera opencv = read_calibration(shared_data("pets_view001/view001.yaml"), "view001");
-  // The OpenCV file was fitted by someone else and is stated to agree within 0.0002 px.
+  // The OpenCV file was fitted by somebody else and is stated to agree within 0.0002 px.
   EXPECT_LT(largest_difference(read_calibration(tsai, "view001"), opencv), 1e-3);
   EXPECT_NO_THROW(read_calibration(shared_data("calibration/View_005.xml"), "view005"));
 }
@@ -140,7 +140,7 @@ TEST(TomlCalibration, AgreesWithTheOpenCvFilesOfARealRig) {
   for (const char* name : {"cam_01", "cam_02", "cam_03", "cam_04"}) {
     EXPECT_EQ(read_calibration(toml, name).width_px, 1088) << name;
   }
-  // The scene's OpenCV files hold the same poses; their images are cropped and shrunk.
+  // The scene's OpenCV files have the same poses; their images are cropped and shrunk.
   const Camera a = read_calibration(toml, "cam_01");
   const Camera b = read_calibration(shared_data("pose2sim_balance/cam01.yaml"), "cam01");
   EXPECT_LT((a.rotation - b.rotation).norm(), 1e-9);

@@ -1,5 +1,5 @@
-// Calibrations of OpenCap, Qualisys and EasyMocap. The files are those that the fuzz targets start
-// from; the pickles were written by numpy 1.24.
+// Calibrations of OpenCap, Qualisys and EasyMocap. The files are the seeds of the fuzz targets; the
+// pickles were written by numpy 1.24.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -73,7 +73,7 @@ TEST(OpencapCalibration, RefusesEveryPieceOfAFile) {
     EXPECT_THROW(camera_from_opencap(sound.substr(0, length), "c.pickle"), InputError) << length;
 }
 
-// A dictionary with one array of 300 zeros under so many names, as numpy writes it in protocol 5.
+// A dictionary with one array of 300 zeros under many names, as numpy writes it in protocol 5.
 std::string shared_array(int names) {
   using namespace std::string_literals;
   std::string out = "\x80\x05}"s + "\x8c\x01" + "a" + "\x8c\x12numpy.core.numeric" +
@@ -84,7 +84,7 @@ std::string shared_array(int names) {
   return out + ".";
 }
 
-// Memory is bounded by the file's size, however often the file refers to one array.
+// Memory is limited by the file's size, however often the file refers to one array.
 TEST(Pickle, DoesNotMultiplyWhatAFileHolds) {
   const auto arrays = read_pickled_arrays(shared_array(100), "c.pickle");
   ASSERT_EQ(arrays.size(), 2u);
@@ -103,8 +103,8 @@ TEST(QualisysCalibration, IsInPixelsMetresAndOurAxes) {
   EXPECT_EQ(camera.centre_px, Vector2d(960, 540));
   EXPECT_THAT(distortion_coefficients(camera), ElementsAre(-0.1, 0.02, 0.001, -0.002, 0.01));
   EXPECT_TRUE(camera_centre(camera).isApprox(Vector3d(0.5, -4, 1.5), 1e-12));
-  // It looks along y with z up: what is ahead is in the middle, what is higher further up, what is
-  // at larger x further right.
+  // It looks along y with z up: what is in front is in the middle, what is higher is further up,
+  // what has larger x is further right.
   EXPECT_TRUE(project(camera, Vector3d(0.5, 0, 1.5))->isApprox(Vector2d(960, 540), 1e-9));
   EXPECT_LT(project(camera, Vector3d(0.5, 0, 2.0))->y(), 450);
   EXPECT_GT(project(camera, Vector3d(1.0, 0, 1.5))->x(), 1050);
@@ -129,7 +129,7 @@ TEST(QualisysCalibration, NamesWhatIsWrong) {
   EXPECT_THAT(message("r11=\"1\"", "r11=\"2\""), HasSubstr("c.qca.txt:6: transform"));
   EXPECT_THAT(message("focalLengthU=\"70400\"", ""), HasSubstr("focalLengthU: found nothing"));
   EXPECT_THAT(message("right=\"1919\"", "right=\"-5\""), HasSubstr("-4 pixels"));
-  // What the first camera lacks is not taken from the second.
+  // Missing values of the first camera are not taken from the second.
   EXPECT_THAT(message("<intrinsic ", "<lens "), HasSubstr("no <intrinsic> element"));
   EXPECT_THAT(message_of([] { qualisys_names("<calibration>", "c"); }), HasSubstr("no <camera>"));
   std::string many;

@@ -1,5 +1,5 @@
-// Calibrations of Vicon (.xcp) and HumanEva (.cal). The files are those that the fuzz targets start
-// from, made by hand after the sources named in the readers: no real file was at hand.
+// Calibrations of Vicon (.xcp) and HumanEva (.cal). The files are the seeds of the fuzz targets,
+// made by hand according to the sources that the readers name, because no real file was available.
 #include <algorithm>
 #include <filesystem>
 
@@ -39,8 +39,8 @@ TEST(ViconCalibration, IsInMetresAndOurAxes) {
   EXPECT_EQ(camera.focal_px, Vector2d(1650.5, 1650.5));
   EXPECT_EQ(camera.centre_px, Vector2d(958.5, 541.5));
   EXPECT_TRUE(camera_centre(camera).isApprox(Vector3d(0.5, -4, 1.5), 1e-12));
-  // It looks along y: what is ahead is in the middle, what is higher further up, what is at larger
-  // x further right.
+  // It looks along y: what is in front is in the middle, what is higher is further up, what has
+  // larger x is further right.
   EXPECT_LT((*project(camera, Vector3d(0.5, 0, 1.5)) - Vector2d(958.5, 541.5)).norm(), 0.5);
   EXPECT_LT(project(camera, Vector3d(0.5, 0, 2.0))->y(), 400);
   EXPECT_GT(project(camera, Vector3d(1.0, 0, 1.5))->x(), 1100);
@@ -51,7 +51,7 @@ TEST(ViconCalibration, IsInMetresAndOurAxes) {
   EXPECT_GT(project(marker, Vector3d(2, -1, 2.5))->x(), 1400);
 }
 
-// Vicon puts pixels right; our lens bends rays. Both say the same of every part of the picture.
+// Vicon's model corrects pixels; Camera distorts rays. Both agree in every part of the image.
 TEST(ViconCalibration, LensesAreTurnedRound) {
   for (const char* name : {"2111001", "2108001"}) {
     const Camera camera = camera_from_vicon(calibration_corpus("vicon/rig.xcp"), "c", name);
@@ -95,7 +95,7 @@ TEST(ViconCalibration, NamesWhatIsWrong) {
               HasSubstr("Vicon3Parameter and five numbers"));
   EXPECT_THAT(message("FOCAL_LENGTH=\"1650.5\"", "FOCAL_LENGTH=\"0\""),
               HasSubstr("a positive number"));
-  // As where the coefficients were those of another unit.
+  // As if the coefficients had another unit.
   EXPECT_THAT(message(" 6e-08 ", " 0.06 "), HasSubstr("k1 k2 p1 p2 k3 describe only to"));
   EXPECT_THAT(message(" 6e-08 ", " 1e300 "), HasSubstr("a lens without end"));
   EXPECT_THAT(message("WORLD_ERROR=\"0.4\"/>",

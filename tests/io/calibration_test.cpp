@@ -116,7 +116,7 @@ TEST(ReadCalibration, ReadsTheRealPetsCamera) {
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   const Camera camera = read_calibration(file, "view001");
   EXPECT_EQ(camera.width_px, 768);
-  // The camera stands on a roof: known to look down from several metres.
+  // The camera is on a roof and looks down from several metres.
   EXPECT_GT(camera_centre(camera).z(), 5);
   EXPECT_LT(camera.rotation(2, 2), 0);
 }

@@ -49,14 +49,14 @@ TEST_F(CheckpointFile, IsOfNoUseForAnythingElseAndSaysForWhat) {
   EXPECT_EQ(found.changed, "scene abc -> abd");
 }
 
-TEST_F(CheckpointFile, NobodyHasToLeaveOne) {
+TEST_F(CheckpointFile, MayBeMissing) {
   const FoundCheckpoint found = read_checkpoint(folder_ / "none", kOrigin);
   EXPECT_FALSE(found.checkpoint);
   EXPECT_EQ(found.unfit, "");
 }
 
-// One bit of it or its last bytes: whatever is damaged.
-TEST_F(CheckpointFile, ADamagedOneIsNotBelieved) {
+// A damaged file, by one bit or without its last bytes.
+TEST_F(CheckpointFile, IsRefusedIfItIsDamaged) {
   const std::string sound = read_file(path_);
   for (size_t at = 0; at < sound.size(); at += 97) {
     std::string damaged = sound;
@@ -73,8 +73,8 @@ struct Damage {
   std::function<void(Checkpoint&)> change;
 };
 
-// Whoever changes a number can put the digest right, too.
-TEST_F(CheckpointFile, OneThatDoesNotFitTogetherIsNotBelievedWithTheRightDigestEither) {
+// A file with changed numbers may have a correct digest.
+TEST_F(CheckpointFile, IsRefusedIfItIsInconsistentEvenWithACorrectDigest) {
   const auto state = [](Checkpoint& c) -> WalkerParticle& {
     return c.tracker.filter.set.states[0];
   };
@@ -115,8 +115,8 @@ TEST_F(CheckpointFile, OneThatDoesNotFitTogetherIsNotBelievedWithTheRightDigestE
   EXPECT_THAT(parse_checkpoint(longer, "c.bin", kOrigin).unfit, HasSubstr("more than it"));
 }
 
-// A dead particle may be anything.
-TEST_F(CheckpointFile, NobodyAsksWhatTheDeadAre) {
+// The state of a dead particle is arbitrary.
+TEST_F(CheckpointFile, MayHaveAnyStateOfDeadParticles) {
   Checkpoint odd = sample_checkpoint(kOrigin);
   odd.tracker.filter.set.states[1].pose.root.x() = NAN;
   write_checkpoint(path_, odd);

@@ -39,7 +39,7 @@ TEST(ConfigFile, NamesLineKeyFoundAndAllowed) {
   EXPECT_THAT(message_for_file("seed: {a\n"), HasSubstr("broken YAML"));
 }
 
-// For one release files and --set may call a key as they did before; a message says what to write.
+// For one release files and --set may use the former name of a key; a message states the new one.
 TEST(ConfigFile, TakesTheKeysOfTheLastReleaseAndNamesTheNewOnes) {
   const TemporaryFolder folder;
   ConfigWithOrigin config;
@@ -65,7 +65,7 @@ TEST(ConfigTable, EveryRenamedKeyIsOneOfToday) {
   }
 }
 
-// What the fuzzer starts from should reach every parameter.
+// The seed of the fuzzer should contain every parameter.
 TEST(ConfigFile, TheFuzzersSeedStatesEveryKey) {
   ConfigWithOrigin config;
   apply_config_file(config, WALKTRACK_SOURCE_DIR "/tests/fuzz/corpus/config/everything.yaml");
@@ -91,7 +91,7 @@ TEST(ConfigPreset, EveryOneIsAConfigurationAndBalancedIsTheDefault) {
   }
 }
 
-// A file of that name wins.
+// A file of that name takes precedence.
 TEST(ConfigPreset, DoesNotHideAFile) {
   const TemporaryFolder folder;
   const std::string file = folder.write("fast", "seed: 99\n");
@@ -104,7 +104,7 @@ TEST(ConfigPreset, DoesNotHideAFile) {
   EXPECT_EQ(config.origin.size(), 1u);
 }
 
-// A folder of results may be called after the preset.
+// A folder of results may have the preset's name.
 TEST(ConfigPreset, IsNotHiddenByAFolder) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "fast");

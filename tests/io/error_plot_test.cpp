@@ -32,13 +32,13 @@ TEST(ErrorPlot, HasACurveABarAndANameForEachEstimate) {
   EXPECT_THAT(svg, HasSubstr(">first<"));
   EXPECT_THAT(svg, HasSubstr("a &lt; b &amp; c"));
   EXPECT_THAT(svg, HasSubstr(">lknee<"));
-  EXPECT_THAT(svg, Not(HasSubstr(">head<")));     // nobody knows it
+  EXPECT_THAT(svg, Not(HasSubstr(">head<")));     // never known
   EXPECT_EQ(count(svg, "fill=\"#0072b2\""), 2u);  // in the legend and as a bar
   EXPECT_EQ(count(svg, "http"), 1u);              // the name space; nothing is fetched
 }
 
-// The panel is 220 px high from 102 px on: 30 mm are three of its four ticks of 10 mm... of a
-// highest of 40; time runs from 60 to 880 px.
+// The panel is 220 px high from 102 px on: 30 mm are three of its four ticks of 10 mm; time extends
+// from 60 to 880 px.
 TEST(ErrorPlot, DrawsErrorsToScaleFromZeroUp) {
   const std::string svg = error_plot_svg("truth", {series("first", {0, 40, 20})});
   EXPECT_THAT(svg, HasSubstr("d=\"M60.0 302.0L470.0 82.0L880.0 192.0\""));

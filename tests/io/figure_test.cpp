@@ -102,7 +102,7 @@ TEST(AnimatedFigure, JointsAreWhereTheMotionHasThem) {
     EXPECT_NEAR(bvh.frame_time, 1 / kRate, 1e-9);
     ASSERT_EQ(bvh.frames.size(), 40u);
     for (size_t row = 0; row < 40; ++row) {
-      EXPECT_LT(bvh_error(bvh, walk.motion, row), 2e-5) << row;  // rounded to 1e-6 at each joint
+      EXPECT_LT(bvh_error(bvh, walk.motion, row), 2e-5) << row;  // every joint is rounded to 1e-6
       EXPECT_LT(glb_error(glb, walk.motion, row), 1e-5) << row;
     }
   }
@@ -123,7 +123,8 @@ TEST(AnimatedFigure, StandsUprightAtRestAndLooksAlongX) {
   }
 }
 
-// Angles go on beyond 180 degrees, and nothing turns more between two frames than the walker does.
+// Angles continue beyond 180 degrees, and no joint rotates more between two frames than the
+// walker's.
 TEST(Bvh, AnglesDoNotJump) {
   const Made walk = made(40, true);
   const ReadBvh file =
@@ -137,7 +138,7 @@ TEST(Bvh, AnglesDoNotJump) {
   EXPECT_GT(turned, 360);
 }
 
-// Nobody is shown where nobody was tracked: glTF hides the figure, BVH repeats a frame.
+// Nobody is shown in frames without a track: glTF hides the figure, BVH repeats a frame.
 TEST(AnimatedFigure, GapsAreHiddenOrHeld) {
   Made walk = made(30, false);
   for (const size_t row : {0u, 1u, 12u, 13u, 29u}) walk.motion.joints[row] = unknown_joints();
@@ -168,8 +169,8 @@ TEST(AnimatedFigure, GapsAreHiddenOrHeld) {
   EXPECT_FALSE(animated_figure({}, nobody.body.lengths).any_frame());
 }
 
-// Tracked and measured bones change their lengths: glTF says so, BVH has their means, and its knees
-// bend so that ankles stay where they were.
+// Tracked and measured bones change their lengths: glTF contains this, BVH has their means, and its
+// knees are adapted so that ankles keep their positions.
 TEST(AnimatedFigure, LengthsThatChangeAreMeansInBvhAndKeptInGltf) {
   Made walk = made(30, false);
   for (size_t row = 0; row < 30; ++row) {
@@ -195,7 +196,7 @@ TEST(AnimatedFigure, LengthsThatChangeAreMeansInBvhAndKeptInGltf) {
   }
 }
 
-// Of joints that lie in a line, or in one place, come numbers all the same.
+// Joints in a line, or in one place, give finite numbers as well.
 TEST(AnimatedFigure, ExtremePosesStayFinite) {
   Made walk = made(6, true);
   auto& joints = walk.motion.joints;
@@ -268,8 +269,8 @@ TEST(Gltf, HoldsTheRulesOfTheSpecification) {
   }
 }
 
-// The skinned surface is the figure: in every frame a vertex of the left shank's end lies as near
-// to the ankle as the ankle is wide.
+// The skinned surface moves with the figure: in every frame a vertex at the end of the left shank
+// is as near to the ankle as the ankle is wide.
 TEST(Gltf, TheSurfaceMovesWithItsJoints) {
   const Made walk = made(12, true);
   const std::string bytes =

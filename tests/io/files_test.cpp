@@ -28,7 +28,7 @@ TEST(ReadTextFile, ReadsAllBytesAndRefusesTheRest) {
   EXPECT_THROW(read_text_file(folder / "t", 1000), InputError);
   EXPECT_THROW(read_text_file(folder / "none", 10), InputError);
   EXPECT_THROW(read_text_file(folder.path(), 10), InputError);
-  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);  // nobody writes to it: reading would hang
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);  // without a writer: reading would hang
   EXPECT_THROW(read_text_file(folder / "pipe", 10), InputError);
 }
 

@@ -112,7 +112,7 @@ TEST_F(DamagedFrames, AreSeenBeforeAnybodyCountsOnThem) {
   EXPECT_THAT(frame_file_trouble(path_, 2, sound_.size()), HasSubstr("lacks frames"));
 }
 
-// 2 GB are announced, a few kB are there.
+// 2 GB are announced, but only a few kB follow.
 TEST_F(DamagedFrames, TakeNoMemoryForWhatTheyAnnounce) {
   std::string long_record = sound_;
   long_record[3] = '\x7f';

@@ -43,7 +43,7 @@ TEST(FrameStamps, AreNoneWhereThereIsNoVideo) {
   EXPECT_EQ(steps_of({0, 0, 0, 0}).usual, 0);
 }
 
-TEST(FrameStamps, AContainersWordIsTakenWhereMostFramesAgree) {
+TEST(FrameStamps, TheContainersRateIsUsedIfMostFramesAgree) {
   VideoFacts facts;
   facts.frame_rate = 29.97;
   EXPECT_EQ(usual_rate(facts, {.usual = 1 / 29.96}), 29.97);

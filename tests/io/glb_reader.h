@@ -1,6 +1,6 @@
-// Binary glTF 2.0 read by its specification, without a line of the writer: chunks, accessors with
-// the rules for their alignment and bounds, the animation at a time, and where skinned vertices
-// are.
+// Reads binary glTF 2.0 according to its specification, independently of the writer: chunks,
+// accessors with the rules for their alignment and bounds, the animation at a time, and the
+// positions of skinned vertices.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +44,7 @@ class ReadGlb {
     EXPECT_LE(bytes.size() - data_ - stated, 3u);
   }
 
-  // The numbers of an accessor, an element after the other.
+  // The numbers of an accessor, element by element.
   std::vector<double> numbers(size_t index) const {
     const auto& accessor = json.at("accessors").at(index);
     const auto& view = json.at("bufferViews").at(accessor.at("bufferView").get<size_t>());
@@ -69,7 +69,7 @@ class ReadGlb {
     return out;
   }
 
-  // Every node at a time, keys interpolated as their sampler says.
+  // Every node at a time, with keys interpolated according to their sampler.
   GlbPose at(double time) const {
     const auto& nodes = json.at("nodes");
     std::vector<Eigen::Vector3d> place(nodes.size(), Eigen::Vector3d::Zero()),

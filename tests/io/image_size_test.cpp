@@ -1,4 +1,4 @@
-// Against OpenCV's decoders: what the header states is what they decode.
+// Compared with OpenCV's decoders: the header states the decoded size.
 #include "io/video/image_size.h"
 
 #include <string>
@@ -39,7 +39,7 @@ TEST(ImageSize, IsUnknownForWhatIsCutOff) {
     std::vector<unsigned char> coded;
     cv::imencode(format, image, coded);
     for (size_t length = 0; length < coded.size(); ++length) {
-      // A header is whole or unknown; a PNM's number may be cut and read smaller.
+      // A header is complete or unknown; a PNM's number may be truncated to a smaller one.
       const auto size = image_size_from_header({coded.data(), length});
       if (size) {
         EXPECT_LE(size->width, 7) << format << " " << length;
@@ -51,7 +51,7 @@ TEST(ImageSize, IsUnknownForWhatIsCutOff) {
   EXPECT_FALSE(image_size_from_header(bytes_of("P5 0 5 255\n")));
 }
 
-// A few bytes that ask for 30 gigabytes are refused before anything is decoded.
+// A few bytes that state a size of 30 gigabytes are refused before anything is decoded.
 TEST(ReadImageFile, RefusesSizesThatNobodyFilms) {
   const TemporaryFolder folder;
   const std::string file = folder.write("bomb.png", "P6 100000 100000 255\n");

@@ -1,5 +1,5 @@
-// Whether JSON is as a JSON Schema says, for the keywords that the schemas in data/schemas use; a
-// keyword that is not known here is an error, so that none is passed over.
+// Validates JSON with a JSON Schema, for the keywords that the schemas in data/schemas use; an
+// unknown keyword is an error, so that none is ignored.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace walktrack {
 
-// Where and why it is not ("/contacts/0/side: ..."); "" where it is.
+// The place and reason of the first violation ("/contacts/0/side: ..."); "" if it is valid.
 std::string schema_trouble(const nlohmann::json& schema, const nlohmann::json& value);
 
 }  // namespace walktrack

@@ -19,8 +19,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using enum KeypointName;
 
-// Point i of a person at (10 + i, 100 + i), confidence .5: where a reader puts it tells which it
-// took it for.
+// Point i of a person is at (10 + i, 100 + i), confidence .5, so that the position shows for which
+// point a reader took it.
 std::string numbered(int points, double scale = 1) {
   std::string out;
   for (int i = 0; i < points; ++i)
@@ -48,7 +48,7 @@ class KeypointFile : public testing::Test {
   TemporaryFolder folder_;
 };
 
-// The orders of the points as their programs' documents print them.
+// The orders of the points as documented by their programs.
 TEST_F(KeypointFile, NamesThePointsByTheirNumber) {
   struct Row {
     int points, nose, left_wrist, right_hip, left_ankle, left_heel, right_big_toe, neck, mid_hip;
@@ -229,7 +229,7 @@ class KeypointImageSize : public KeypointFile {
 
 TEST_F(KeypointImageSize, IsTheCalibrations) {
   EXPECT_EQ(fault(1, 30, 120), "");
-  EXPECT_EQ(fault(1, 30, 110), "");  // a little beyond the edge
+  EXPECT_EQ(fault(1, 30, 110), "");  // slightly beyond the border
   EXPECT_THAT(fault(4, 400, 300),
               HasSubstr("p.json: found points as far as (100, 460) px, allowed: "
                         "400x300 px, the calibration's image size"));

@@ -54,11 +54,12 @@ TEST(ExifFocalLength, OfWhatDoesNotSayIsNothing) {
   EXPECT_FALSE(exif_focal_length_35mm(""));
   std::string whole = jpeg(26, true);
   for (size_t length = 0; length < whole.size(); ++length)
-    exif_focal_length_35mm(whole.substr(0, length));  // reads nothing beyond the end
+    exif_focal_length_35mm(whole.substr(0, length));  // nothing is read beyond the end
   EXPECT_FALSE(exif_focal_length_35mm(whole.substr(0, whole.size() - 20)));
 }
 
-// A directory of one field: the name, elsewhere when it is longer than four letters.
+// A directory with one field: the name, which is stored elsewhere if it is longer than four
+// letters.
 std::string named_jpeg(const std::string& name) {
   const auto n = [](unsigned value, size_t bytes) { return number(value, bytes, true); };
   std::string tiff = "MM" + n(42, 2) + n(8, 4) + n(1, 2) + n(0x0110, 2) + n(2, 2) +
@@ -84,7 +85,7 @@ TEST(CameraModel, IsReadAndKnown) {
   EXPECT_FALSE(telephone_focal_length_35mm(""));
 }
 
-// The video's packets in a container that says what telephones write.
+// The video's packets in a container with the metadata of telephones.
 void write_named(const std::string& source, const std::string& target,
                  const std::vector<std::pair<std::string, std::string>>& said) {
   AVFormatContext *in = nullptr, *out = nullptr;

@@ -55,7 +55,7 @@ TEST(MarkerFile, UnknownPointsStayUnknown) {
   }
 }
 
-// A row of markers, all at once: name and place, m.
+// A row of markers: name and place, m.
 MarkerTable table(const std::vector<std::pair<std::string, Vector3d>>& points) {
   MarkerTable out{"m.trc", {}, {0, 0.01}, {{}, {}}};
   for (const auto& [name, at] : points) {
@@ -83,9 +83,9 @@ TEST(Markers, OfOpenSimsAxesStandUp) {
   EXPECT_FALSE(known(joints[Joint::kHead]));
 }
 
-// A Plug-in Gait set with medial markers, z up, with a subject's prefix; hips by Harrington: of a
-// pelvis 240 mm wide and 160 mm deep they lie 48.3 mm behind the spines' middle, 82.9 mm below it
-// and 86.5 mm to the side.
+// A Plug-in Gait set with medial markers, z up, with a subject's prefix; hips by Harrington: for a
+// pelvis 240 mm wide and 160 mm deep they are 48.3 mm behind the midpoint of the spines, 82.9 mm
+// below it and 86.5 mm to the side.
 TEST(Markers, OfASkinSetBecomeJointCentres) {
   std::vector<std::pair<std::string, Vector3d>> points{{"Anna:LASI", {0, 0.12, 1}},
                                                        {"Anna:RASI", {0, -0.12, 1}},
@@ -151,7 +151,7 @@ TEST(C3dRead, SurvivesWhatIsCutOffOrChanged) {
   other[512 + 3] = 86;  // MIPS
   EXPECT_THAT(message_of([&] { markers_from_c3d(other, "a.c3d"); }),
               HasSubstr("another processor"));
-  // Whatever a byte of heading and parameters becomes: numbers or an error, nothing else.
+  // Any change of a byte in header and parameters leads to numbers or to an error.
   for (size_t at = 0; at < 2048; ++at) {
     std::string changed = good;
     changed[at] = static_cast<char>(changed[at] ^ 0x55);

@@ -62,7 +62,8 @@ TEST(MotionFile, RoundTripsThroughOtherAxes) {
   for (const Vector3d& normal : {Vector3d(0, 1, 0), Vector3d(0, 0, -1), Vector3d(0.2, 0.1, 1)}) {
     const WorldFrame world = world_frame_on_ground(normal, 0.3);
     const std::string file = folder.write("j.csv", motion_csv(motion, world));
-    // Rounding happens in the file's axes: up to sqrt(3) of it in one of ours.
+    // Numbers are rounded in the file's axes: the error is up to sqrt(3) times as large in the
+    // world's.
     expect_near(read_motion(file, world), motion, 2 * kHalfDigit);
   }
 }
@@ -134,7 +135,7 @@ TEST(UncertaintyFile, RoundTripsInWorldAxes) {
   expect_near({read.time, read.p95}, {written.time, written.p95}, 1e-6);
 }
 
-// z down: y and z change sign, so low ends become high ends there.
+// z down: y and z change sign, so that lower ends become upper ends.
 TEST(UncertaintyFile, SwapsPercentilesWhereAnAxisTurnsRound) {
   const TemporaryFolder folder;
   const Motion motion = random_motion(false);

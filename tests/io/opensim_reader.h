@@ -24,7 +24,8 @@ inline std::vector<std::string> split(const std::string& text, char at) {
   return parts;
 }
 
-// A line as OpenSim cuts it: at every tab; what follows the last tab is a cell if it is not empty.
+// Splits a line as OpenSim does: at every tab; what follows the last tab is a cell if it is not
+// empty.
 inline std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   size_t at = 0;
@@ -46,8 +47,8 @@ struct Markers {
 };
 
 // A .trc as OpenSim 4 reads it (TRCFileAdapter): eight keys with a value each; as many names as
-// NumMarkers; X1, Y1, Z1, ...; then rows, of 2 + 3 NumMarkers cells each or the file is refused,
-// where a marker with an empty cell is missing. Blank lines may come before the first row, and the
+// NumMarkers; X1, Y1, Z1, ...; then rows of 2 + 3 NumMarkers cells each, otherwise the file is
+// refused. A marker with an empty cell is missing. Blank lines may precede the first row, and the
 // first one after it ends the table.
 inline Markers read_trc(const std::string& text) {
   const auto refuse = [](const std::string& why) { throw InputError(why); };
@@ -130,9 +131,9 @@ inline Eigen::Matrix3d about(const Eigen::Vector3d& axis, double angle_deg) {
   return Eigen::AngleAxisd(rad_from_deg(angle_deg), axis).toRotationMatrix();
 }
 
-// The model in OpenSim with the written coordinates: its pelvis, hips where the Rajagopal model has
-// them in a pelvis of the subject's size, thighs, shanks and feet of the subject's lengths. Joints
-// in OpenSim's ground.
+// The model in OpenSim with the written coordinates: its pelvis, hips at their place in the
+// Rajagopal model for a pelvis of the subject's size, thighs, shanks and feet of the subject's
+// lengths. Joints in OpenSim's ground.
 inline std::map<std::string, Eigen::Vector3d> opensim_joints(std::map<std::string, double> row,
                                                              const BodyLengths& lengths) {
   const auto x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),

@@ -27,7 +27,7 @@ Motion two_frames() {
   return motion;
 }
 
-// A marker missing, the last one missing, nobody there, everybody there.
+// One marker missing, the last one missing, no marker, all markers.
 TEST(Trc, IsReadAsOpenSimReadsItWithWhatIsMissing) {
   Motion motion = two_frames();
   motion.time = {0, 0.04, 0.08, 0.12};
@@ -59,7 +59,8 @@ TEST(Trc, HasTheFormOfItsKind) {
   EXPECT_EQ(lines[5], "");
   EXPECT_THAT(lines[6], StartsWith("1\t0.000000\t1.000000\t3.000000\t-2.000000\t1.0"));
   EXPECT_THAT(lines[7], StartsWith("2\t0.040000\t1.000000\t3.000000\t-2.000000\t\t\t\t1.0"));
-  // As many cells in a row as columns in the head: other tools read it as one table.
+  // All rows have as many cells as the header has columns, so that other tools read them as one
+  // table.
   for (const size_t row : {4, 6, 7})
     EXPECT_EQ(std::count(lines[row].begin(), lines[row].end(), '\t'), 2 + 3 * 11) << row;
 }
@@ -137,7 +138,7 @@ TEST(Mot, TheModelInOpenSimStandsWhereTheJointsAre) {
   }
 }
 
-// Feet flat on the ground in joints.csv are so in OpenSim: neither sunken nor floating.
+// Feet that are flat on the ground in joints.csv are so in OpenSim.
 TEST(Mot, FeetStandOnTheGround) {
   const Body body = make_body(Subject{}, {});
   Pose pose;
@@ -149,7 +150,7 @@ TEST(Mot, FeetStandOnTheGround) {
   }
 }
 
-// Four frames: nobody known, right foot in the air, right foot loaded, right foot in the air.
+// Four frames: unknown, right foot in the air, right foot loaded, right foot in the air.
 Kinetics one_step() {
   Kinetics out;
   out.time = {0, 0.1, 0.2, 0.3};

@@ -21,7 +21,7 @@ cv::Vec3b at(const cv::Mat& image, const Camera& camera, const Vector3d& point) 
 
 bool is_black(const cv::Mat& image) { return cv::norm(image, cv::NORM_INF) == 0; }
 
-// Points along a line in the world are painted, whatever the lens.
+// Points along a line in the world are painted, for any lens.
 TEST(DrawLine, FollowsTheLens) {
   const Vector3d from(-1, 0, 0.2), to(1, 0.5, 1.6);
   for (const SampleCamera& lens : sample_lenses()) {

@@ -30,7 +30,7 @@ TEST(WholeView, IsAtMostSoWideAndKeepsItsShape) {
   EXPECT_EQ(whole_view(camera_of_size(3840, 2160), 0).size, cv::Size(3840, 2160));
   const OverlayView odd = whole_view(camera_of_size(641, 481), 0);
   EXPECT_EQ(odd.area, cv::Rect(0, 0, 641, 481));
-  EXPECT_EQ(odd.size, cv::Size(640, 480));  // encoders want even sides
+  EXPECT_EQ(odd.size, cv::Size(640, 480));  // encoders need even sides
 }
 
 TEST(WholeView, StaysLargeEnoughForEncoders) {
@@ -41,7 +41,7 @@ TEST(WholeView, StaysLargeEnoughForEncoders) {
   EXPECT_EQ(shown.size(), tiny.size);
 }
 
-// What the camera of a view projects is where the view shows it, whatever the lens.
+// The projection by the camera of a view is where the view shows the point, for any lens.
 TEST(OverlayView, DrawsWhereThePictureIs) {
   const OverlayView view{{100, 60, 400, 300}, {160, 120}};
   for (const SampleCamera& lens : sample_lenses()) {
@@ -54,7 +54,7 @@ TEST(OverlayView, DrawsWhereThePictureIs) {
   }
 }
 
-// The middle of a bright disc stays where in_view says, however the picture is shrunk.
+// The middle of a bright disc is where in_view says, for any scale.
 TEST(OverlayView, ShowsAPointAtItsPlace) {
   cv::Mat picture(2160, 3840, CV_8UC3, cv::Scalar::all(0));
   const Vector2d middle(2003, 777);
@@ -140,7 +140,7 @@ TEST_F(ViewsAround, AreTheWholePictureWhereNobodyIsInIt) {
   }
 }
 
-// Somebody 100 px high is not shown so small, and somebody 1,000 px high not too wide.
+// A person 100 px high is enlarged, and one 1,000 px high is not shown too wide.
 TEST_F(ViewsAround, AreOfASizeToLookAt) {
   const Camera coarse = camera_of_size(320, 240);
   const std::vector<JointPositions> frames{person_at(0, 0), person_at(0.5, 0)};

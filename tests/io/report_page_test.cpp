@@ -37,7 +37,7 @@ TEST(JsonInHtml, HoldsNothingThatEndsTheElement) {
   EXPECT_EQ(nlohmann::json::parse(safe), json);
 }
 
-TEST(ReportTemplate, IsWholeAndAsksNobody) {
+TEST(ReportTemplate, IsCompleteAndLoadsNothing) {
   const std::string text(report_template());
   for (const char* place : {"<!--TITLE-->", "<!--DATA-->"}) {
     EXPECT_EQ(text.find(place), text.rfind(place)) << place;
@@ -48,7 +48,7 @@ TEST(ReportTemplate, IsWholeAndAsksNobody) {
   EXPECT_THAT(text, HasSubstr("default-src 'none'"));
 }
 
-// The digest by which a page's policy lets one script run, in base64.
+// The digest with which a page's policy allows one script, in base64.
 std::string digest_of_script(const std::string& page) {
   const std::string open = "<script>", close = "</script>";
   const size_t from = page.find(open) + open.size();
@@ -65,7 +65,7 @@ TEST(ReportTemplate, LetsItsOwnScriptRunAndNoOther) {
     EXPECT_EQ(text.find("<script>"), text.rfind("<script>"));
     EXPECT_THAT(text, HasSubstr("script-src 'sha256-" + digest_of_script(text) + "'"));
     EXPECT_THAT(text, Not(HasSubstr("script-src 'unsafe-inline'")));
-    // What a policy of digests would not let run anyway.
+    // Handlers that a policy of digests would not allow.
     for (const char* handler : {" onclick=\"", " onload=\"", "javascript:"})
       EXPECT_THAT(text, Not(HasSubstr(handler))) << handler;
   }
@@ -96,7 +96,7 @@ TEST(ChooseEmbedded, TakesVideosAsLongAsThereIsRoom) {
 
 TEST(WriteReportPage, HoldsTitleDataAndVideos) {
   const TemporaryFolder folder;
-  std::string video(100'001, '\0');  // longer than a block, no multiple of three
+  std::string video(100'001, '\0');  // longer than a block, not a multiple of three
   std::mt19937 random(7);
   for (char& c : video) c = static_cast<char>(random());
   ReportPage page;

@@ -25,7 +25,7 @@ class ResultFolders : public testing::Test {
   std::string refusal(const Outputs& of, bool overwrite = true) const {
     return message_of<UsageError>([&] { ResultFolder(of, overwrite); });
   }
-  // All files below the folder with what they hold.
+  // All files below the folder with their content.
   std::map<std::string, std::string> content() const {
     std::map<std::string, std::string> found;
     for (const auto& entry : fs::recursive_directory_iterator(folder_.path()))
@@ -73,8 +73,8 @@ TEST_F(ResultFolders, TakeTheFileThatIsWrittenLast) {
   EXPECT_EQ(refusal(scene, false), "");
 }
 
-// What a killed run has left, half-written files among it, is known by the marker, which was there
-// before any of it.
+// Files of a killed run, including incomplete ones, are known from the marker, which was written
+// before them.
 TEST_F(ResultFolders, ClearWhatAKilledRunLeftAndNothingElse) {
   {
     const ResultFolder killed(outputs({"joints.csv", "overlay_a.mp4"}), false);
@@ -109,7 +109,7 @@ TEST_F(ResultFolders, OfPartialResultsMayBeDoneAgain) {
   EXPECT_FALSE(there("run.partial.json"));
 }
 
-// Files of our names that nobody marked, whatever they are and whoever made them.
+// Files with the command's names that no marker lists, of any kind.
 TEST_F(ResultFolders, RefuseFilesThatAreNotTheirs) {
   for (const char* name : {"joints.csv", "report.html", "run.json", "run.partial.json"}) {
     write(name);
@@ -131,7 +131,7 @@ TEST_F(ResultFolders, RefuseFilesThatAnotherCommandWrote) {
                  "run.json: found a file that 'walktrack track' has not marked as its own");
 }
 
-// A folder that was a track's: what has come since is not.
+// A folder of an earlier track: files that were added later are not the program's.
 TEST_F(ResultFolders, RefuseWhatCameLater) {
   ResultFolder(outputs({"joints.csv"}), false).finish("{}");
   write("report.html");
@@ -170,7 +170,7 @@ TEST_F(ResultFolders, RefuseASceneThatIsNotTheirs) {
   EXPECT_EQ(refusal(scene), "");
 }
 
-// A batch writes the scene of a video, its command the result, into one folder.
+// A batch writes the scene of a video and its command the result into one folder.
 TEST_F(ResultFolders, TakeTheSceneThatABatchMade) {
   Outputs batch = outputs({"scene.yaml"});
   batch.command = "batch";
@@ -192,7 +192,7 @@ TEST_F(ResultFolders, OfNumberedFiles) {
     EXPECT_THROW(result.file("labels/side/x.png"), std::logic_error);
   }
   EXPECT_EQ(refusal(of), "");
-  EXPECT_FALSE(there("labels"));  // empty folders go too
+  EXPECT_FALSE(there("labels"));  // empty folders are removed, too
   for (const char* name : {"labels/side/x.png", "labels/side/deep/x", "labels/x"}) {
     write(name);
     expect_refused(of, ": found a file that 'walktrack track' has not marked as its own");

@@ -1,5 +1,5 @@
-// Files that went wrong somewhere: thousands of damaged copies of sound ones. A reader may refuse
-// one with an error for the user or read it; anything else (another exception, a crash) fails.
+// Damaged files: thousands of damaged copies of valid ones. A reader may refuse one with an error
+// for the user or read it; anything else (another exception, a crash) is a failure.
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
@@ -20,7 +20,7 @@ size_t draw(Rng& rng, size_t n) {
   return static_cast<size_t>(rng.uniform() * static_cast<double>(n));
 }
 
-// One or two injuries: a byte changed, a piece cut out, doubled, or replaced by something nasty.
+// One or two changes: a byte changed, a piece cut out, repeated, or replaced by something unusual.
 std::string damaged(std::string text, Rng& rng) {
   const std::vector<std::string> nasty{"nan",      "-1e999",
                                        "[[",       "]",
@@ -52,7 +52,7 @@ std::string damaged(std::string text, Rng& rng) {
   return text;
 }
 
-// Reads `copies` damaged copies; says how many of them were read and how many refused.
+// Reads `copies` damaged copies; counts those that were read and those that were refused.
 template <typename Read>
 void expect_sound_reader(const std::string& text, int copies, Read read) {
   Rng rng(5, Purpose::kTest);
@@ -70,7 +70,7 @@ void expect_sound_reader(const std::string& text, int copies, Read read) {
       ADD_FAILURE() << error.what() << "\n" << copy;
     }
   }
-  // The injuries are of a size that both happen: otherwise this tests nothing.
+  // The changes are of a size for which both happen: otherwise this tests nothing.
   EXPECT_GT(taken, copies / 100);
   EXPECT_GT(refused, copies / 100);
 }
@@ -133,7 +133,7 @@ TEST(DamagedFiles, Scene) {
 TEST(HostileYaml, DeepNestingAndSelfReferenceEnd) {
   EXPECT_THROW(YamlValue::from_text(std::string(100'000, '['), "f"), InputError);
   EXPECT_THROW(YamlValue::from_text(std::string(100'000, '{'), "f"), InputError);
-  // Nine levels of nine aliases: a billion values that nobody may unfold.
+  // Nine levels of nine aliases: a billion values that must not be expanded.
   std::string text = "a: &a [x, x, x, x, x, x, x, x, x]\n";
   for (char c = 'b'; c < 'j'; ++c) {
     const std::string last(1, static_cast<char>(c - 1));

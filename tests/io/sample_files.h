@@ -1,4 +1,4 @@
-// Small input files for tests, written where a test wants them.
+// Small input files, which tests write.
 #pragma once
 
 #include <stdexcept>
@@ -28,7 +28,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text.replace(at, from.size(), to);
 }
 
-// A calibration of another tool, "qualisys/two.xml": what the fuzzers begin with.
+// A calibration of another tool, "qualisys/two.xml": the seeds of the fuzzers.
 inline std::string calibration_corpus(const std::string& name) {
   return read_file(std::string(WALKTRACK_SOURCE_DIR) + "/tests/fuzz/corpus/calibration_" + name);
 }

@@ -1,4 +1,4 @@
-// A small sound state of a track: one camera, two particles, one of them dead.
+// A small valid state of a track: one camera, two particles, one of them dead.
 #pragma once
 
 #include <limits>

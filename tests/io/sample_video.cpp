@@ -52,8 +52,8 @@ size_t number_at(const std::string& bytes, size_t at) {
 
 }  // namespace
 
-// An MP4 file lists how long its frames last (ISO 14496-12, stts); the list is replaced. The
-// encoder has no frames out of order, and writes the lists behind the frames.
+// An MP4 file lists the durations of its frames (ISO 14496-12, stts); the list is replaced. The
+// encoder has no reordered frames, and writes the lists after the frames.
 void write_timed_video(const std::string& path, const std::vector<cv::Mat>& frames, double rate,
                        const std::vector<double>& durations) {
   cv::VideoWriter writer(path, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), rate,
@@ -82,7 +82,7 @@ void write_uneven_video(const std::string& path, const std::vector<double>& dura
   write_timed_video(path, frames, 25, durations);
 }
 
-// Phones write the sensor's pixels and a turn in the track header (tkhd, matrix).
+// Phones write the sensor's pixels and a rotation in the track header (tkhd, matrix).
 void turn_video_by_90_degrees(const std::string& path) {
   std::string bytes = bytes_of(path);
   const size_t matrix = bytes.find("tkhd") + 44;

@@ -1,4 +1,4 @@
-// Videos and image folders whose frames show their own number, robustly against compression.
+// Videos and image folders whose frames show their own number in a way that survives compression.
 #pragma once
 
 #include <string>
@@ -8,19 +8,19 @@
 
 namespace walktrack {
 
-// 64 x 48, a grey level that tells 0..24 apart.
+// 64 x 48, with a grey level that encodes 0..24.
 cv::Mat sample_frame(int number);
-// What a sample frame shows after whatever happened to it.
+// The number that a sample frame shows after compression.
 int shown_number(const cv::Mat& frame);
 
 // 25 Hz, numbers from 0.
 void write_sample_video(const std::string& path, int frames);
 // 25 Hz, numbers from 0; frame i is shown until 1 / 25 s * durations[i] later.
 void write_uneven_video(const std::string& path, const std::vector<double>& durations);
-// These frames at this rate, of which frame i is shown until durations[i] / rate s later.
+// These frames at this rate; frame i is shown until durations[i] / rate s later.
 void write_timed_video(const std::string& path, const std::vector<cv::Mat>& frames, double rate,
                        const std::vector<double>& durations);
-// Has the file ask for a turn, clockwise.
+// Sets a rotation flag, clockwise, in the file.
 void turn_video_by_90_degrees(const std::string& path);
 // frame<number>.png
 void write_sample_images(const std::string& folder, const std::vector<int>& numbers);

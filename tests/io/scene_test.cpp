@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 const std::string kCamera = "cameras:\n  - {name: a, video: a.mp4, calibration: a.yaml}\n";
 
-// A folder with what scenes of these tests point at.
+// A folder with the files to which scenes of these tests refer.
 class SceneFile : public testing::Test {
  protected:
   SceneFile() {
@@ -61,7 +61,7 @@ TEST_F(SceneFile, ReadsKeypointsWithAndWithoutAMap) {
   EXPECT_EQ(mapped.cameras[0].keypoints.names.size(), 2u);
 }
 
-// Where a video may not leave the house, its keypoints may.
+// If a video may not leave an institution, its keypoints may.
 TEST_F(SceneFile, NeedsNoVideoWhereThereAreKeypoints) {
   folder_.write("points.json", "");
   const std::string text = "cameras:\n  - {name: a, calibration: a.yaml, keypoints: points.json}\n";
@@ -130,7 +130,7 @@ TEST_F(SceneFile, OccludersMayComeAndGo) {
 }
 
 TEST_F(SceneFile, TurnsCalibrationAxesIntoTheWorld) {
-  // y up: world = (x, -z, y). The camera's centre (0, -5, 1) of the file lies 4.8 m underground.
+  // y up: world = (x, -z, y). The camera's centre (0, -5, 1) of the file is 4.8 m below the ground.
   const Scene scene = read(kCamera +
                            "ground: {normal: [0, 1, 0], offset: -0.2}\n"
                            "gravity: [0, -9.81, 0]\n"
@@ -145,7 +145,7 @@ TEST_F(SceneFile, LiftsPositionsOntoATiltedGround) {
   const Scene scene = read(kCamera +
                            "ground: {normal: [0.1, 0, 1], offset: 0}\n"
                            "initial: {position: [2, 0], heading: 0}\n");
-  // (2, 0, -0.2) lies on the plane, |(2, 0, -0.2)| from the origin along the ground.
+  // (2, 0, -0.2) is on the plane, |(2, 0, -0.2)| from the origin along the ground.
   EXPECT_LT((scene.initial->position - Vector2d(std::hypot(2, 0.2), 0)).norm(), 1e-12);
 }
 

@@ -47,7 +47,7 @@ TEST_F(SceneVideoTest, StepsThroughAllCameras) {
   EXPECT_EQ(video.trouble(), "");
 }
 
-// What keypoints are looked up by.
+// The number by which keypoints are looked up.
 TEST_F(SceneVideoTest, SaysWhichFrameOfItsVideoIsShown) {
   SceneVideo video = open(", start_frame: 3", "", "first_frame: 4\n");
   ASSERT_TRUE(video.read(frames_));
@@ -66,7 +66,7 @@ TEST_F(SceneVideoTest, TakesNumbersFromTheNamesOfImages) {
   EXPECT_THAT(fresh, testing::ElementsAre(11, 12, 14));
 }
 
-// Up to the last frame that the keypoints speak of.
+// Up to the last frame with keypoints.
 TEST_F(SceneVideoTest, ShowsPlainPicturesWithoutAVideo) {
   std::string numbers = "10, 10, 0.9";
   for (int i = 1; i < 17; ++i) numbers += ", 10, 10, 0.9";
@@ -143,8 +143,8 @@ TEST_F(SceneVideoTest, FramesAfterDroppedOnesKeepTheirTime) {
   }
 }
 
-// Steps of half as long again and half as long: pairs of frames are as long as two usual ones, so
-// that time and count do not part, however far the video goes.
+// Steps are alternately half longer and half shorter: pairs of frames take as long as two usual
+// ones, so that time and count agree over any length.
 TEST_F(SceneVideoTest, FramesOfAVaryingRateArePairedByTime) {
   std::vector<double> durations(20, 1);
   for (size_t i = 0; i < 8; ++i) durations[4 + i] = i % 2 == 0 ? 1.5 : 0.5;
@@ -159,7 +159,7 @@ TEST_F(SceneVideoTest, FramesOfAVaryingRateArePairedByTime) {
   EXPECT_FALSE(video.read(frames_));
 }
 
-// A container's own rate is an average: with dropped frames it is not that of the others.
+// A container's own rate is an average: with dropped frames it is not that of the other frames.
 TEST_F(SceneVideoTest, TheRateIsThatOfTheFramesThatWereNotDropped) {
   std::vector<double> durations(18, 1);
   durations[9] = 3;
@@ -179,7 +179,7 @@ TEST_F(SceneVideoTest, TheRateIsThatOfTheFramesThatWereNotDropped) {
   EXPECT_EQ(fresh, 18);
 }
 
-// The same of a folder of images, of which two were lost.
+// The same for a folder of images, two of which are missing.
 TEST_F(SceneVideoTest, ImagesAfterMissingOnesKeepTheirTime) {
   write_sample_images(folder_ / "f", {0, 1, 2, 5, 6, 7});
   SceneVideo video(read_scene(

@@ -15,7 +15,7 @@ TEST(Sha256, MeetsThePublishedVectors) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-// Every length about the block boundary pads differently.
+// Every length around the block boundary has another padding.
 TEST(Sha256, TellsLengthsApart) {
   std::string last;
   for (size_t n = 50; n < 140; ++n) {

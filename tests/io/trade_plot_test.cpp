@@ -36,8 +36,8 @@ TEST(TradePlot, MarksEverySettingAndNamesTheFront) {
   EXPECT_EQ(count(svg, "http"), 1u);  // the name space; nothing is fetched
 }
 
-// Speeds of 10 and 1000 with a margin of 15 % to either side lie symmetrically on a logarithmic
-// axis from 64 to 740 px; an error of 40 of 40 mm is at the top, 72 px, half of it half-way to 432.
+// Speeds of 10 and 1000 with a margin of 15 % to either side are symmetric on a logarithmic axis
+// from 64 to 740 px; an error of 40 of 40 mm is at the top, 72 px, half of it half-way to 432.
 TEST(TradePlot, IsToScale) {
   const std::string svg = trade_plot_svg(
       "", "", {{"a", 10, 20, kNone, true, true}, {"b", 1000, 40, kNone, true, false}});

@@ -26,7 +26,7 @@ TEST(VideoDigest, IsOfTheContentAlone) {
   EXPECT_NE(video_digest(folder.write("a.mp4", "")), digest);
 }
 
-// Of long videos parts are read; their beginning, end and length always count.
+// Only parts of long videos are read; their beginning, end and length always count.
 TEST(VideoDigest, OfLongFiles) {
   const TemporaryFolder folder;
   const auto of = [&](size_t size, size_t changed) {

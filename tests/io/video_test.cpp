@@ -106,7 +106,7 @@ TEST(MissingBefore, IsWhatTheNamesSay) {
   EXPECT_EQ(of({"one.png"}), Missing{0});
 }
 
-// A picture with a colour profile that is none; libpng says so for every frame.
+// An image with an invalid colour profile, about which libpng warns for every frame.
 TEST(ImageFiles, DecodersDoNotWriteToTheTerminal) {
   const TemporaryFolder folder;
   write_sample_images(folder / "frames", {3});
@@ -120,7 +120,7 @@ TEST(ImageFiles, DecodersDoNotWriteToTheTerminal) {
   EXPECT_EQ(read_image_file(file, image), "");
   std::fputs("ours\n", stderr);
   const std::string said = testing::internal::GetCapturedStderr();
-  // Sanitizers report to the terminal, which is left open for them.
+  // Sanitizers report to the terminal, so that it is not silenced for them.
   EXPECT_THAT(said, testing::EndsWith("ours\n"));
   if (!kSanitized) {
     EXPECT_EQ(said, "ours\n");
@@ -284,7 +284,7 @@ TEST(VideoWriter, WritesTheSameBytesAgain) {
   EXPECT_EQ(read_file(folder / "a.mp4"), read_file(folder / "b.mp4"));
 }
 
-// A pattern that moves, so that encoders have something to follow.
+// A moving pattern, so that encoders have motion to encode.
 cv::Mat moving_frame(int index) {
   cv::Mat frame(48, 64, CV_8UC3);
   for (int y = 0; y < frame.rows; ++y)
@@ -294,7 +294,7 @@ cv::Mat moving_frame(int index) {
   return frame;
 }
 
-// Each makes another file of the same frames, and the same each time.
+// Each preset gives another file for the same frames, which is the same each time.
 TEST(VideoWriter, EncodesByItsPreset) {
   const TemporaryFolder folder;
   std::set<std::string> files;

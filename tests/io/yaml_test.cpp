@@ -44,7 +44,7 @@ TEST(Yaml, NamesPlaceFoundAndAllowed) {
   for (const auto& [call, expected] : cases) EXPECT_EQ(message_of(call), expected);
 }
 
-// The parser itself would take one of the two without a word.
+// The parser itself would silently take one of the two.
 TEST(Yaml, RefusesKeysTwiceWhereverTheyStand) {
   const auto message = [](const char* text) { return message_of([&] { parse(text); }); };
   EXPECT_EQ(message("a: 1\nb: 2\na: 3\n"), "f.yaml:3: a: found the key twice, allowed: once");

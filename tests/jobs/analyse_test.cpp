@@ -44,9 +44,9 @@ TEST_F(Analyse, WritesACompleteResult) {
     EXPECT_TRUE(fs::exists(folder_ / name)) << name;
   EXPECT_TRUE(is_complete_result(folder_));
   const auto run = nlohmann::json::parse(read_text_file(folder_ / "run.json", size_t{1} << 20));
-  // The demo's subject is 1.75 m high: its thighs and shanks say so.
+  // The demo's subject is 1.75 m high according to thighs and shanks.
   EXPECT_NEAR(run.at("numbers").at("height_m").get<double>(), 1.75, 0.01);
-  EXPECT_EQ(run.at("notes").size(), 1u);  // nobody said the mass
+  EXPECT_EQ(run.at("notes").size(), 1u);  // the mass is not stated
   EXPECT_THROW(analyse(job(kDemo / "truth.csv")), UsageError);
 }
 
@@ -67,7 +67,7 @@ TEST_F(Analyse, ForcesGoWithTheMass) {
   EXPECT_NEAR(whole, 2 * half, 1e-4);
 }
 
-// Joints that `track` wrote want its cut-off, wherever they are analysed.
+// Joints that `track` wrote need its cut-off frequency, wherever they are analysed.
 TEST_F(Analyse, ForcesOfATrackedFolderAreSmoothedAsTrackingDoes) {
   const fs::path tracked = temporary_.path() / "tracked";
   fs::create_directories(tracked);
@@ -130,10 +130,10 @@ Agreement agreement(const std::vector<double>& a_deg, const std::vector<double>&
   return {c / std::sqrt(va * vb), std::sqrt((va + vb - 2 * c) / count)};
 }
 
-// The same laboratory trials by OpenSim's own inverse kinematics: our names and signs are theirs.
+// The same laboratory trials by OpenSim's own inverse kinematics, with the same names and signs.
 // Offsets of angles are not compared: OpenSim takes the pelvis's tilt and the foot's zero from
-// markers. The pelvis's origin is as high as in the model that OpenSim had scaled, but for what its
-// tilt makes of it.
+// markers. The height of the pelvis's origin is that of OpenSim's scaled model, except for the
+// effect of its tilt.
 TEST_F(Analyse, AnglesGoAsOpenSimsInverseKinematicsDo) {
   const std::map<std::string, double> spread_deg{
       {"hip_flexion", 4}, {"knee_angle", 4}, {"ankle_angle", 5}};
@@ -153,15 +153,16 @@ TEST_F(Analyse, AnglesGoAsOpenSimsInverseKinematicsDo) {
         EXPECT_LT(found.spread_deg, allowed) << trial << " " << joint << side;
       }
     }
-    // A few degrees of movement from joint centres that are good to a centimetre: the sign is told.
+    // Movements of a few degrees from joint centres with errors of a centimetre: only the sign is
+    // tested.
     for (const char* name : {"pelvis_list", "hip_adduction_r", "hip_adduction_l"})
       EXPECT_GT(agreement(ours.at(name), theirs.at(name)).correlation, 0.7) << trial << " " << name;
   }
 }
 
-// Our right and left are the plates' 1 and 2, our y is their vertical. Exchanged, they would
-// correlate negatively; how large the forces are is force_plates_test's matter. The left foot
-// begins off the plates, so that some of its course is missing there.
+// The right and left foot are the plates' 1 and 2, y is their vertical axis. If they were swapped
+// they would correlate negatively; the magnitude of the forces is tested by force_plates_test. The
+// left foot is off the plates at first, so that a part of its curve is missing.
 TEST_F(Analyse, GroundReactionsAreNamedAsTheForcePlatesAre) {
   for (const std::string trial : {"opencapS4_walking1", "opencapS4_walkingTS1"}) {
     const fs::path mocap = kSharedData / "mocap" / (trial + ".csv"),

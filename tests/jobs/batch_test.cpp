@@ -1,4 +1,4 @@
-// The batch with a small script in the place of `walktrack track`.
+// The batch with a small script in place of `walktrack track`.
 #include "jobs/batch/batch.h"
 
 #include <signal.h>
@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// What the scene's second line says, it does: "ok", "lost", "fail", "crash", "slow", "lie".
+// Does what the scene's second line says: "ok", "lost", "fail", "crash", "slow", "lie".
 constexpr const char* kScript =
     "#!/bin/sh\n"
     "scene=$1; out=$3; mode=$(sed -n 2p \"$scene\")\n"
@@ -63,14 +63,14 @@ class BatchTest : public testing::Test {
     folder_.write(scene.string(), std::string("cameras: []\n#").append(mode).append("\n"));
   }
   static std::string numbered(int i) { return std::string("s").append(std::to_string(i)); }
-  // The names of what is to be done.
+  // The names of the sequences that are to be tracked.
   std::vector<std::string> to_do() const {
     std::vector<std::string> names;
     each_to_do(job_, SequenceList(job_),
                [&](const Sequence& sequence) { names.push_back(sequence.name); });
     return names;
   }
-  // How often the script ran for a sequence.
+  // The number of times that the script ran for a sequence.
   size_t runs(const std::string& name) const {
     return read_file(job_.output / name / "runs").size() / 2;
   }
@@ -142,7 +142,7 @@ TEST_F(BatchTest, RunAgainItDoesOnlyWhatIsNotComplete) {
   EXPECT_THAT(to_do(), testing::IsEmpty());
 }
 
-// A result that was to be made again and could not is done again, beside what there was before.
+// A result that could not be made again is tracked again, beside the earlier result.
 TEST_F(BatchTest, DoesAgainWhatFailedBesideAnOldResult) {
   for (const char* name : {"kept", "lost"}) add(name, "ok");
   run_batch(job_, {});
@@ -199,7 +199,7 @@ TEST_F(BatchTest, ShardsCoverEverySequenceOnce) {
 TEST_F(BatchTest, EndsWhatTakesTooLong) {
   add("slow", "slow");
   add("ok", "ok");
-  job_.limits.seconds = 6;  // a sound one takes milliseconds, with sanitizers a second
+  job_.limits.seconds = 6;  // a correct one takes milliseconds, with sanitizers a second
   const BatchOutcome outcome = run_batch(job_, {});
   EXPECT_EQ(outcome.complete, 1);
   EXPECT_EQ(outcome.failed, 1);
@@ -222,8 +222,8 @@ TEST_F(BatchTest, StopsWhenAskedAndLeavesTheRestWaiting) {
   EXPECT_FALSE(fs::exists(hidden_folder(job_.output / "a")));
 }
 
-// A worker that begins when another has failed at a sequence already takes that for an earlier try,
-// as a batch that is run again does; what is complete nobody does twice.
+// A worker that begins after another one has failed at a sequence counts that as an earlier
+// attempt, like a batch that is run again; no complete sequence is tracked twice.
 TEST_F(BatchTest, TwoWorkersNeverDoOneSequenceTwice) {
   for (int i = 0; i < 12; ++i) add(numbered(i), i % 3 == 0 ? "fail" : "ok");
   job_.jobs = 2;
@@ -236,7 +236,7 @@ TEST_F(BatchTest, TwoWorkersNeverDoOneSequenceTwice) {
   }
 }
 
-// A worker that has done its share helps: with what nobody has begun, has done or failed at.
+// A worker that has finished its share takes sequences that nobody has begun, tracked or failed at.
 TEST_F(BatchTest, StealsWhatNobodyHasBegunOfOtherShares) {
   for (int i = 0; i < 9; ++i) add(numbered(i), "ok");
   add("s1", "fail");
@@ -247,12 +247,12 @@ TEST_F(BatchTest, StealsWhatNobodyHasBegunOfOtherShares) {
   job_.shard = 1;
   job_.steal = true;
   const BatchOutcome outcome = run_batch(job_, {});
-  EXPECT_EQ(outcome.complete, 3);  // counts are of its own share
+  EXPECT_EQ(outcome.complete, 3);  // counts are those of its own share
   EXPECT_EQ(outcome.stolen, 2);    // s2, s8
   for (int i = 0; i < 9; ++i) EXPECT_EQ(runs(numbered(i)), i == 5 ? 0u : 1u) << i;
 }
 
-// However late the others begin, all is done, and nothing twice.
+// However late the others begin, all sequences are tracked, and none twice.
 TEST_F(BatchTest, WorkersThatStealDoEverySequenceOnce) {
   for (int i = 0; i < 15; ++i) add(numbered(i), "ok");
   std::vector<BatchJob> jobs(3, job_);
@@ -297,7 +297,7 @@ TEST_F(BatchTest, MakesAScenePerVideoFromATemplate) {
   folder_.write("in/b.mp4", "");
   folder_.write("in/b.mov", "");
   job_.scene_template = folder_.write("room.yaml", "cameras: [{name: c, video: x.mp4}]\n");
-  // The template has no second line that the script knows: nothing is complete.
+  // The template has no second line that the script knows, so that nothing is complete.
   EXPECT_EQ(run_batch(job_, {}).failed, 4);
   for (const char* name : {"a/walk2", "a/walk10", "b.mp4", "b.mov"}) {
     EXPECT_THAT(read_file(job_.output / name / "scene.yaml"), HasSubstr("/in/")) << name;
@@ -309,7 +309,7 @@ TEST_F(BatchTest, MakesAScenePerVideoFromATemplate) {
 
 TEST_F(BatchTest, RefusesAFolderWithoutSequences) { EXPECT_THROW(run_batch(job_, {}), UsageError); }
 
-// Files that no batch wrote are the user's, wherever they lie.
+// Files that no batch wrote are the user's, in any folder.
 TEST_F(BatchTest, RefusesToOverwriteWhatIsNotItsOwn) {
   add("a", "ok");
   for (const char* name : {"summary.csv", "batch.html", "a/log.txt", "a/failure.txt"}) {
@@ -370,7 +370,7 @@ TEST(FolderLock, OfADeadWorkerIsTakenOver) {
   EXPECT_TRUE(FolderLock::try_take(folder.path(), 60));
 }
 
-// A disk that is full is not another worker, for which a batch would wait.
+// A full disk is not taken for another worker for which the batch would wait.
 TEST(FolderLock, ThatCannotBeWrittenIsAnError) {
   const TemporaryFolder folder;
   const pid_t worker = ::fork();
@@ -394,9 +394,9 @@ TEST(FolderLock, ThatCannotBeWrittenIsAnError) {
 TEST(FolderLock, OfAKilledProcessOfThisMachineIsTakenOverAtOnce) {
   const TemporaryFolder folder;
   folder.write(".walktrack_stale.elsewhere.1",
-               "");  // of one that was killed in the middle of a takeover
+               "");  // of one that was killed during a takeover
   const pid_t worker = fork();
-  if (worker == 0) _exit(FolderLock::try_take(folder.path()) ? 0 : 1);  // and gives nothing back
+  if (worker == 0) _exit(FolderLock::try_take(folder.path()) ? 0 : 1);  // and does not release it
   int status = 0;
   ASSERT_EQ(waitpid(worker, &status, 0), worker);
   ASSERT_EQ(status, 0);
@@ -407,7 +407,7 @@ TEST(FolderLock, OfAKilledProcessOfThisMachineIsTakenOverAtOnce) {
 
 TEST(ChildProcess, LimitsMemory) {
   const TemporaryFolder folder;
-  // dd needs its block in memory at once.
+  // dd needs its whole block in memory.
   ChildProcess child({"/bin/dd", "if=/dev/zero", "of=/dev/null", "bs=300M", "count=1"},
                      folder.path() / "log", {.memory_mb = 100});
   std::optional<ChildEnd> end;

@@ -1,4 +1,4 @@
-// From pictures of boards, taken by known cameras, to the files.
+// From images of boards, taken by known cameras, to the files.
 #include "jobs/calibrate/calibrate.h"
 
 #include <cmath>
@@ -100,8 +100,8 @@ struct LensCase {
   std::vector<double> coefficients;
 };
 
-// Corners are off by 0.1 px at random; over 12 views of 40 corners that moves a focal length by
-// less than half a percent, and a ray near the rim by a pixel.
+// Corners have random errors of 0.1 px; over 12 views of 40 corners the error of a focal length is
+// less than half a percent, and that of a ray near the border a pixel.
 TEST_F(Calibrate, FindsTheLensThatTookTheViews) {
   for (const LensCase& each :
        {LensCase{"brown", LensModel::kBrown, {-0.15, 0.03, 0.001, -0.001}},
@@ -128,7 +128,7 @@ TEST_F(Calibrate, FindsTheLensThatTookTheViews) {
 TEST_F(Calibrate, FindsLensAndPlaceTogetherAndWritesWhatOtherProgramsRead) {
   const Camera camera = placed(brown_lens());
   CalibrateJob job = views_job(camera, board_poses(camera, kBoard));
-  Board large = kBoard;  // the same board seen from 2.6 m would be too small
+  Board large = kBoard;  // the same board would be too small at 2.6 m
   large.spacing = 0.16;
   cv::imwrite(folder_ / "floor.png", floor_picture(BoardVideo(camera), camera, large));
   calibrate(job, {});
@@ -151,7 +151,7 @@ TEST_F(Calibrate, FindsLensAndPlaceTogetherAndWritesWhatOtherProgramsRead) {
   EXPECT_FALSE(cv::imread(folder_ / "placed/cam0_place.png").empty());
   EXPECT_THAT(read_text_file(folder_ / "placed/cam0_residuals.csv", 1u << 20),
               testing::StartsWith("of,frame,point,u,v,miss_u,miss_v\nplace,0,0,"));
-  EXPECT_THROW(calibrate(place, {}), UsageError);  // not over a complete result
+  EXPECT_THROW(calibrate(place, {}), UsageError);  // a complete result is not replaced
 }
 
 TEST_F(Calibrate, FindsThePlaceFromMeasuredPoints) {
@@ -189,7 +189,7 @@ TEST_F(Calibrate, PointsThatDetermineNothingAreRefused) {
 TEST_F(Calibrate, ABoardOfAnotherSizeIsNamed) {
   const Camera camera = brown_lens();
   CalibrateJob job = views_job(camera, {board_poses(camera, kBoard)[4]});
-  job.board->columns = 9;  // squares counted for corners
+  job.board->columns = 9;  // squares were counted, not corners
   job.board->rows = 6;
   EXPECT_THAT(error_of(job), testing::AllOf(HasSubstr("no chessboard of 9x6"),
                                             HasSubstr("but a chessboard of 8x5")));
@@ -200,7 +200,7 @@ TEST_F(Calibrate, TooFewOrEqualViewsAreRefused) {
   std::vector<BoardPose> poses = board_poses(camera, kBoard);
   poses.resize(3);
   EXPECT_THAT(error_of(views_job(camera, poses)), HasSubstr("3 views of the board that differ"));
-  // One view many times is one view.
+  // One view many times counts as one view.
   poses.assign(6, poses[0]);
   EXPECT_THAT(error_of(views_job(camera, poses)), HasSubstr("1 views of the board that differ"));
 }
@@ -216,7 +216,7 @@ TEST_F(Calibrate, FacingViewsAreRefused) {
   EXPECT_THAT(error_of(job), HasSubstr("do not tell the focal length"));
 }
 
-TEST_F(Calibrate, ABoardHalfOutOfViewIsRefusedWithTheCure) {
+TEST_F(Calibrate, ABoardHalfOutOfViewIsRefusedWithAdvice) {
   const Camera camera = brown_lens();
   const auto half_out = board_pose(camera, kBoard, {475, 180}, 0.8, 0.1, 0.1, 0);
   EXPECT_THAT(error_of(views_job(camera, {half_out, half_out})),

@@ -66,7 +66,7 @@ class CheckTest : public testing::Test {
     job_.scene = folder_.write("scene.yaml", text);
     return check_scene(job_, {});
   }
-  // The one failure that the report must hold.
+  // The only failure of the report.
   static Finding only_failure(const CheckReport& report) {
     Finding found{"", false, "no failure", ""};
     int count = 0;
@@ -132,7 +132,7 @@ TEST_F(CheckTest, FindsAnInvertedPose) {
 }
 
 TEST_F(CheckTest, FindsThePlaceForTheTranslation) {
-  for (const size_t i : {0u, 1u}) {  // the third could as well have its pose inverted
+  for (const size_t i : {0u, 1u}) {  // the third could have an inverted pose as well
     Camera wrong = cameras_[i];
     wrong.translation = camera_centre(wrong);
     write_camera(i, wrong);
@@ -153,11 +153,11 @@ TEST_F(CheckTest, FindsAWorldThatIsUpsideDown) {
     EXPECT_THAT(finding.what, HasSubstr("underground"));
     EXPECT_THAT(finding.cure, HasSubstr("ground: {normal: [0, 0, -1]}"));
   }
-  EXPECT_FALSE(check("ground: {normal: [0, 0, -1]}\n").failed());  // the cure cures
+  EXPECT_FALSE(check("ground: {normal: [0, 0, -1]}\n").failed());  // the advice is correct
 }
 
 TEST_F(CheckTest, FindsAFloorBelowTheCalibrationsOrigin) {
-  // A calibration board on a table taller than the cameras, or an origin in a corner of the wall.
+  // A calibration board on a table higher than the cameras, or an origin in a corner of the wall.
   const double floor = -2.6;  // m
   for (size_t i = 0; i < cameras_.size(); ++i) {
     cameras_[i].translation -= cameras_[i].rotation * Vector3d(0, 0, floor);
@@ -169,7 +169,7 @@ TEST_F(CheckTest, FindsAFloorBelowTheCalibrationsOrigin) {
     EXPECT_THAT(finding.what, HasSubstr("underground"));
     EXPECT_THAT(finding.cure, testing::StartsWith("the floor lies below z = 0"));
   }
-  EXPECT_FALSE(check("ground: {offset: -2.6}\n").failed());  // the cure cures
+  EXPECT_FALSE(check("ground: {offset: -2.6}\n").failed());  // the advice is correct
 
   cameras_.resize(1);
   EXPECT_THAT(only_failure(check()).cure, testing::StartsWith("the floor lies below z = 0"));
@@ -219,7 +219,7 @@ TEST_F(CheckTest, FindsAWrongSize) {
 
 TEST_F(CheckTest, FindsFocalLengthsInMillimetres) {
   cameras_[0].focal_px = {4.5, 4.5};
-  for (const double k1 : {0.0, -0.12}) {  // whose distortion folds over at such a length
+  for (const double k1 : {0.0, -0.12}) {  // whose distortion folds over with such a focal length
     set_distortion(cameras_[0], std::vector<double>{k1, 0, 0, 0, 0});
     write_camera(0, cameras_[0]);
     const CheckReport report = check();
@@ -257,7 +257,7 @@ TEST_F(CheckTest, ARateThatNoVideoHasIsTheScenes) {
   EXPECT_THAT(finding.cure, HasSubstr("set frame_rate: 25 in the scene"));
 }
 
-// The findings about a camera that are no failures.
+// The remarks about a camera.
 std::vector<std::string> notes(const CheckReport& report, const std::string& camera) {
   std::vector<std::string> out;
   for (const Finding& finding : report.findings)
@@ -297,7 +297,7 @@ TEST_F(CheckTest, SaysHowManyImagesOfAFolderAreMissing) {
 
 TEST_F(CheckTest, SaysThatAPhonesFramesAreTurned) {
   turn_video_by_90_degrees(folder_ / "c1.mp4");
-  const CheckReport raw = check();  // the calibration is of frames as they are stored
+  const CheckReport raw = check();  // the calibration is for frames as they are stored
   EXPECT_FALSE(raw.failed()) << check_text(raw);
   ASSERT_EQ(notes(raw, "c1").size(), 1u) << check_text(raw);
   EXPECT_THAT(notes(raw, "c1")[0], HasSubstr("turned by 90 degrees; frames are used as stored"));
@@ -315,7 +315,7 @@ TEST_F(CheckTest, DrawsAPictureOfEveryCamera) {
   }
 }
 
-// A point that walks on a gentle curve through the room, seen by cameras of which one is late.
+// A point that moves on a slight curve through the room, seen by cameras of which one lags.
 std::vector<FigurePath> walked_paths(const std::vector<Camera>& cameras, size_t late, int lag,
                                      double noise_px) {
   Rng rng(11, Purpose::kTest);
@@ -333,7 +333,7 @@ std::vector<FigurePath> walked_paths(const std::vector<Camera>& cameras, size_t 
 }
 
 TEST_F(CheckTest, FindsTheCameraThatIsOutOfStep) {
-  // With three cameras shifting another one may do as well; with four it is unique.
+  // With three cameras a lag of another one may explain it as well; with four it is unique.
   for (const size_t count : {3u, 4u}) {
     if (count == 4) cameras_.push_back(room_camera({-0.5, -6, 1.8}));
     EXPECT_TRUE(find_out_of_step(cameras_, walked_paths(cameras_, 0, 0, 0.05)).empty());
@@ -352,7 +352,7 @@ TEST_F(CheckTest, FindsTheCameraThatIsOutOfStep) {
   }
 }
 
-// From the videos to the cure: four cameras about a walk, one of which began six frames early.
+// From the videos to the advice: four cameras around a walk, one of which began six frames early.
 TEST_F(CheckTest, NamesTheStartFrameThatPutsCamerasInStep) {
   RenderJob job;
   MadeWalk walk;
@@ -389,7 +389,7 @@ TEST_F(CheckTest, NamesTheStartFrameThatPutsCamerasInStep) {
   EXPECT_THAT(finding->cure, testing::StartsWith("start_frame: 6 for c2"));
 }
 
-// The demo's two cameras, the second one's frames taken from other places of its path.
+// The demo's two cameras, with the second one's frames taken from other places of its path.
 class DemoPair : public testing::Test {
  protected:
   DemoPair() : scene_(read_scene(WALKTRACK_SOURCE_DIR "/data/demo/scene.yaml")) {
@@ -419,9 +419,9 @@ TEST_F(DemoPair, TellsByHowManyFramesTwoCamerasAreOutOfStep) {
   }
 }
 
-// A camera that stands half a metre, a step, further along the way than its calibration says shows
-// what a camera would that began a step late. Nobody is told that it did.
-TEST_F(DemoPair, KnowsLagsThatAPlaceAlongTheWayWouldExplain) {
+// A camera that is half a metre, a step, further along the walk than its calibration states shows
+// the same as a camera that began a step late, so that no lag is reported.
+TEST_F(DemoPair, RecognisesLagsThatAWrongPositionWouldExplain) {
   for (const int late : {-6, -3, 3, 6}) {
     const auto found = lag([&](int i) { return i - late; });
     ASSERT_TRUE(found) << late;
@@ -443,13 +443,13 @@ TEST_F(DemoPair, TellsWhereFramesAreMissing) {
   EXPECT_NEAR(found->changes_at, 57, 9);
 }
 
-TEST_F(DemoPair, SaysNothingOfWhoStandsStillOrIsNotThere) {
+TEST_F(DemoPair, ReportsNothingIfTheSubjectStandsOrIsMissing) {
   EXPECT_FALSE(lag([](int) { return -1; }));
   for (FigurePath& path : paths_) path.assign(path.size(), path[60]);
   EXPECT_FALSE(lag([](int i) { return i; }));
 }
 
-// Two cameras of recordings that nothing here was set by.
+// Two cameras of recordings that were not used to set any constant.
 TEST(CheckRealRig, FindsTwoTelephonesOutOfStep) {
   const std::string file = shared_data("opencap_two_phones/scene.yaml");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
@@ -466,8 +466,8 @@ TEST(CheckRealRig, FindsTwoTelephonesOutOfStep) {
   }
 }
 
-// One camera misses the head, and the other one's shadow reaches as far as the feet: what agrees
-// then is not the same thing, and nothing may be said of it.
+// One camera misses the head, and in the other one the shadow reaches the feet: the ends do not
+// correspond, and no lag may be reported.
 TEST(CheckRealRig, SaysNothingWrongOfTwoCamerasThatSeeDifferentEnds) {
   const std::string file = shared_data("rendered/cmu_02_01/scene.yaml");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
@@ -502,7 +502,7 @@ TEST_F(CheckTest, FollowsTheMovingFigure) {
   check();
   const Scene scene = read_scene(folder_ / "scene.yaml");
   const FigurePath path = figures_in(scene, {}).paths[0];
-  ASSERT_EQ(path.size(), 30u);  // as many as the other cameras have
+  ASSERT_EQ(path.size(), 30u);  // as many as for the other cameras
   ASSERT_TRUE(path[20]);
   EXPECT_NEAR(path[20]->middle.x(), 4 + 20 + 2.5, 1.0);
   EXPECT_NEAR(path[20]->middle.y(), 10 + 3.5, 1.5);  // the middle of its upper 40 %

@@ -74,13 +74,13 @@ TEST_F(Compare, FindsASlowerWalkSlowerAndOfTheSameSteps) {
   EXPECT_FALSE(length.at("exceeds").get<bool>());
   EXPECT_LE(length.at("low").get<double>(), 0);
   EXPECT_GE(length.at("high").get<double>(), 0);
-  // Stretched in time, the curves over the cycle are the same.
+  // After scaling in time, the curves over the cycle are the same.
   for (const double difference :
        all.at("comparisons")[0]["samples"][1]["angles"]["knee_flexion"]["difference"])
     EXPECT_NEAR(difference, 0, 1);
 }
 
-// The detectable change by hand: the demo's truth has no bands.
+// The detectable change computed by hand: the demo's truth has no bands.
 TEST_F(Compare, DetectableChangeIsTheScatterOfBothMeans) {
   const Json all = compared(job({{"", {result("a")}}, {"", {result("b", 1.1)}}}));
   const Json &a = parameter(all, 0, 0, "step_time_s"), &b = parameter(all, 0, 1, "step_time_s");
@@ -127,7 +127,7 @@ TEST_F(Compare, GroupsHoldTheResultsBelowTheirFolders) {
   EXPECT_TRUE(parameter(trials, 0, 1, "stride_time_s").at("low").is_null());  // too few for a band
 }
 
-// Three trials of a group whose bands are known.
+// Three trials of a group with known bands.
 TEST(ParameterDifference, HasTheResultsOwnBandsInIt) {
   ComparedTrial trial;
   for (SideStrides& side : trial.sides) {

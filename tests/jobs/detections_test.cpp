@@ -83,8 +83,8 @@ TEST_F(DetectionsTest, AutoIsForFilesAndForOneCameraThatSeesEnough) {
   EXPECT_TRUE(keypoints_wanted(scene(cameras), config));
 }
 
-// From two sides outlines tell left from right by themselves, unless the room behind has to be
-// learned while somebody stands in it.
+// From two sides outlines distinguish left from right, unless the background has to be learned
+// while somebody stands in it.
 TEST_F(DetectionsTest, AutoIsForTwoCamerasWithoutPicturesOfTheEmptyScene) {
   Config config;
   const auto two = [&](const std::string& more) {
@@ -134,7 +134,7 @@ TEST_F(DetectionsTest, NetworkLooksAtEveryNthFrame) {
   const Region around{{10, 5, 40, 45}, 0.04, false};
   EXPECT_EQ(detections.look(0, {picture_, 0, 0, around, true}).size(), 1u);
   EXPECT_TRUE(detections.look(0, {picture_, 1, 1, around, true}).empty());
-  EXPECT_TRUE(detections.look(0, {picture_, 2, 2, {}, true}).empty());  // out of the picture
+  EXPECT_TRUE(detections.look(0, {picture_, 2, 2, {}, true}).empty());  // outside the image
   Region unasked = around;
   unasked.points = false;
   EXPECT_TRUE(detections.look(0, {picture_, 4, 4, unasked, true}).empty());

@@ -1,4 +1,4 @@
-// One of two cameras drops frames: by its time stamps the others keep their moments.
+// One of two cameras drops frames: by its time stamps the others keep their times.
 #include <filesystem>
 #include <string>
 
@@ -39,7 +39,8 @@ class DroppedFrames : public testing::Test {
     }
     write_timed_video(folder_ / "front.mp4", frames, 30, durations);
   }
-  // Mean error of the joints, m. No rate is stated, and the camera that drops frames is the first.
+  // Mean error of the joints, m. No rate is stated, and the first camera is the one that drops
+  // frames.
   double tracked() const {
     const std::string demo = kDemo.string();
     std::string text = "subject: {height: 1.75, mass: 70}\nlast_frame: 70\ncameras:\n";

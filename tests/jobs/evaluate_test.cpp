@@ -59,7 +59,7 @@ TEST_F(Evaluate, JointsSideBySideFromFilesAndResultFolders) {
   write("out/joints.csv", motion_csv(moved_by(truth, {0.03, 0.04, 0})));
   const auto results = evaluate(job);
   ASSERT_EQ(results.size(), 2u);
-  // Tables hold micrometres.
+  // Tables have micrometres.
   EXPECT_NEAR(figure(results[0], "joint_error_mean_mm"), 0, 1e-3);
   EXPECT_NEAR(figure(results[1], "joint_error_mean_mm"), 50, 1e-2);
   EXPECT_EQ(figure(results[1], "filled_percent"), 100);
@@ -156,7 +156,7 @@ TEST_F(Evaluate, FootPlantsAndGroundPointsAreRecognisedByTheirHeaders) {
   const TestWalk walk;
   EvaluateJob job;
   job.estimates = {write("estimate.csv", motion_csv(walk_motion(walk)))};
-  // The right foot stands 0.8 strides of 1.32 m ahead of the start from frame 16.5 to 36.3.
+  // The right foot is on the ground 0.8 strides of 1.32 m after the start from frame 16.5 to 36.3.
   job.truth =
       write("plants.csv", "# by hand\nstance,side,on_frame,off_frame,x_m\n0,r,17,36,1.056\n");
   auto result = evaluate(job);
@@ -189,7 +189,7 @@ TEST(EvaluateOutput, MarkdownAndJsonHoldTheSameFigures) {
       {"b", {{"y_s", "y, s", std::nan(""), 2}}, {}}};
   const std::string table = as_markdown("truth.csv", all);
   EXPECT_NE(table.find("| x, mm     |      1.2 |        - |"), std::string::npos) << table;
-  EXPECT_EQ(table.find("y, s"), std::string::npos);   // nobody has it
+  EXPECT_EQ(table.find("y, s"), std::string::npos);   // unknown in all estimates
   EXPECT_EQ(table.find("z, mm"), std::string::npos);  // a detail
   const auto json = nlohmann::json::parse(as_json("truth.csv", all));
   EXPECT_EQ(json["estimates"][0]["x_mm"], 1.25);

@@ -1,7 +1,7 @@
-// Numbers and cameras at the extremes. Each ends in a verdict that is stated and correct: refused
-// with an error that names the cause, nobody found, tracked but below a quality check that is
-// named, or tracked. Only the last promises something, and it must be true: joints within kJoints
-// of the truth on average, legs rarely swapped, nearly all frames filled. The table prints with
+// Extreme numbers and cameras. Each ends with a stated outcome that is correct: refused with an
+// error that names the cause, nobody found, tracked with a failed quality check that is named, or
+// tracked. Only the last one promises accuracy, which is tested: joints within kJoints of the truth
+// on average, legs rarely swapped, nearly all frames filled. The table prints with
 // --gtest_filter=*Extreme*; its last state is in tests/jobs/extremes.md.
 #include <cmath>
 #include <filesystem>
@@ -33,11 +33,11 @@ constexpr double kLeastFilled = 0.9;  // of the frames after the first tracked o
 
 struct Extreme {
   const char* name;
-  std::string render;            // options that differ from kUsual, key: value, one a line
+  std::string render;            // options that differ from kUsual, key: value, one in each line
   std::string cameras;           // in place of the usual ones
   std::vector<std::string> set;  // of the configuration
-  bool must_be_tracked = false;  // where anything else would be a failure, too
-  const char* open = nullptr;    // why its verdict is known to be false; then seen as skipped
+  bool must_be_tracked = false;  // if any other outcome would be a failure
+  const char* open = nullptr;    // why its outcome is known to be wrong; then it is skipped
 };
 
 constexpr const char* kSide =
@@ -135,7 +135,7 @@ std::vector<Extreme> extremes() {
   };
 }
 
-// A key that the extreme has replaces the usual one.
+// A key of the extreme replaces the usual one.
 std::string options_of(const Extreme& extreme) {
   const std::vector<std::pair<std::string, std::string>> usual{
       {"seed", "7"},

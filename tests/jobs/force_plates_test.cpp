@@ -1,6 +1,6 @@
-// The forces behind measured motions against force plates: OpenCap's two laboratory trials
-// (Uhlrich et al. 2023), motion capture in, ground reaction out. They are not part of the
-// repository; where they are absent the tests say so.
+// The forces of measured motions compared with force plates: OpenCap's two laboratory trials
+// (Uhlrich et al. 2023), with motion capture as input and ground reactions as output. They are not
+// part of the repository; without them the tests are skipped.
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -54,10 +54,10 @@ class ForcePlates : public testing::TestWithParam<const char*> {
     plates_ = read_plates(plates);
     const Gait gait = gait_from_motion(motion_);
     Subject subject;
-    subject.mass = 1;       // forces per kilogram, until the plates have said how many there are
-    subject.height = 1.61;  // what the thighs and shanks of the motion belong to
+    subject.mass = 1;       // forces per kilogram, until the plates give the mass
+    subject.height = 1.61;  // according to the thighs and shanks of the motion
     const Kinetics per_kg = run(gait, subject);
-    // Until the left foot, which came from off the plates, has left the ground.
+    // Until the left foot, which was off the plates at first, has left the ground.
     double both = 0, alone = 0;
     for (const PlateRow& row : plates_) {
       const auto [estimate, known] = at(per_kg, row.time);
@@ -101,7 +101,7 @@ TEST_P(ForcePlates, VerticalForceOfTheWholeBody) {
   ASSERT_GT(count, 100u);
   const double rmse = 100 * std::sqrt(squares / static_cast<double>(count));
   RecordProperty("rmse_percent_bw", std::to_string(rmse));
-  // 10 % of body weight is what is asked for; marker-based inverse dynamics has 3 to 8 %.
+  // 10 % of body weight is the requirement; marker-based inverse dynamics has 3 to 8 %.
   EXPECT_LT(rmse, 8) << GetParam();
 }
 

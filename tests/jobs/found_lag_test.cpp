@@ -1,4 +1,5 @@
-// One of two cameras begins late, and the scene does not say so: the walk does.
+// One of two cameras begins late and the scene does not state it: the lag is estimated from the
+// walk.
 #include <filesystem>
 #include <string>
 
@@ -21,7 +22,7 @@
 namespace walktrack {
 namespace {
 
-constexpr int kLate = 6;  // frames of the scene that the front camera has missed
+constexpr int kLate = 6;  // frames of the scene that the front camera missed
 constexpr double kDemoRate = 30;
 
 class FoundLag : public testing::Test {
@@ -35,7 +36,7 @@ class FoundLag : public testing::Test {
     write_timed_video(folder_ / "front.mp4", frames, kDemoRate,
                       std::vector<double>(frames.size(), 1));
   }
-  // `front`: what the scene says of the camera besides.
+  // `front`: further keys of the front camera.
   Scene scene(const std::string& front) const {
     const std::string demo = kDemo.string();
     return read_scene(folder_.write(
@@ -56,7 +57,7 @@ class FoundLag : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(FoundLag, IsTakenOutAndStated) {
+TEST_F(FoundLag, IsCorrectedAndStated) {
   const TrackOutcome outcome = track_scene(job(""), {});
   ASSERT_TRUE(outcome.lag);
   EXPECT_EQ(outcome.lag->camera, 0u);
@@ -66,13 +67,13 @@ TEST_F(FoundLag, IsTakenOutAndStated) {
   const auto run = nlohmann::json::parse(read_text_file(folder_ / "tracked/run.json", 1 << 24));
   EXPECT_EQ(run["numbers"]["lag_frames_side"], kLate);
   EXPECT_THAT(run["notes"].dump(), testing::HasSubstr("side shows things 6 frames later"));
-  // Time 0 is that of the camera that began last.
+  // Time 0 is the beginning of the camera that began last.
   Motion found = read_motion(folder_ / "tracked/joints.csv");
   for (double& time : found.time) time += kLate / kDemoRate;
   EXPECT_LT(joint_errors(read_motion(kDemo / "truth.csv"), found).absolute.mean, 0.05);
 }
 
-// Videos whose lengths differ by the lag are not taken for one that has lost frames.
+// Videos whose lengths differ by the lag are not taken for videos with lost frames.
 TEST_F(FoundLag, ExplainsUnequalLengths) {
   Scene open = scene("");
   open.last_frame.reset();
@@ -81,7 +82,7 @@ TEST_F(FoundLag, ExplainsUnequalLengths) {
   EXPECT_FALSE(report.failed()) << check_text(report);
 }
 
-TEST_F(FoundLag, WhatTheSceneStatesIsNotMended) {
+TEST_F(FoundLag, StatedStartsAreNotCorrected) {
   EXPECT_FALSE(look_at_scene(scene(""), {}).failed());
   const CheckReport stated = look_at_scene(scene(", start_frame: 0"), {});
   EXPECT_TRUE(stated.failed());

@@ -69,7 +69,7 @@ TEST(GaitMotion, TheGroundCarriesTheWeightOverStridesAndPushesUpAlways) {
     sum += truth.frames[i].ground.force.z();
     ++count;
   }
-  // A row more or less at the ends, where it may hold a strike of 2 kN.
+  // One row more or less at the ends, which may contain a strike of 2 kN.
   EXPECT_NEAR(sum / count, kWeight, 2000.0 / count);
 }
 
@@ -90,12 +90,12 @@ TEST(GaitMotion, FeetStandWhereTheGroundPushes) {
       EXPECT_GT(from_ankle.dot(ahead.head<2>()), -0.3 * foot);
       EXPECT_LT(from_ankle.dot(ahead.head<2>()), 0.8 * foot);
       EXPECT_NEAR(ahead.x() * from_ankle.y() - ahead.y() * from_ankle.x(), 0, 1e-9);
-      // Neither foot floats or sinks: the ball is where the sole is.
+      // The feet are on the ground: the ball is at the height of the sole.
       EXPECT_NEAR(toe_place.z(), make_body(Subject{}, {}).lengths.ball_height, 0.01);
       ++standing;
     }
   }
-  EXPECT_EQ(standing, static_cast<int>(truth.frames.size()));  // always one of them
+  EXPECT_EQ(standing, static_cast<int>(truth.frames.size()));  // always exactly one
 }
 
 TEST(GaitMotion, StandsWhereAskedAndWalksThatWayAtThatSpeed) {
@@ -111,8 +111,8 @@ TEST(GaitMotion, StandsWhereAskedAndWalksThatWayAtThatSpeed) {
   EXPECT_GT(motion.time.back(), 4.2);
 }
 
-// An independent route to the forces: from the joints alone, by inverse dynamics of another body
-// model. Both have the walker's mass; its parts differ.
+// Independent forces: from the joints alone, by inverse dynamics of another body model. Both have
+// the same mass; its distribution differs.
 TEST(GaitMotion, InverseDynamicsOfTheJointsFindsTheForces) {
   const WalkedGait& walk = usual_walk();
   const auto contacts = foot_contacts(gait_from_motion(walk.motion));
@@ -136,7 +136,7 @@ TEST(GaitMotion, WalksDownhillBrakedByNothingButTheGround) {
   const Kinetics truth = ground_kinetics(walk, frame_times(30, 3), 1 / 30.0);
   Vector3d sum = Vector3d::Zero();
   for (const KineticsFrame& frame : truth.frames) sum += frame.ground.force;
-  // At a steady speed the ground takes what gravity gives along the slope.
+  // At a steady speed the ground compensates gravity along the slope.
   EXPECT_NEAR(sum.x() / sum.z(), -std::tan(0.05), 0.02);
 }
 

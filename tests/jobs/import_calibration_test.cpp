@@ -1,4 +1,4 @@
-// Other tools' calibrations become files that scenes read back as the same cameras.
+// Calibrations of other tools are converted to files that scenes read as the same cameras.
 #include "jobs/calibrate/import_calibration.h"
 
 #include <filesystem>
@@ -27,7 +27,7 @@ class ImportCalibration : public testing::Test {
   ImportJob job(const std::string& file) {
     return {.file = file, .output = folder_ / "out", .command_line = {"walktrack"}};
   }
-  // A copy with the ending by which the format is known.
+  // A copy with the ending by which the format is recognised.
   std::string qualisys() {
     fs::copy_file(corpus("qualisys/two.xml"), folder_ / "rig.qca.txt",
                   fs::copy_options::overwrite_existing);
@@ -64,7 +64,7 @@ TEST_F(ImportCalibration, TakesTheOneThatIsAskedFor) {
   EXPECT_THAT(message_of([&] { import_calibration(one); }), HasSubstr("21001, 21002"));
 }
 
-// A session's telephones have a file each; both go into one folder.
+// Each telephone of a session has a file; both are converted into one folder.
 TEST_F(ImportCalibration, GathersOneCameraFilesAndSaysWhereUpIs) {
   for (const char* name : {"Cam0", "Cam1"}) {
     ImportJob one = job(corpus("opencap/protocol4.pickle"));
@@ -79,7 +79,7 @@ TEST_F(ImportCalibration, GathersOneCameraFilesAndSaysWhereUpIs) {
 
 TEST_F(ImportCalibration, SaysWhichWayIsUpWhereItIsNotZ) {
   Camera camera = read_calibration(corpus("opencap/protocol4.pickle"), "cam0");
-  // As on a board against a wall: y points down.
+  // As for a board against a wall: y points down.
   camera.rotation = Eigen::Matrix3d::Identity();
   const std::string file = folder_.write("wall.yaml", opencv_from_camera(camera));
   const ImportOutcome outcome = import_calibration(job(file));

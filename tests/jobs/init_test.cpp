@@ -35,7 +35,7 @@ class Init : public testing::Test {
   const TemporaryFolder place_;
 };
 
-// Metres a pixel at the middle of the walk, by a calibration.
+// Metres per pixel in the middle of the walk, by a calibration.
 double scale_by(const Camera& camera, const fs::path& record) {
   const auto json = nlohmann::json::parse(read_file(record)).at("positions");
   const auto& middle = json.at(json.size() / 2);
@@ -57,12 +57,12 @@ TEST_F(Init, MakesASceneThatPassesItsChecks) {
   const Camera truth = read_calibration(kDemo / "side.yaml", "side");
   EXPECT_NEAR(found.view.metres_per_px.value / scale_by(truth, place_.path() / "out/init.json"), 1,
               0.03);
-  // The camera looks down by 3 degrees, which a walk straight across does not tell.
+  // The camera is tilted down by 3 degrees, which a walk straight across does not determine.
   EXPECT_NEAR(found.view.height.value, camera_centre(truth).z(), 2 * found.view.height.sd);
   EXPECT_THAT(init_text(found), HasSubstr("Do not use it for the distance from the camera"));
 }
 
-// With the lens and the tilt stated, the camera stands where it stands.
+// With a stated lens and tilt, the pose of the camera is correct.
 TEST_F(Init, KnowsHeightAndDistanceWhereLensAndTiltAreStated) {
   const Camera truth = read_calibration(kDemo / "side.yaml", "side");
   InitJob stated = job(kDemo / "side.mp4", 1.75, kDemo / "side_background.mp4");
@@ -74,7 +74,7 @@ TEST_F(Init, KnowsHeightAndDistanceWhereLensAndTiltAreStated) {
   EXPECT_LT(found.view.height.sd, 0.06);
 }
 
-// A square metre on the floor tells what the walk leaves open.
+// A square metre on the floor determines what the walk does not.
 TEST_F(Init, KnowsDistanceWhereATileIsStated) {
   const Camera truth = read_calibration(kDemo / "side.yaml", "side");
   InitJob stated = job(kDemo / "side.mp4", 1.75, kDemo / "side_background.mp4");
@@ -107,9 +107,9 @@ TEST_F(Init, ScaleOfIndependentRendersIsRight) {
   }
 }
 
-// Nothing was fitted on this one: a real video, with somebody else in it. The aim was 3 % for both;
-// the camera's height is 3.5 % off, for a walk straight across does not tell 1 degree of tilt and
-// roll, which move it by 3 to 6 %.
+// No constant was fitted on this one: a real video of somebody else. The aim was 3 % for both; the
+// camera's height is 3.5 % wrong, because a walk straight across does not determine 1 degree of
+// tilt and roll, which change it by 3 to 6 %.
 TEST_F(Init, OfTheRealSideViewIsTheGivenCalibration) {
   const fs::path folder = kSharedData / "sports2d_side";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
@@ -131,8 +131,8 @@ InitPairJob pair_job(const fs::path& folder, const std::array<const char*, 2>& n
   return out;
 }
 
-// Of two telephones whose lenses nobody states. How far points are off the rays was taken from this
-// very video; nothing else. The cameras are 1.46 m apart, turned to each other by 37 degrees.
+// Two telephones with unknown lenses. Only the distance of points from the rays was taken from this
+// very video. The cameras are 1.46 m apart and rotated relative to each other by 37 degrees.
 TEST_F(Init, OfTwoRealTelephonesStandAsTheyDo) {
   const fs::path folder = kSharedData / "opencap_two_phones";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
@@ -193,10 +193,10 @@ TEST_F(Init, SaysWhenNobodyWalksThroughThePicture) {
 TEST(StridePositions, AreMeansOfWholeFigures) {
   std::vector<SeenFigure> figures;
   for (int i = 0; i < 22; ++i) {
-    const double bob = i % 5 == 0 ? 2 : -0.5;  // a head goes up and down
+    const double bob = i % 5 == 0 ? 2 : -0.5;  // the head moves up and down
     figures.push_back({0.1 * i, 3 * i, 0, 100.0 + 10 * i, 50 + bob, 250});
   }
-  figures[4].bottom_px = 180;  // half hidden
+  figures[4].bottom_px = 180;  // partly hidden
   const auto positions = stride_positions(figures, 10);
   ASSERT_EQ(positions.size(), 3u);
   EXPECT_NEAR(positions[1].seen.top_px, 50, 0.3);

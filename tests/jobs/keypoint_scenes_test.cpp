@@ -1,5 +1,5 @@
-// Whole runs with a detector's files that are right, biased, swapped for a while or of somebody
-// else: alone, and with the video that they are of.
+// Complete runs with keypoint files that are correct, biased, swapped for a while or of somebody
+// else: alone, and together with the video.
 #include <filesystem>
 #include <memory>
 
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Somebody else comes the other way behind the subject and passes them after 1.1 s.
+// Another person walks in the opposite direction behind the subject and passes them after 1.1 s.
 constexpr const char* kTwoPeople = R"(
 seed: 51
 frame_rate: 30
@@ -63,7 +63,7 @@ class KeypointScenes : public testing::Test {
     folder_.reset();
   }
 
-  // What a detector with these faults would say of that video.
+  // The keypoints of a detector with these errors for that video.
   static void detect(const Stage& stage, const KeypointFaults& faults) {
     const std::string folder = "scene/" + keypoint_folder("side");
     fs::remove_all(*folder_ / folder);
@@ -73,7 +73,7 @@ class KeypointScenes : public testing::Test {
           openpose_json(rendered_keypoints(stage, stage.cameras[0], faults, 1, 0,
                                            static_cast<uint32_t>(i), double(i) * kFrame)));
   }
-  // `given`: the scene says where the subject begins.
+  // `given`: the scene states where the subject begins.
   static Found track(bool video, bool given = false) {
     TrackJob job;
     job.scene = read_scene(*folder_ / "scene/scene.yaml");
@@ -111,8 +111,8 @@ TEST_F(KeypointScenes, RightOnes) {
   expect_followed(track(true), 60);
 }
 
-// By 2 % of the person's height, 3.4 cm. Points alone then stand 14 cm too far away, for the floor
-// is seen from 1.2 m above it at 4.6 m.
+// By 2 % of the person's height, 3.4 cm. With points alone the figure is then 14 cm too far away,
+// because the floor is seen from 1.2 m above it at 4.6 m.
 TEST_F(KeypointScenes, BiasedOnes) {
   detect(*alone_, {.bias = 0.02});
   expect_followed(track(false), 200);
@@ -128,15 +128,15 @@ TEST_F(KeypointScenes, SwappedForAWhile) {
   expect_followed(track(true), 60);
 }
 
-// The subject is in none of these frames' points, and the other person half a metre to two metres
-// beside.
+// The subject is in none of these frames' points, and the other person is half a metre to two
+// metres beside.
 TEST_F(KeypointScenes, OfSomebodyElseForAWhile) {
   detect(*both_, {.missing = {{1.3, 1.8}}});
   expect_followed(track(false, true), 100);
   expect_followed(track(true), 60);
 }
 
-// Points half a body too high are nobody's who stands on this ground.
+// Points that are half a body too high belong to nobody on this ground.
 TEST_F(KeypointScenes, OfNobodyWhoCanBeThere) {
   detect(*alone_, {.bias = 0.5});
   const Found found = track(false);

@@ -1,4 +1,4 @@
-// Left and right in front of one camera, which silhouettes from the side do not tell.
+// Left and right in front of one camera, which silhouettes from the side do not determine.
 #include "tracker/start/leg_label_evidence.h"
 
 #include <filesystem>
@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 constexpr double kFrame = 1.0 / 30;  // s
 constexpr uint32_t kFrames = 36;
 
-// A stride of somebody with arms, filmed from one side; everything looks like the walker.
+// A stride of a person with arms, recorded from one side, in which everything looks like the
+// walker.
 struct Video {
   explicit Video(double azimuth_deg) {
     MadeWalk walk;
@@ -89,7 +90,7 @@ TEST(LegNames, AreUnknownWithoutPicturesOrTracks) {
   EXPECT_EQ(legs_log_odds(video.scene, video.window, video.truth), 0);
 }
 
-// In black trousers, which show nothing of which leg is in front.
+// In black trousers, which do not show which leg is in front.
 constexpr const char* kBlackTrousers = R"(
 seed: 1
 frame_rate: 30
@@ -103,9 +104,9 @@ cameras:
   - {name: side, azimuth_deg: -90, distance: 5.6, height: 1.2, focal_px: 240, size: [248, 186]}
 )";
 
-// Particles that take one leg for the other while they pass give the names back: with one of these
-// seeds the legs were swapped in 29 % of the frames.
-TEST(LegNames, OutlastTheirPassing) {
+// Particles that swap the legs while they pass each other are corrected: with one of these seeds
+// the legs were swapped in 29 % of the frames.
+TEST(LegNames, StayCorrectWhileTheLegsPass) {
   const TemporaryFolder folder;
   const RenderFile file = read_render_file(folder.write("options.yaml", kBlackTrousers));
   RenderJob video;
@@ -128,8 +129,8 @@ TEST(LegNames, OutlastTheirPassing) {
   }
 }
 
-// A real walk past one camera that begins from standing: with this seed outlines name the legs
-// wrongly at first, and both feet stood 0.4 m from where they do.
+// A real walk past one camera that begins with standing: with this seed outlines label the legs
+// wrongly at first, and both feet were 0.4 m from their places.
 TEST(LegNames, OfARealWalkAreThoseOfTheNearLeg) {
   const fs::path data = fs::path(WALKTRACK_SOURCE_DIR) / "../shared/data/sports2d_side";
   if (!fs::exists(data / "scene.yaml")) GTEST_SKIP() << "no " << data;
@@ -147,7 +148,7 @@ TEST(LegNames, OfARealWalkAreThoseOfTheNearLeg) {
     const JointPositions& joints = motion.joints.at(frame);
     return 0.5 * (joints[ankle(side)] + joints[toe(side)]).x();
   };
-  // Foot plants given with the clip: frames 23 to 49, 42 to 68, 62 to 83.
+  // Foot plants that were supplied with the clip: frames 23 to 49, 42 to 68, 62 to 83.
   EXPECT_NEAR(foot(Side::kRight, 38), -5.208, 0.15);
   EXPECT_NEAR(foot(Side::kLeft, 52), -4.478, 0.15);
   EXPECT_NEAR(foot(Side::kLeft, 62), -4.478, 0.15);

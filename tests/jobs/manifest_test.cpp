@@ -1,4 +1,4 @@
-// Lists of sequences, alone and in a batch with a small script in the place of `walktrack track`.
+// Lists of sequences, alone and in a batch with a small script in place of `walktrack track`.
 #include "jobs/batch/manifest.h"
 
 #include <algorithm>
@@ -90,7 +90,7 @@ TEST_F(ManifestTest, SaysWhichLineIsWrongAndWhatIsAllowed) {
               HasSubstr("found a folder, allowed: a list of scenes"));
 }
 
-// A pipe gives its text once; it is asked for more than once.
+// A pipe can be read only once, but the list is read several times.
 TEST_F(ManifestTest, ReadsPipes) {
   const ProgramResult ran = run_program(
       "/bin/bash", {"-c",
@@ -166,7 +166,7 @@ TEST_F(ManifestBatch, RefusesAnEmptyListAndOneInItsOutput) {
               HasSubstr("'list.txt', which the command reads"));
 }
 
-// What users of clusters have, in a memory that does not know how long the list is.
+// Long lists, as on clusters, in memory that does not depend on their length.
 TEST(LongManifest, AMillionRowsAreListedInLittleMemory) {
   constexpr int kRows = 1'000'000;
   const TemporaryFolder folder;
@@ -176,7 +176,7 @@ TEST(LongManifest, AMillionRowsAreListedInLittleMemory) {
     for (int i = 0; i < kRows; ++i)
       list << "site" << i % 17 << "/subject" << i / 100 << "/trial" << i << "/scene.yaml\n";
   }
-  // Looked at while it runs: what is counted of a child begins with what this test holds.
+  // Measured while it runs: the peak of a child process includes the memory of this test.
   const auto list = [&](const std::string& more) {
     const std::string line = "\"$0\" batch --manifest \"$1\" -o \"$2\" --list " + more +
                              " > \"$3\" & while peak=$(grep VmHWM /proc/$!/status); do echo "

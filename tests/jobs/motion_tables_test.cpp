@@ -65,7 +65,7 @@ TEST_F(MotionTables, OfTheDemoSayWhatTheDemoIs) {
   const auto gait = nlohmann::json::parse(read_text_file(folder_ / "gait.json", size_t{1} << 20));
   const auto& both = gait.at("summary").at("both");
   EXPECT_NEAR(both.at("speed_m_s").at("value").get<double>(), 1.25, 0.05);
-  // Three equal members leave no doubt, and of the model's error nothing was said.
+  // Three equal members give no uncertainty, and the model's error was not stated.
   EXPECT_EQ(both["step_time_s"]["p05"], both["step_time_s"]["p95"]);
   EXPECT_TRUE(fs::exists(folder_ / "gait.csv"));
   const CsvTable table = read_csv(folder_ / "kinetics.csv");
@@ -76,7 +76,7 @@ TEST_F(MotionTables, OfTheDemoSayWhatTheDemoIs) {
         table.number(row, table.column("l_grf_z_n")) + table.number(row, table.column("r_grf_z_n"));
     ++rows;
   }
-  // Over several strides the ground carries the weight, but for what the last step is short of.
+  // Over several strides the ground carries the weight, except for the incomplete last step.
   EXPECT_NEAR(load / rows, demo.subject.mass * 9.80665, 0.03 * demo.subject.mass * 9.80665);
   EXPECT_GT(totals_.peak_load, 1);
   EXPECT_LT(totals_.peak_load, 2);
@@ -84,7 +84,7 @@ TEST_F(MotionTables, OfTheDemoSayWhatTheDemoIs) {
   EXPECT_LT(totals_.cost_of_transport, 0.5);
 }
 
-// In OpenSim the model stands where the joints are and the forces act on its feet.
+// In OpenSim the model's joints are at the joints and the forces act on its feet.
 TEST_F(MotionTables, OpenSimShowsFeetOnTheGroundAndForcesAtThem) {
   AnalysedMotion demo;
   demo.motion = read_motion(kDemo / "truth.csv");
@@ -127,7 +127,7 @@ TEST_F(MotionTables, OpenSimShowsFeetOnTheGroundAndForcesAtThem) {
 }
 
 // In a laboratory's viewer joints, angles and events are those of the tables, and the plates carry
-// the person under the feet.
+// the person below the feet.
 TEST_F(MotionTables, LaboratoriesSeeTheSameWalk) {
   AnalysedMotion demo;
   demo.motion = read_motion(kDemo / "truth.csv");
@@ -174,7 +174,7 @@ TEST_F(MotionTables, LaboratoriesSeeTheSameWalk) {
   EXPECT_GT(loaded, 100);
 }
 
-// In Blender every joint is where joints.csv has it, to less than a millimetre.
+// In Blender every joint is at its place in joints.csv, to less than a millimetre.
 TEST_F(MotionTables, FiguresMoveAsTheJointsDo) {
   AnalysedMotion demo;
   demo.motion = read_motion(kDemo / "truth.csv");
@@ -203,7 +203,7 @@ TEST_F(MotionTables, FiguresMoveAsTheJointsDo) {
   }
 }
 
-// Spreadsheets and pandas take the first line for the header.
+// Spreadsheets and pandas use the first line as the header.
 TEST_F(MotionTables, BeginWithTheirHeaderAndAreExplainedBesideThem) {
   AnalysedMotion demo;
   demo.motion = read_motion(kDemo / "truth.csv");
@@ -221,7 +221,7 @@ TEST_F(MotionTables, BeginWithTheirHeaderAndAreExplainedBesideThem) {
   EXPECT_GT(notes["kinetics.csv"]["totals"]["positive_work_j"].get<double>(), 10);
 }
 
-// A loaded foot's vertical force gets a band beyond its members', other forces do not.
+// A loaded foot's vertical force has a wider band than that of its members, other forces do not.
 TEST_F(MotionTables, BandsHoldTheModelsErrorOfLoads) {
   AnalysedMotion demo;
   demo.motion = read_motion(kDemo / "truth.csv");

@@ -8,7 +8,7 @@ namespace {
 constexpr double kScale = 0.02;  // m/px
 constexpr double kDt = 1.0 / 30;
 
-// Somebody half a metre wide and 1.6 m high whose left edge is at x, m, in a picture of 6.4 m.
+// A person half a metre wide and 1.6 m high whose left edge is at x, m, in an image of 6.4 m.
 SceneEvidence somebody_at(double x) {
   CameraEvidence out;
   resize(out.planes, {0, 0, 320, 120}, 1);

@@ -11,7 +11,7 @@ class NextFrameOfTheDemo : public testing::Test {
  protected:
   NextFrameOfTheDemo() {
     Config config;
-    config.observation.background.enabled = false;  // nothing to learn from first
+    config.observation.background.enabled = false;  // no background to learn
     setup_ = set_up(scene_, config, video_.frame_rate(), {}, {});
     for (const Camera& camera : setup_.scene.cameras) {
       whole_.push_back(whole_image(camera, 0.01));

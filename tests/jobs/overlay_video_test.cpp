@@ -33,7 +33,7 @@ class OverlayVideo : public testing::Test {
     job_.scene = read_scene(kDemo / "scene.yaml");
     job_.output = folder_;
   }
-  // Somebody in the middle of the demo's ground, or nobody.
+  // A person in the middle of the demo's ground, or nobody.
   TrackedFrames frames(const std::vector<bool>& tracked) const {
     TrackedFrames out{kRate, FrameFile(folder_ / "frames.bin")};
     fs::remove(folder_ / "frames.bin");
@@ -81,7 +81,8 @@ TEST_F(OverlayVideo, ShowsAWindowAroundTheWalkerIfWanted) {
   const std::vector<ReportClip> clips = write(frames(std::vector<bool>(3, true)));
   const cv::Mat whole = pictures_of(kDemo / "side.mp4").front();
   const cv::Mat shown = pictures_of(clips[0].file).front();
-  EXPECT_LT(shown.cols * whole.rows, shown.rows * whole.cols);  // narrower, for people are upright
+  EXPECT_LT(shown.cols * whole.rows, shown.rows * whole.cols);  // narrower, because people are
+                                                                // upright
   EXPECT_GE(shown.rows, 470);
 }
 
@@ -94,7 +95,7 @@ TEST_F(OverlayVideo, IsTheSameForAnyThreadCount) {
   for (size_t i = 2; i < bytes.size(); ++i) EXPECT_EQ(bytes[i], bytes[i % 2]);
 }
 
-// A camera of half the rate shows a picture twice; the figure of the first time is not in the
+// A camera with half the rate shows each image twice; the figure of the first time is not in the
 // second.
 TEST_F(OverlayVideo, DrawsIntoAPictureThatIsShownTwiceAnew) {
   job_.scene.frame_rate = kRate;
@@ -105,7 +106,7 @@ TEST_F(OverlayVideo, DrawsIntoAPictureThatIsShownTwiceAnew) {
   const auto changed = [&](int a, int b) {
     cv::Mat difference;
     cv::absdiff(drawn[size_t(a)], drawn[size_t(b)], difference);
-    difference.rowRange(0, 60).setTo(cv::Scalar::all(0));  // what the caption says
+    difference.rowRange(0, 60).setTo(cv::Scalar::all(0));  // the caption
     return cv::norm(difference, cv::NORM_INF);
   };
   EXPECT_GT(changed(2, 3), 100);

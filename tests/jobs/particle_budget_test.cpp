@@ -11,7 +11,7 @@ namespace {
 
 constexpr BudgetConfig kThirtyMs{.frame_ms = 30, .least_particles = 20, .most_particles = 1000};
 
-// A machine on which a frame takes a fixed time and each particle its own.
+// A machine on which a frame takes a fixed time, plus a time for each particle.
 struct Machine {
   double fixed, each;  // s
   double seconds(int particles) const { return fixed + each * particles; }
@@ -45,8 +45,8 @@ TEST(ParticleBudget, LeavesASingleParticle) {
   EXPECT_EQ(settled(budget, {0, 1e-6}, 1), 50);
 }
 
-// A frame a hundred times as slow as the others takes a third of the particles at most, and they
-// come back.
+// A frame that is a hundred times as slow as the others removes a third of the particles at most,
+// and they are added again.
 TEST(ParticleBudget, OneSlowFrameDoesNotStarveTheNext) {
   const Machine machine{0.010, 1e-4};
   ParticleBudget budget(kThirtyMs);

@@ -45,7 +45,7 @@ TEST(CutOut, IsNotMadeOfHalfAPerson) {
   EXPECT_FALSE(cut_out_around(DetectedPerson()));
 }
 
-// The region is of the shrunk image.
+// The region is that of the shrunk image.
 TEST(CutOut, IsAroundTheRegion) {
   const Region region{{40, 20, 80, 120}, 0.02, false};
   const CutOut cut_out = cut_out_around(region, 3, 1.6);
@@ -54,7 +54,7 @@ TEST(CutOut, IsAroundTheRegion) {
   EXPECT_NEAR(cut_out.y0 + cut_out.side_px / 2.0, 210, 1);
 }
 
-// Wherever somebody stands, one of the squares holds them whole and large enough.
+// Wherever a person is, one of the squares contains all of them at a sufficient size.
 TEST(Squares, HoldAPersonAnywhere) {
   const double height = 130;
   const auto squares = squares_over(640, 480, height);

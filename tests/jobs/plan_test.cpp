@@ -71,7 +71,7 @@ TEST(Plan, WhatIsOffCostsNothingAndIsNoCost) {
   EXPECT_THAT(plan_text(plan), HasSubstr("off flow"));
 }
 
-// What an item is said to save is what the plan without it costs less.
+// The stated saving of an item is the difference between the plans with and without it.
 TEST(Plan, SavingsAreDifferencesOfPlans) {
   const Plan all = plan_with({"body.arms=true", "observation.flow.enabled=true"});
   EXPECT_NEAR(item(all, "flow").ms, all.cost.sum() - ms_with({"body.arms=true"}), 1e-9);
@@ -82,8 +82,8 @@ TEST(Plan, SavingsAreDifferencesOfPlans) {
   EXPECT_GT(item(all, "head").ms, 0);
 }
 
-// The shape of the model: particles' work is proportional to them, images' work does not know them,
-// and a frame shrunk to half its side costs the evidence a quarter.
+// The structure of the model: the particles' work is proportional to their number, the images' work
+// does not depend on it, and in a frame shrunk to half its side the evidence costs a quarter.
 TEST(CostModel, HasTheShapeOfTheWork) {
   const double none = ms_with({"filter.particles=1"}), some = ms_with({"filter.particles=101"});
   EXPECT_NEAR(ms_with({"filter.particles=1001"}) - none, 10 * (some - none), 1e-6);
@@ -101,7 +101,7 @@ TEST(CostModel, HasTheShapeOfTheWork) {
   EXPECT_LE(first_camera_ms(large, "background"), 4 * first_camera_ms(small, "background") + 1e-9);
   Scene one_camera = demo();
   one_camera.cameras.resize(1);
-  // Which is asked for keypoints otherwise.
+  // It would be asked for keypoints otherwise.
   const Plan alone = plan_with({"observation.keypoints.enabled=off"}, one_camera);
   EXPECT_LT(alone.cost.sum(), plan_with({}).cost.sum());
   EXPECT_EQ(alone.cost.walker, plan_with({}).cost.walker);
@@ -121,7 +121,7 @@ TEST(Plan, CountsTheState) {
   EXPECT_GE(without.state.bytes_per_particle, 8.0 * without.state.dimension());
 }
 
-// A state has the numbers that its level has, and each level all of the one before.
+// A state has the numbers of its level, and each level includes all of the one before.
 TEST(PlanLevels, EachAddsToTheLast) {
   const Plan plan = plan_with({});
   const auto& levels = plan.levels.levels;
@@ -184,7 +184,7 @@ TEST(PlanLevels, SayWhyTheSagittalPathIsNotEnough) {
   EXPECT_THAT(plan_with({}, scene).levels.why, HasSubstr("degrees above the horizon"));
 }
 
-// Nothing but the camera says how the walk is seen: level ones are put up for walks across.
+// Only the camera shows how the walk is seen: level cameras are usually set up for walks across.
 TEST(PlanLevels, WithoutABeginningALevelCameraIsTakenToSeeTheWalkFromTheSide) {
   Scene scene = demo();
   scene.cameras.resize(1);
@@ -220,7 +220,7 @@ TEST(Plan, AdvisesWhatASceneDoesNotNeed) {
   const Plan lean = plan_with({}, one_camera);
   EXPECT_TRUE(lean.advice.empty()) << advice(lean);
   EXPECT_THAT(plan_text(lean), HasSubstr("Nothing in this model seems to be more"));
-  // Flow that is all there is cannot be spared.
+  // Flow that is the only term is not superfluous.
   const Plan flow =
       plan_with({"observation.background.enabled=false", "observation.foreground.enabled=false",
                  "observation.flow.enabled=true"},
@@ -228,7 +228,7 @@ TEST(Plan, AdvisesWhatASceneDoesNotNeed) {
   EXPECT_THAT(advice(flow), Not(HasSubstr("Flow:")));
 }
 
-// Outlines of two sides tell left from right; the network costs what its looks take.
+// Outlines from two sides distinguish left from right; the network costs as much as its runs.
 TEST(Plan, SaysWhenTheNetworkIsNotNeededAndWhatItCosts) {
   const std::string on = "observation.keypoints.enabled=on";
   EXPECT_THAT(advice(plan_with({on})), HasSubstr("Keypoints: with 2 cameras silhouettes alone"));
@@ -240,7 +240,7 @@ TEST(Plan, SaysWhenTheNetworkIsNotNeededAndWhatItCosts) {
   EXPECT_NEAR(each - third, 2 * (1 - 1.0 / 3) * kLook, 5);
 }
 
-// With the way known, the camera beside it is the one to keep.
+// If the direction of the walk is known, the camera at the side is the one to keep.
 TEST(Plan, KnowsTheCameraAtTheSide) {
   Scene scene = demo();
   scene.initial = InitialState{0, {0, 0}, 0, std::nullopt, std::nullopt};  // along x

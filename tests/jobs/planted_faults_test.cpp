@@ -1,6 +1,6 @@
-// Evaluation must notice every fault that a tracker is likely to have. Each fault is planted into a
-// good estimate of a made walk; at least one figure then has to leave the band that it keeps for
-// good estimates.
+// Evaluation must detect every fault that a tracker is likely to have. Each fault is planted into a
+// good estimate of a generated walk; at least one error then has to leave the band of good
+// estimates.
 #include <cmath>
 #include <functional>
 #include <map>

@@ -43,7 +43,8 @@ TEST_F(PriorJobs, ReportHoldsTablesAndPictures) {
   EXPECT_THROW(report_prior(job, {}), UsageError);
 }
 
-// Two neighbouring nodes of the shipped table are kept; a stop leaves a part to go on from.
+// Two neighbouring nodes of the shipped table are kept; an interruption leaves a part from which
+// building resumes.
 TEST_F(PriorJobs, BuildKeepsEarlierGaitsAndGoesOnFromItsPart) {
   const GaitPrior shipped = load_gait_prior();
   const size_t i = 6, j = 3, k = shipped.slopes.size() / 2;
@@ -69,7 +70,7 @@ TEST_F(PriorJobs, BuildKeepsEarlierGaitsAndGoesOnFromItsPart) {
   EXPECT_THROW(build_prior(job, {}), UsageError);
 }
 
-// The anthropomorphic walker's table takes a second, and its slice on the level less.
+// The anthropomorphic walker's table takes a second, and its slice on level ground less.
 TEST_F(PriorJobs, AnthropomorphicTableIsBuiltAndShown) {
   PriorJob job;
   job.grid.slopes = {0};
@@ -87,8 +88,8 @@ TEST_F(PriorJobs, AnthropomorphicTableIsBuiltAndShown) {
   EXPECT_THAT(read_text_file(shown.output / "cost.svg", 1 << 20), HasSubstr("</svg>"));
 }
 
-// People choose longer steps the faster they walk, as v^0.42; so does the table, which does not
-// know.
+// People make longer steps when they walk faster, like v^0.42; so does the table, which does not
+// contain this law.
 TEST(CheapestStep, GrowsWithSpeedAsPeoplesDo) {
   const WalkerUnits units = walker_units(adult_walker(1.75, 70));
   const auto steps = cheapest_steps(cost_table(load_gait_prior()), units);

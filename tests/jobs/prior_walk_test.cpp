@@ -18,7 +18,7 @@ Recording walked(const WalkPlan& walk, double seconds, double slope = 0) {
   job.model = default_model("kneed");
   job.model.kneed.slope = slope;
   job.duration = seconds;
-  job.simulation.max_step = 4e-3;  // people's knees need no finer one
+  job.simulation.max_step = 4e-3;  // people's knees need no smaller step
   job = with_prior(job, walk);
   return record(*make_walker(job.model), job, {});
 }

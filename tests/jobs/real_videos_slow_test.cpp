@@ -1,4 +1,4 @@
-// Real videos with their references, where the data that they belong to lies beside the checkout.
+// Real videos with their references, if their data are beside the checkout.
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -38,9 +38,9 @@ Vector2d toe_after(const Motion& motion, size_t frame, Side side) {
   return sum;
 }
 
-// With pictures of the empty room, and with nothing but the two videos, in which he stands for more
-// than half of the time: what is behind his first place is never seen, so his first step is less
-// certain.
+// With images of the empty room, and with nothing but the two videos, in which he stands for more
+// than half of the time: the background behind his first place is never seen, so that his first
+// step is less certain.
 struct Room {
   const char* scene;
   double farthest;  // m
@@ -68,7 +68,7 @@ TEST_P(TwoTelephones, AManStandsWalksAndStands) {
     const Vector2d own = toe_after(motion, landing.frame, landing.side) - landing.toe;
     const Vector2d other_foot = toe_after(motion, landing.frame, other(landing.side)) - landing.toe;
     EXPECT_LT(own.norm(), other_foot.norm()) << landing.frame;
-    // Our toe is the ball, about 8 cm behind the tip that was marked.
+    // The toe of the body model is the ball, about 8 cm behind the tip that was marked.
     EXPECT_LT(own.norm(), std::get<0>(GetParam()).farthest) << landing.frame;
   }
   const auto gait = nlohmann::json::parse(read_file(folder + "/gait.json"));

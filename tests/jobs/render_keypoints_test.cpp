@@ -45,7 +45,7 @@ TEST_F(RenderedKeypoints, LieOnTheJoints) {
   EXPECT_EQ(person[kLeftHeel].confidence, 0);
 }
 
-// The error of 2,000 frames' knees, in units of its own deviation, has that deviation.
+// The errors of the knees in 2,000 frames have the standard deviation that is stated.
 TEST_F(RenderedKeypoints, ErrAsStated) {
   const DetectedPerson truth = seen({.noise = 0});
   double sum = 0;
@@ -86,7 +86,7 @@ TEST_F(RenderedKeypoints, MayShowNobody) {
       rendered_keypoints(stage_, stage_.cameras[0], {.missing = {{0.5, 2}}}, 1, 0, 0, 1).empty());
 }
 
-// What is written is what is read.
+// The files are read as they were written.
 TEST_F(RenderedKeypoints, AreReadBack) {
   const TemporaryFolder folder;
   const DetectedPerson person = seen({.noise = 0.01, .dropout = 0.2});

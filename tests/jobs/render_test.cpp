@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Half a second of a figure that glides along x and swings its legs.
+// Half a second of a figure that moves along x and swings its legs.
 Motion gliding_motion() {
   const Body body = make_body(Subject{}, {.head = true, .arms = true});
   Motion motion;
@@ -93,14 +93,14 @@ TEST_F(Render, WritesASceneThatReadsBackWithItsTruth) {
   EXPECT_EQ(FrameSource(scene.cameras[0].background).facts().frame_count, 3);
   const CsvTable angles = read_csv(job_.output / "angles.csv");
   EXPECT_EQ(angles.rows.size(), 16u);
-  // As a track's result names it (io/tables/angles_file.h), so that the two can be laid over each
-  // other.
+  // The names are those in a track's result (io/tables/angles_file.h), so that both can be
+  // compared.
   EXPECT_TRUE(angles.optional_number(angles.rows[0], angles.column("knee_angle_l_deg")));
   EXPECT_EQ(read_csv(job_.output / "events.csv").columns.size(), 3u);
 }
 
-// Of all but the videos: the H.264 encoder itself does not promise equal bytes. Their frames are
-// keyed by seed, camera and frame (tests/synth/view_test.cpp).
+// For all files except videos: the H.264 encoder itself does not promise equal bytes. Their frames
+// are keyed by seed, camera and frame (tests/synth/view_test.cpp).
 TEST_F(Render, SameSeedSameBytesForAnyThreadCount) {
   job_.options.flow = job_.options.depth = job_.options.labels = true;
   job_.options.duration = 0.2;
@@ -131,7 +131,7 @@ TEST_F(Render, ImagesAreTheFramesToTheLastBit) {
   int count = 0;
   while (video.read(frames)) ++count;
   EXPECT_EQ(count, 16);
-  // Shorter and with other threads: the same pictures, and none of the old ones is left.
+  // Shorter and with other threads: the same images, and none of the old ones is left.
   job_.threads = 3;
   job_.overwrite = true;
   render_scene(job_, {});
@@ -142,11 +142,11 @@ TEST_F(Render, ImagesAreTheFramesToTheLastBit) {
   EXPECT_FALSE(fs::exists(job_.output / "side/000007.png"));
 }
 
-// Three cameras in one place, pictures without noise.
+// Three cameras in one place, images without noise.
 TEST_F(Render, CamerasFilmWhenTheyAreToldTo) {
   job_.options.images = true;
   job_.options.sensor.noise = 0;
-  job_.options.start = 0.1;  // the motion is there before and after the scene
+  job_.options.start = 0.1;  // the motion extends beyond the scene
   job_.options.duration = 0.2;
   RenderCamera early = job_.options.cameras[0], late = early;
   early.name = "early";
@@ -162,7 +162,7 @@ TEST_F(Render, CamerasFilmWhenTheyAreToldTo) {
     return content(file);
   };
   EXPECT_NE(picture("side", 2), picture("side", 3));
-  // `early` says that its frame 2 is the scene's first, `late` says nothing.
+  // For `early` the scene states that its frame 2 is the first, for `late` it states nothing.
   for (int i = 0; i <= 6; ++i) EXPECT_EQ(picture("early", i + 2), picture("side", i)) << i;
   for (int i = 0; i < 6; ++i) EXPECT_EQ(picture("late", i), picture("side", i + 1)) << i;
   const Scene scene = read_scene(job_.output / "scene.yaml");
@@ -208,7 +208,7 @@ TEST_F(Render, TheBackgroundIsTheSceneWithoutAnybody) {
   job_.walker.delay = 0.2;
   render_scene(job_, {});
   const std::string background = content(job_.output / "side_background/000002.png");
-  EXPECT_EQ(content(job_.output / "side/000005.png"), background);  // nobody is there yet
+  EXPECT_EQ(content(job_.output / "side/000005.png"), background);  // the person is not there yet
   EXPECT_NE(content(job_.output / "side/000006.png"), background);
 }
 
@@ -244,7 +244,7 @@ TEST_F(Render, ACompleteSceneIsNotOverwrittenUnasked) {
   EXPECT_NO_THROW(render_scene(job_, {}));
 }
 
-// A child's joints, and nobody said how tall it is.
+// A child's joints without a stated height.
 TEST_F(Render, TheSubjectIsAsTallAsItsLegsUnlessStated) {
   for (JointPositions& joints : job_.walker.motion.joints)
     for (Eigen::Vector3d& joint : joints.at) joint *= 0.8;
@@ -283,12 +283,12 @@ TEST_F(Render, AGaitComesWithItsForcesInTheScenesPlaceAndTime) {
       return table.number(table.rows[i], table.column(name));
     };
     EXPECT_NEAR(cell("t"), truth.time[i], 1e-6);
-    // The centre of mass is above the hips, within a stooping trunk's reach.
+    // The centre of mass is above the hips, within the range of a leaning trunk.
     EXPECT_NEAR(cell("com_x_m"), truth.joints[i][Joint::kPelvis].x(), 1e-4);
     EXPECT_NEAR(cell("com_y_m"), truth.joints[i][Joint::kPelvis].y(), 0.15);
-    EXPECT_NEAR(cell("l_grf_x_n"), 0, 1e-6);  // the walk goes along y now
+    EXPECT_NEAR(cell("l_grf_x_n"), 0, 1e-6);  // the walk is along y here
   }
-  // Another motion in its place takes the forces away.
+  // Another motion replaces the walk, and the forces are removed.
   job_.gait.reset();
   job_.walker.motion = gliding_motion();
   render_scene(job_, {});

@@ -9,7 +9,7 @@
 namespace walktrack {
 namespace {
 
-// A table with a band of -/+ 1 about the same value in every row.
+// A table with a band of -/+ 1 around the same value in every row.
 std::string table(const std::vector<std::pair<std::string, double>>& columns, int rows) {
   std::string text = "t";
   for (const auto& [name, value] : columns) text += fmt::format(",{0},{0}_p05,{0}_p95", name);

@@ -11,7 +11,7 @@
 namespace walktrack {
 namespace {
 
-// Somebody who marches along x: the legs swing half a stride apart, and the whole figure trembles.
+// A person who marches along x: the legs swing half a stride apart, with noise on the whole figure.
 struct March {
   BodyModel model;
   double rate = 30, stride = 1.1, speed = 1.2, tremble = 0.015;
@@ -83,7 +83,8 @@ TEST(ReportedTrack, FeetStandStillAndNothingIsLeftBehind) {
   EXPECT_NEAR(still.records[60].estimate.speed, walk.speed, 0.1);
 }
 
-// Memory does not grow with the video: a long track is settled in pieces, and it does not show.
+// Memory does not grow with the video: a long track is computed in pieces, without an effect on the
+// result.
 TEST(ReportedTrack, PiecesOfALongTrackAreThoseOfTheWhole) {
   const TemporaryFolder folder;
   const March walk = march();

@@ -1,4 +1,4 @@
-// A track that another process goes on with ends with the same bytes as one that nobody disturbed.
+// A track that another process resumes ends with the same bytes as one without an interruption.
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -25,7 +25,7 @@ using Json = nlohmann::json;
 
 constexpr int kVideoFrames = 24;
 
-struct Killed {};  // what a test throws to leave a job in the middle, with nothing tidied up
+struct Killed {};  // thrown by a test to leave a job in the middle, without cleaning up
 
 class Resume : public testing::Test {
  protected:
@@ -33,7 +33,7 @@ class Resume : public testing::Test {
     TrackJob job;
     job.scene = read_scene(fs::path(WALKTRACK_SOURCE_DIR) / "data/demo/scene.yaml");
     job.scene.cameras.resize(cameras_);
-    // Told where to start: six frames later it is tracked.
+    // With a given start: six frames later it is tracked.
     job.scene.initial = InitialState{0, {-2.5, 0}, 0, 1.25, {}};
     job.scene.last_frame = kVideoFrames - 1;
     job.scene.height_given = size_known_;
@@ -61,7 +61,7 @@ class Resume : public testing::Test {
     job.resume = true;
     return track_scene(job, {});
   }
-  // Every file but the page, which shows the times, and run.json without them.
+  // Every file except the page, which contains the times, and run.json without them.
   std::map<std::string, std::string> result(const std::string& name) const {
     std::map<std::string, std::string> found;
     for (const auto& entry : fs::directory_iterator(folder_.path() / name)) {
@@ -110,7 +110,7 @@ TEST_F(Resume, AfterAKillItEndsWithTheSameBytes) {
   EXPECT_EQ(result("killed"), whole);
 }
 
-// What a killed process has written after its last checkpoint is done again.
+// Frames that a killed process has written after its last checkpoint are computed again.
 TEST_F(Resume, FramesAfterTheCheckpointAreDoneAgain) {
   track_scene(job("whole"), {});
   kill(job("killed"), 12);
@@ -134,7 +134,7 @@ TEST_F(Resume, WithFlow) {
   expect_same_after_kill(15);
 }
 
-// Whether left and right are in doubt is read off the frames so far.
+// Whether left and right are uncertain depends on the frames so far.
 TEST_F(Resume, WithANetworkThatIsAskedInDoubtOnly) {
   if (!has_pose_net()) GTEST_SKIP() << "built without OpenCV's dnn module";
   const auto asked = [&](bool in_doubt_only) {
@@ -159,7 +159,7 @@ TEST_F(Resume, WithANetworkThatIsAskedInDoubtOnly) {
   EXPECT_LT(in_doubt, frames() - 3);
 }
 
-// The size that was found goes on with the walker.
+// The estimated size is part of the state.
 TEST_F(Resume, WithASizeFromTheImages) {
   size_known_ = false;
   change_ = [](Config& config) { config.tracker.detector.window = 0.3; };
@@ -173,7 +173,7 @@ TEST_F(Resume, WithoutColours) {
   expect_same_after_kill(15);
 }
 
-TEST_F(Resume, WhoIsToldToStopLeavesACheckpointOfThatFrame) {
+TEST_F(Resume, AnInterruptionLeavesACheckpointOfThatFrame) {
   track_scene(job("whole"), {});
   std::atomic<bool> stop{false};
   JobControl control;
@@ -187,7 +187,8 @@ TEST_F(Resume, WhoIsToldToStopLeavesACheckpointOfThatFrame) {
   EXPECT_EQ(outcome.status, TrackStatus::kInterrupted);
   EXPECT_TRUE(outcome.resumable);
   EXPECT_TRUE(fs::exists(folder_ / "stopped/run.partial.json"));
-  // Where to look in frame 15 was chosen beside the particles of frame 14, from the pose in 13.
+  // The search region of frame 15 was chosen in parallel with the particles of frame 14, from the
+  // pose in 13.
   const auto found_there = read_checkpoint(folder_ / "stopped/checkpoint.bin",
                                            origin_of_track(stopped.scene, stopped.config))
                                .checkpoint;
@@ -196,12 +197,12 @@ TEST_F(Resume, WhoIsToldToStopLeavesACheckpointOfThatFrame) {
   resume(stopped);
   EXPECT_EQ(resumed_at("stopped"), 15);
   auto found = result("stopped"), whole = result("whole");
-  found.erase("run.json");  // which says that checkpoints were to be rare
+  found.erase("run.json");  // it states how often checkpoints were written
   whole.erase("run.json");
   EXPECT_EQ(found, whole);
 }
 
-TEST_F(Resume, WhoIsToldToStopBeforeTheFirstFrameIsInterruptedToo) {
+TEST_F(Resume, AnInterruptionBeforeTheFirstFrameIsReportedToo) {
   const std::atomic<bool> stop{true};
   JobControl control;
   control.stop_request = &stop;
@@ -211,8 +212,8 @@ TEST_F(Resume, WhoIsToldToStopBeforeTheFirstFrameIsInterruptedToo) {
   EXPECT_FALSE(outcome.resumable);
 }
 
-// What took an hour is not lost because somebody forgot a word.
-TEST_F(Resume, ACheckpointIsNotThrownAwayUnasked) {
+// An hour's work is not lost because somebody forgot an option.
+TEST_F(Resume, ACheckpointIsNotReplacedWithoutBeingAsked) {
   kill(job("killed"), 12);
   EXPECT_THROW(track_scene(job("killed"), {}), UsageError);
   EXPECT_TRUE(fs::exists(folder_ / "killed/checkpoint.bin"));
@@ -222,8 +223,8 @@ TEST_F(Resume, ACheckpointIsNotThrownAwayUnasked) {
   EXPECT_EQ(resumed_at("killed"), 0);
 }
 
-// One bit of a pose that the tables are to be made of.
-TEST_F(Resume, DamagedFramesAreSaidAndTheTrackStartsAnew) {
+// One bit of a pose from which the tables are to be made.
+TEST_F(Resume, DamagedFramesAreReportedAndTheTrackStartsAnew) {
   track_scene(job("whole"), {});
   kill(job("killed"), 15);
   const std::string file = "killed/frames.bin";

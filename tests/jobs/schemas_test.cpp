@@ -1,4 +1,4 @@
-// The schemas in data/schemas and what the program reads and writes.
+// The schemas in data/schemas compared with what the program reads and writes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ Json schema(const std::string& name) {
   return Json::parse(read_file(kSource / "data/schemas" / (name + ".schema.json")));
 }
 
-// JSON is YAML: a scene may be written as either.
+// JSON is YAML: a scene may be written in either.
 std::string reader_says(const TemporaryFolder& place, const Json& scene) {
   try {
     read_scene(place.write("scene.yaml", scene.dump()));
@@ -59,7 +59,7 @@ TEST(SceneSchema, TakesWhatTheReaderTakes) {
   const TemporaryFolder place;
   EXPECT_EQ(reader_says(place, full_scene()), "");
   EXPECT_EQ(schema_trouble(schema("scene"), full_scene()), "");
-  // Every key of the schema is one that is tried here.
+  // Every key of the schema is tested here.
   const Json scene = full_scene(), known = schema("scene");
   for (const auto& [key, unused] : known.at("properties").items())
     EXPECT_TRUE(scene.contains(key)) << key;
@@ -104,7 +104,7 @@ TEST(ResultSchemas, HoldForAnAnalysis) {
   job.output = place.path() / "out";
   analyse(job);
   expect_valid_result(job.output);
-  // And would fail.
+  // The schema check can fail.
   Json gait = Json::parse(read_file(job.output / "gait.json"));
   gait["contacts"][0]["side"] = "middle";
   EXPECT_THAT(schema_trouble(schema("gait"), gait), HasSubstr("/contacts/0/side: is none of"));

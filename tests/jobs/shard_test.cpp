@@ -51,7 +51,7 @@ TEST(Shard, OfASlurmArrayCountsFromItsFirstTask) {
   expect_shard("auto", {{"SLURM_PROCID", "0"}, {"SLURM_STEP_NUM_TASKS", "5"}}, 1, 5);
 }
 
-// Every worker has a share of its own, and all shares have a worker.
+// Every worker has a share of its own, and every share has a worker.
 TEST(Shard, OfSlurmTasksAreAllDifferent) {
   std::map<int, int> seen;
   for (int id = 1; id <= 3; ++id)

@@ -46,7 +46,7 @@ TEST(CycleJob, FollowsAParameter) {
   EXPECT_NE(cycle_text(jumped).find("between slope = 0.006 and 0.005"), std::string::npos);
 }
 
-// A monopode that is given an energy keeps it on the way, whatever its springs become.
+// A monopode with a stated energy keeps it during the continuation, for any stiffness.
 TEST(CycleJob, FollowsAtTheEnergyOfTheModel) {
   CycleJob job;
   job.model = read_model(
@@ -63,7 +63,7 @@ TEST(CycleJob, FollowsAtTheEnergyOfTheModel) {
   EXPECT_LT((find_cycle(direct).gait.start.q - followed.gait.start.q).norm(), 1e-5);
 }
 
-// Whatever the guess, the cycle is the one of the energy that was asked for.
+// For any guess, the cycle has the energy that was stated.
 TEST(CycleJob, MonopodesKeepTheirEnergyFromEveryGuess) {
   std::vector<FoundCycle> found;
   for (const double apex : {.960, .965, .970, .975, .980, .985}) {
@@ -88,7 +88,7 @@ TEST(CycleJob, MonopodesKeepTheirEnergyFromEveryGuess) {
   EXPECT_NEAR(find_cycle(job).energy, energy, 1e-9 * energy);
 }
 
-// Gaits with a flight phase: on the other foot (running) and on the same one first (leaping). The
+// Gaits with a flight phase: landing on the other foot (running) and on the same one (leaping). The
 // ground never pulls.
 TEST(CycleJob, KneedWalkersRunAndLeap) {
   const auto flies = [](const std::string& name, size_t strikes, double multiplier) {

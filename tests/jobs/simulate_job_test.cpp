@@ -71,7 +71,7 @@ TEST(SimulateJob, StopsAfterTheStepsAskedForAndAtAFall) {
   EXPECT_EQ(fallen.events.back().transition.kind, EventKind::kFall);
 }
 
-// Every shipped parameter set walks one step back to where it starts.
+// With every shipped parameter set a step returns to its start.
 TEST(SimulateJob, ShippedModelsAreCycles) {
   int count = 0;
   for (const auto& entry :

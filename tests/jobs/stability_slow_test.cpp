@@ -1,5 +1,5 @@
-// The whole table of extremes, a minute of one core: what the report in lib/walker/reports shows is
-// what the command makes.
+// The whole table of extremes, a minute on one core: the report in lib/walker/reports shows the
+// command's result.
 #include <cmath>
 #include <map>
 #include <sstream>

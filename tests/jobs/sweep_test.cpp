@@ -24,7 +24,7 @@ using testing::Not;
 
 namespace fs = std::filesystem;
 
-// A second of a walk before two small cameras, rendered once; few particles.
+// A second of a walk in front of two small cameras, rendered once; few particles.
 class Sweep : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -72,7 +72,7 @@ std::vector<double> errors_of(const SweepReport& report) {
   return out;
 }
 
-// Counts frames tracked, and asks to stop after some of them.
+// Counts tracked frames, and interrupts after some of them.
 struct Watch {
   size_t reports = 0, last = 0, total = 0;
   size_t stop_after = SIZE_MAX;
@@ -107,10 +107,11 @@ TEST_F(Sweep, MeasuresEverySettingWithEverySeedOnce) {
     EXPECT_GT(row.cpu_seconds_per_frame, 0);
   }
   EXPECT_EQ(first.last, first.total);
-  // Again: nothing is tracked, a report a run and no more; and one with more values reuses these.
+  // Repeated: nothing is tracked, with one progress report for each run; and a sweep with more
+  // values reuses these.
   EXPECT_EQ(errors_of(run_sweep(each, again.control())), errors_of(report));
   EXPECT_EQ(again.reports, 8u);
-  // A run of which somebody has removed a part is tracked again.
+  // A run of which a part was removed is tracked again.
   for (const auto& entry : fs::recursive_directory_iterator(each.output / "runs"))
     if (entry.path().filename() == "joints.csv") {
       fs::remove(entry.path());
@@ -192,7 +193,7 @@ TEST(SweepSummary, MeansDeviationsAndTheFront) {
       {run_of(10, 1), run_of(14, 3), run_of(12, 2)},
       {run_of(30, 0.1), run_of(NAN, 0.1, 1)},  // one seed found nobody
       {run_of(20, 0.5)},
-      {run_of(25, 0.6)},       // beaten by the one before
+      {run_of(25, 0.6)},       // the one before is better
       {run_of(5, 0.01, 0.3)},  // lost for longer than the check allows
   });
   EXPECT_DOUBLE_EQ(report.rows[0].error_mm, 12);

@@ -28,7 +28,7 @@ FrameRecord still() {
 
 class QualityOf : public testing::Test {
  protected:
-  // Somebody who does what `record` says in every frame, tracked but in the frames named.
+  // A figure with the values of `record` in every frame, tracked except in the frames listed.
   TrackedFrames standing(int count, std::initializer_list<int> lost,
                          const FrameRecord& record = still()) const {
     TrackedFrames frames{30, FrameFile(folder_ / ("frames" + std::to_string(files_++)))};
@@ -43,7 +43,7 @@ class QualityOf : public testing::Test {
   mutable int files_ = 0;
 };
 
-// Of a track whose feet were left where they were.
+// The quality of a track whose feet were not planted.
 Quality quality_of(const TrackedFrames& frames, const QualityConfig& limits = {}) {
   return walktrack::quality_of(frames, frames, limits, kLeg);
 }
@@ -93,7 +93,7 @@ TEST_F(QualityOf, FeetBelowTheGroundFailTheirCheck) {
   EXPECT_EQ(first_failure(quality_of(frames, limits)), "");
 }
 
-// Feet that were planted tell little of a track that fails.
+// Planted feet hide the errors of a track that fails.
 TEST_F(QualityOf, LimitsOnFeetAreForWhatWasTracked) {
   FrameRecord sunken = still();
   sunken.estimate.joints[Joint::kLeftToe].z() = -0.02;
@@ -108,8 +108,8 @@ TEST_F(QualityOf, LimitsOnFeetAreForWhatWasTracked) {
   EXPECT_EQ(*named(quality, "tracked_foot_slide_mm").limit, 80);
 }
 
-// Half a video before the start, in which somebody walks, is half a video lost.
-TEST_F(QualityOf, WhoMovesUntrackedCountsFromTheFirstFrameOn) {
+// If somebody walks for half a video before the start, half of the video is lost.
+TEST_F(QualityOf, UntrackedMotionCountsFromTheFirstFrameOn) {
   TrackedFrames frames{30, FrameFile(folder_ / "moving")};
   for (int i = 0; i < 20; ++i) {
     FrameRecord record = still();
@@ -155,7 +155,7 @@ TEST(QualityOfKeypoints, AFigureBesideThePeopleDetectedFails) {
   EXPECT_TRUE(quality_of_keypoints({.frames = 27, .matched = 21}, limits)->passed());
 }
 
-// Somebody who walks for four seconds, and `change`.
+// A person who walks for four seconds, modified by `change`.
 template <typename Change>
 TrackedFrames walking(const std::filesystem::path& file, const TestWalk& walk,
                       const Change& change) {
@@ -164,7 +164,7 @@ TrackedFrames walking(const std::filesystem::path& file, const TestWalk& walk,
     FrameRecord record = still();
     record.estimate.joints = walk_joints(walk, i / walk.rate);
     for (Eigen::Vector3d& joint : record.estimate.joints.at)
-      if (!joint.allFinite()) joint.setZero();  // those that the walk leaves open
+      if (!joint.allFinite()) joint.setZero();  // those that the walk does not define
     change(i / walk.rate, record.estimate.joints);
     frames.records.append(record);
   }
@@ -200,13 +200,14 @@ TEST_F(QualityOf, StepsAndSpeedsThatNobodyWalksFail) {
   EXPECT_EQ(*named(behind, "shortest_step_m").limit, 0);
 }
 
-// Whoever reads that a check failed is told what it means and what to do; the guide lists them all.
+// The readers of a report get an explanation and advice for every failed check; the guide lists
+// them all.
 TEST(QualityWords, EveryCheckIsExplained) {
   const std::string guide =
       read_text_file(WALKTRACK_SOURCE_DIR "/apps/guide/quality.md", size_t{1} << 20);
   for (const QualityWords& words : quality_words()) {
     EXPECT_TRUE(words.meaning.ends_with('.')) << words.name;
-    // Keys stand in brackets; no other name of code is for readers.
+    // Keys are in brackets; no other names of code are for readers.
     for (const std::string_view text : {words.meaning, words.advice})
       EXPECT_EQ(std::regex_replace(std::string(text), std::regex(R"(\([^)]*\))"), "").find('_'),
                 std::string::npos)
@@ -226,7 +227,7 @@ TEST_F(QualityOf, EveryCheckHasAdvice) {
   }
 }
 
-TEST_F(QualityOf, WhoStandsDoesNotWalk) {
+TEST_F(QualityOf, StandingIsNoWalk) {
   const Quality quality = quality_of(standing(12, {}));
   EXPECT_THAT(first_failure(quality), testing::HasSubstr("(allowed: at least 1)"));
 }

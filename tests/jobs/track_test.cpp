@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 class Track : public testing::Test {
  protected:
-  // The shipped demo's first frames with few particles: seconds, not accuracy.
+  // The first frames of the shipped demo with few particles: fast, not accurate.
   TrackJob job(int last_frame, const std::string& name) const {
     TrackJob job;
     job.scene = read_scene(kDemo / "scene.yaml");
@@ -75,8 +75,8 @@ TEST_F(Track, SameSeedSameBytesForAnyThreadCount) {
   EXPECT_NE(run_json("other").at("digest"), digest);
 }
 
-// What it holds is bounded, whatever rates and sizes a video has.
-TEST(SearchWindow, TooLargeForMemoryIsRefusedWithItsCure) {
+// Memory is limited for any rate and size of a video.
+TEST(SearchWindow, TooLargeForMemoryIsRefusedWithAdvice) {
   Scene scene = read_scene(kDemo / "scene.yaml");
   Config fine, coarse;
   fine.observation.person_px = 4000;  // nothing is shrunk
@@ -100,7 +100,7 @@ TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {
   const auto gait =
       nlohmann::json::parse(read_text_file(folder_ / "demo/gait.json", size_t{1} << 20));
   EXPECT_GE(gait.at("contacts").size(), 2u);  // 1.3 s are two steps
-  // Two views fix the place; 60 particles still leave the limbs a hand's breadth or two off.
+  // Two views determine the place; with 60 particles the limbs are still wrong by 0.1 to 0.2 m.
   EXPECT_LT(joint_errors(truth, found).by_joint[size_t(Joint::kPelvis)].absolute.median, 0.15);
   const nlohmann::json run = run_json("demo");
   const nlohmann::json& timing = run.at("timing");
@@ -140,12 +140,13 @@ TEST_F(Track, SaysHowWellTheFigureLiesOnThePerson) {
   }
 }
 
-// A camera that stands 40 cm above where its calibration says sees the person below the figure.
-// Before there was a check on that, this was green. (Half a metre along the way or beside it, two
-// cameras agree on another place; only the checks of the scene see that, which are ignored here.)
-TEST_F(Track, AFigureBesideThePersonIsNotGreen) {
+// If a camera is 40 cm higher than its calibration states, it sees the person below the figure.
+// Before there was a check on that, all checks passed. (With half a metre along the walk or beside
+// it, two cameras agree on another place; only the checks of the scene, which are ignored here,
+// find that.)
+TEST_F(Track, AFigureBesideThePersonFailsItsCheck) {
   TrackJob wrong = job(60, "beside");
-  wrong.ignore_checks = true;  // which see it at once
+  wrong.ignore_checks = true;  // which find it at once
   wrong.config.values.tracker.filter.particles = 150;
   wrong.scene.cameras[1].camera.translation.y() += 0.4;
   EXPECT_NE(track_scene(wrong, {}).status, TrackStatus::kTracked);
@@ -191,8 +192,8 @@ TEST_F(Track, FeetThatAreReportedStandStill) {
   EXPECT_GT(tracked["foot_slide_mm"], 5);
 }
 
-// Those of the window that was searched, of a given start's contest and of one that outlasts the
-// window, and later ones.
+// Frames of the window that was searched, of the start hypotheses of a given start, of hypotheses
+// that outlast the window, and later ones.
 TEST_F(Track, EveryFrameIsRefined) {
   const Motion truth = read_motion(kDemo / "truth.csv");
   enum class Start { kFound, kGiven, kLong };
@@ -211,7 +212,7 @@ TEST_F(Track, EveryFrameIsRefined) {
       each.config.values.tracker.estimate = kind;
       each.config.values.smoothing = {.enabled = false, .plant = false};
       track_scene(each, {});
-      // What is reported changes nothing of what is tracked.
+      // The reported pose has no effect on tracking.
       const nlohmann::json evidence = run_json(name).at("by_frame").at("log_evidence");
       if (log_evidence.is_null()) log_evidence = evidence;
       EXPECT_EQ(evidence, log_evidence);
@@ -231,7 +232,7 @@ TEST_F(Track, EveryFrameIsRefined) {
   }
 }
 
-// No machine tracks a frame in a microsecond: the particles fall to the fewest allowed.
+// No machine tracks a frame in a microsecond: the number of particles falls to the lower limit.
 TEST_F(Track, UnderABudgetTheParticlesFollowTheClockWithinBoundsAndTheRecordSaysSo) {
   TrackJob paced = job(60, "paced");
   paced.config.values.budget = {.frame_ms = 1e-3, .least_particles = 25, .most_particles = 50};
@@ -267,7 +268,8 @@ TEST_F(Track, WhatWasToldToStopIsKeptAndMarked) {
   JobControl control;
   control.stop_request = &stop;
   TrackJob stopped = job(30, "stopped");
-  stopped.config.values.observation.background.enabled = false;  // not to be learned once stopped
+  stopped.config.values.observation.background.enabled = false;  // which would take time after the
+                                                                 // interruption
   EXPECT_EQ(track_scene(stopped, control).status, TrackStatus::kInterrupted);
   EXPECT_FALSE(fs::exists(folder_ / "stopped/run.json"));
   EXPECT_TRUE(fs::exists(folder_ / "stopped/run.partial.json"));

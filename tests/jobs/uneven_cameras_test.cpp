@@ -1,6 +1,6 @@
-// A room as rooms are: two cameras of unequal rates, one of which begins later and loses frames,
-// and something in the way that the scene names. Images, not videos, whose encoder does not give
-// the same bytes twice.
+// A realistic room: two cameras of unequal rates, one of which begins later and loses frames, and
+// an occluder that the scene states. Images are used, because a video encoder does not give the
+// same bytes twice.
 #include <filesystem>
 #include <string>
 
@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The post stands 2.6 m before the side camera and 1 m from the walker's way: it covers 28 columns
-// of the picture, all of its height but for the ground, and half a metre of the way.
+// The post is 2.6 m in front of the side camera and 1 m from the walk: it covers 28 columns of the
+// image, all of its height except for the ground, and half a metre of the walk.
 constexpr const char* kOptions = R"(
 seed: 20
 frame_rate: 30
@@ -55,14 +55,14 @@ class UnevenCameras : public testing::Test {
     for (int i = first; i <= last; ++i)
       ASSERT_TRUE(fs::remove(folder_ / "scene" / camera / ("0000" + std::to_string(i) + ".png")));
   }
-  // Nobody has filmed the room without the walker.
+  // The empty room was not recorded.
   void forget_empty_videos() const {
     std::string scene = read_text_file(folder_ / "scene/scene.yaml", size_t{1} << 20);
     for (const std::string camera : {"side", "front"})
       scene = replaced(scene, ", background: " + camera + "_background", "");
     write_file_atomically(folder_ / "scene/scene.yaml", scene);
   }
-  // The tracked scene with what is said of it at the end of scene.yaml.
+  // Tracks the scene with further lines at the end of scene.yaml.
   JointErrors track(const std::string& more) const {
     const std::string scene = read_text_file(folder_ / "scene/scene.yaml", size_t{1} << 20);
     write_file_atomically(folder_ / "scene/named.yaml", scene + more);
@@ -87,13 +87,13 @@ TEST_F(UnevenCameras, FollowAWalkerPastANamedPostThroughLostFrames) {
   lose("front", 14, 19);
   const JointErrors errors = track(kPost);
   EXPECT_GT(errors.filled_share, 0.95);
-  // Three seeds: 33 to 49 mm. With images renumbered, so that the loss goes unseen, 97 to 137 mm
-  // and the last frames empty; with the post unnamed 53, 106 and 108 mm.
+  // Three seeds: 33 to 49 mm. With images renumbered, so that the loss is hidden, 97 to 137 mm and
+  // the last frames empty; without the post in the scene 53, 106 and 108 mm.
   EXPECT_LT(errors.absolute.mean, 0.08);
   EXPECT_LT(errors.swapped_share, 0.1);
 }
 
-// Seeds 1 to 3 end with 35 to 42 mm, as near as with the empty videos.
+// Seeds 1 to 3 have 35 to 42 mm, as accurate as with the empty videos.
 TEST_F(UnevenCameras, TheVideoItselfIsBackgroundEnough) {
   record();
   lose("front", 14, 19);

@@ -1,5 +1,5 @@
-// Somebody walks whose height the scene does not give. Images, not videos, whose encoder does not
-// give the same bytes twice.
+// A walk of a person of unknown height. Images are used, because a video encoder does not give the
+// same bytes twice.
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -52,7 +52,7 @@ class UnknownSize : public testing::Test {
   static void TearDownTestSuite() { delete folder_; }
   static fs::path folder() { return folder_->path(); }
 
-  // The scene with what it says of the subject.
+  // The scene with these statements on the subject.
   static TrackJob job(const std::string& subject) {
     const std::string scene = read_text_file(folder() / "scene/scene.yaml", size_t{1} << 20);
     write_file_atomically(folder() / "scene/other.yaml", replaced(scene, kSubject, subject));
@@ -66,7 +66,7 @@ class UnknownSize : public testing::Test {
     job.overwrite = true;
     return job;
   }
-  // Mean distance of hip and knee over the frames that have both, m.
+  // Mean distance of hip and knee over the frames in which both are known, m.
   static double thigh_length(const Motion& motion) {
     double sum = 0;
     int count = 0;
@@ -87,7 +87,7 @@ class UnknownSize : public testing::Test {
 
 TemporaryFolder* UnknownSize::folder_ = nullptr;
 
-TEST_F(UnknownSize, IsReadOffTheWalkAndSaid) {
+TEST_F(UnknownSize, IsEstimatedFromTheWalkAndStated) {
   EXPECT_EQ(track_scene(job(""), {}).status, TrackStatus::kTracked);
   const nlohmann::json numbers = run_json().at("numbers");
   EXPECT_NEAR(numbers.at("estimated_height_m"), 1.58, 0.05);
@@ -99,27 +99,27 @@ TEST_F(UnknownSize, IsReadOffTheWalkAndSaid) {
   EXPECT_NEAR(thigh_length(tracked) / thigh_length(truth), 1, 0.04);
 }
 
-TEST_F(UnknownSize, IsReadOffByOneCamera) {
+TEST_F(UnknownSize, IsEstimatedWithOneCamera) {
   TrackJob alone = job("");
   alone.scene.cameras.resize(1);
   EXPECT_EQ(track_scene(alone, {}).status, TrackStatus::kTracked);
   EXPECT_NEAR(run_json().at("numbers").at("estimated_height_m"), 1.58, 0.05);
 }
 
-TEST_F(UnknownSize, IsReadOffAWalkThatTheSceneSaysWhereToFind) {
+TEST_F(UnknownSize, IsEstimatedForAGivenStart) {
   TrackJob placed = job("");
   placed.scene.initial = InitialState{0, {-1, 0}, 0, 1.2, {}};
   EXPECT_EQ(track_scene(placed, {}).status, TrackStatus::kTracked);
   EXPECT_NEAR(run_json().at("numbers").at("estimated_height_m"), 1.58, 0.05);
   EXPECT_EQ(run_json().at("numbers").at("first_tracked_frame"), 0);
-  // Also where the video ends before the window of the search is full.
+  // Also if the video ends before the window of the search is full.
   placed.scene.last_frame = 20;
   track_scene(placed, {});
   EXPECT_NEAR(run_json().at("numbers").at("estimated_height_m"), 1.58, 0.08);
   EXPECT_EQ(run_json().at("numbers").at("tracked_frames"), 21);
 }
 
-TEST_F(UnknownSize, IsNotLookedForWhereTheSceneGivesIt) {
+TEST_F(UnknownSize, IsNotEstimatedIfItIsStated) {
   track_scene(job("subject: {height: 1.58}"), {});
   EXPECT_FALSE(run_json().at("numbers").contains("estimated_height_m"));
   EXPECT_EQ(run_json().at("notes").size(), 0u);

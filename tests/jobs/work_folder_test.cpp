@@ -1,5 +1,5 @@
-// `batch --work`: results appear whole in the output, whatever happens to the worker, with a small
-// script in the place of `walktrack track`.
+// `batch --work`: results appear complete in the output, whatever happens to the worker, with a
+// small script in place of `walktrack track`.
 #include "jobs/batch/workers/work_folder.h"
 
 #include <sys/wait.h>
@@ -24,8 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-// Marks what it writes, leaves a checkpoint before it ends, and ends as the scene's second line
-// says.
+// Marks its outputs, leaves a checkpoint before it ends, and ends as the scene's second line
+// states.
 constexpr const char* kTracker =
     "#!/bin/sh\n"
     "scene=$1; out=$3; mode=$(sed -n 2p \"$scene\")\n"
@@ -58,7 +58,7 @@ class WorkFolder : public testing::Test {
   fs::path in_work(const std::string& name) const {
     return tracked_in(job_, {name, {}, job_.output / name});
   }
-  // A worker of its own, killed as soon as `file` is there.
+  // Starts a separate worker and kills it as soon as `file` exists.
   void kill_when_there(const fs::path& file) const {
     const pid_t worker = fork();
     if (worker == 0) {
@@ -82,7 +82,7 @@ class WorkFolder : public testing::Test {
     EXPECT_THAT(files(job_.output / "a/b"),
                 testing::ElementsAre(".walktrack_batch", ".walktrack_track", "deep/", "deep/file",
                                      "joints.csv", "log.txt", "run.json"));
-    EXPECT_EQ(files(job_.output / "a").front(), "b/");  // and nothing hidden beside it
+    EXPECT_EQ(files(job_.output / "a").front(), "b/");  // nothing hidden remains beside it
     EXPECT_FALSE(fs::exists(in_work("a/b")));
   }
   TemporaryFolder folder_;
@@ -108,8 +108,8 @@ TEST_F(WorkFolder, OnAnotherFileSystem) {
   fs::remove_all(job_.work);
 }
 
-// Nothing is seen of it in the output; the next batch goes on from its checkpoint.
-TEST_F(WorkFolder, AKilledWorkerIsGoneOnFrom) {
+// Nothing of it is in the output; the next batch resumes from its checkpoint.
+TEST_F(WorkFolder, TheTrackOfAKilledWorkerIsResumed) {
   add("a/b", "slow");
   kill_when_there(in_work("a/b") / "checkpoint.bin");
   EXPECT_FALSE(fs::exists(job_.output / "a/b"));
@@ -119,8 +119,8 @@ TEST_F(WorkFolder, AKilledWorkerIsGoneOnFrom) {
   expect_whole_result();
 }
 
-// Killed between the result's last file and its place in the output: nothing is tracked again.
-TEST_F(WorkFolder, WhatIsMadeIsOnlyShown) {
+// Killed between the result's last file and its move to the output: nothing is tracked again.
+TEST_F(WorkFolder, ACompleteResultIsOnlyMoved) {
   BatchJob elsewhere = job_;
   elsewhere.work.clear();
   run_batch(elsewhere, {});
@@ -131,8 +131,8 @@ TEST_F(WorkFolder, WhatIsMadeIsOnlyShown) {
   expect_whole_result();
 }
 
-// Killed while it copied: what it left is cleared, and never was in the place of a result.
-TEST_F(WorkFolder, HalfACopyIsCleared) {
+// Killed during a copy: the remains are removed, and were never at the place of a result.
+TEST_F(WorkFolder, AnIncompleteCopyIsRemoved) {
   folder_.write("out/a/.walktrack_for.b/new.abc123/joints.csv", "half");
   folder_.write("out/a/.walktrack_for.b/.walktrack_claim", "elsewhere.1");
   fs::last_write_time(job_.output / "a/.walktrack_for.b/.walktrack_claim",

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Two feet that share a slow wave, `rate` rows a second.
+// Two feet with a slow wave, `rate` rows per second.
 GroundForces waves(double rate, double seconds = 3) {
   GroundForces out;
   for (int i = 0; i <= static_cast<int>(seconds * rate); ++i) {
@@ -31,7 +31,7 @@ TEST(ForceErrors, AreOfTheSumWhicheverWayTheFeetShareIt) {
     feet[0] += Vector3d(3, 4, -20);
   }
   const ForceErrors e = force_errors(waves(60), estimate, 6);
-  // The filter takes 2e-4 of a wave at a sixth of its cut-off.
+  // The filter reduces a wave at a sixth of its cut-off by 2e-4.
   EXPECT_NEAR(e.vertical_rms, 20, 0.1);
   EXPECT_NEAR(e.horizontal_rms, 5, 0.1);
   EXPECT_EQ(e.count, 181u - 10u);  // half a period of 6 Hz at either end
@@ -47,7 +47,8 @@ TEST(ForceErrors, AnImpulseIsSmoothedBeforeItCounts) {
 }
 
 TEST(ForceErrors, TakesEstimatesOfAnotherRateBetweenTheirRows) {
-  // Halfway between rows of 25 Hz a wave of 1 Hz and 100 N is off by 100 (pi / 25)^2 / 2 at most.
+  // Half-way between rows at 25 Hz a wave of 1 Hz and 100 N is wrong by 100 (pi / 25)^2 / 2 at
+  // most.
   const ForceErrors e = force_errors(waves(60), waves(25), 6);
   EXPECT_GT(e.count, 160u);
   EXPECT_LT(e.vertical_rms, 1);
@@ -59,7 +60,7 @@ TEST(ForceErrors, UnknownRowsCountForNothing) {
   for (size_t i = 60; i < 70; ++i) estimate.feet[i][1].setConstant(nan);
   const size_t all = force_errors(truth, waves(60), 6).count;
   EXPECT_EQ(force_errors(truth, estimate, 6).count, all - 10);
-  // A hole in the truth is the end of two stretches.
+  // A gap in the truth is the end of two intervals.
   truth.feet[100][0].setConstant(nan);
   EXPECT_EQ(force_errors(truth, waves(60), 6).count, all - 11);
   for (auto& feet : estimate.feet) feet[0].setConstant(nan);

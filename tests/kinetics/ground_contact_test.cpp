@@ -74,7 +74,7 @@ TEST(SharedLoads, OneFootTakesTheCentreOfPressureAsItIs) {
 TEST(SharedLoads, FeetBrakeAndPushAgainstEachOther) {
   const Wrench whole = acting_at({0.36, 0}, {0, 0, 700}, 0);
   const GroundLoads loads = shared_loads(whole, {{0.5, 0.5}, Side::kRight}, kFeet, kCom);
-  EXPECT_GT(loads.feet[0].force.x(), 50);   // the rear foot pushes on
+  EXPECT_GT(loads.feet[0].force.x(), 50);   // the rear foot pushes forward
   EXPECT_LT(loads.feet[1].force.x(), -50);  // the front foot brakes
 }
 

@@ -1,4 +1,4 @@
-// Laws that any inverse dynamics obeys, on motions that are known exactly.
+// Laws of inverse dynamics, on motions that are known exactly.
 #include "kinetics/kinetics.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr KineticsConfig kExact{.cutoff_hz = 0};  // made motions need no smoothing
+constexpr KineticsConfig kExact{.cutoff_hz = 0};  // generated motions need no smoothing
 const Subject kSubject{};
 const Vector3d kGravity(0, 0, -kStandardGravity);
 const double kWeight = kSubject.mass * kStandardGravity;
@@ -27,14 +27,14 @@ TEST(Kinetics, AStillStanceCarriesTheWeightBetweenTheFeet) {
   EXPECT_TRUE(frame.ground.force.isApprox(Vector3d(0, 0, kWeight), 1e-9));
   EXPECT_NEAR(frame.feet[0].force.z() + frame.feet[1].force.z(), kWeight, 1e-6);
   EXPECT_NEAR(frame.unexplained_moment, 0, 1e-6);
-  // The centre of pressure lies below the centre of mass.
+  // The centre of pressure is below the centre of mass.
   const Eigen::Vector2d centre(-frame.ground.moment.y() / kWeight,
                                frame.ground.moment.x() / kWeight);
   EXPECT_TRUE(centre.isApprox(frame.com.head<2>(), 1e-9));
   EXPECT_EQ(k.totals.positive_work, 0);
 }
 
-TEST(Kinetics, AFallingBodyFeelsNothing) {
+TEST(Kinetics, AFallingBodyNeedsNoForces) {
   const Motion motion = motion_by([](double t) {
     Pose pose = standing();
     pose.root += Vector3d(1.5 * t, 0.2 * t, 1 - 0.5 * kStandardGravity * t * t);
@@ -54,7 +54,8 @@ TEST(Kinetics, ForcesAreMassTimesAccelerationLessGravity) {
         (k.frames[i + 1].com - 2 * k.frames[i].com + k.frames[i - 1].com) * kSampleRate *
         kSampleRate;
     const Vector3d force = kSubject.mass * (acceleration - kGravity);
-    // Second differences of a motion of up to 10 rad/s are good to (10 dt)^2 / 12 of a few m/s^2.
+    // Second differences of a motion of up to 10 rad/s are accurate to (10 dt)^2 / 12 of a few
+    // m/s^2.
     EXPECT_LT((k.frames[i].ground.force - force).norm(), 2);
   }
 }
@@ -107,8 +108,8 @@ TEST(Kinetics, ASwingingShankIsAPendulum) {
       const Vector3d left = parts[part].rotation.transpose() * Vector3d::UnitY();
       inertia +=
           left.dot(mass.inertia * left) + mass.mass * (arm.x() * arm.x() + arm.z() * arm.z());
-      // Flexion turns about +y and moves a hanging shank backwards: gravity, pulling it back
-      // down, needs m g times how far it is behind the knee.
+      // Flexion rotates about +y and moves a hanging shank backwards: to hold it against gravity
+      // the knee needs m g times its horizontal distance.
       moment += mass.mass * kStandardGravity * -arm.x();
     }
     const double acceleration = -kAmplitude * kOmega * kOmega * std::sin(kOmega * t);

@@ -16,9 +16,9 @@ TEST(LinkedBody, WeighsWhatTheSubjectWeighsWithAndWithoutArms) {
   }
 }
 
-// By hand from Winter's table, in statures above the ground: HAT .678 M at .700 (.626 of hip to
-// shoulder above the hips with arms raised, a little less with arms that hang), thighs .200 M at
-// .424, shanks .093 M at .178, feet .029 M at .02: .577.
+// Computed by hand from Winter's table, in statures above the ground: HAT .678 M at .700 (.626 of
+// the distance from hip to shoulder above the hips with arms raised, slightly less with hanging
+// arms), thighs .200 M at .424, shanks .093 M at .178, feet .029 M at .02: .577.
 TEST(LinkedBody, HasItsCentreWhereTablesPutIt) {
   const JointPositions joints = joints_of(standing());
   const LinkedBody body = linked_body(Subject{}, {&joints, 1});
@@ -33,7 +33,7 @@ TEST(LinkedBody, HasItsCentreWhereTablesPutIt) {
   EXPECT_NEAR(hat / body_lengths(Subject{}).trunk, 0.626, 0.04);
 }
 
-// The tree's own kinematics put every joint where the motion has it, and move it as fast.
+// The tree's own kinematics give every joint's position and velocity in the motion.
 TEST(LinkedStates, FollowTheMotion) {
   const Motion motion = motion_by([](double t) { return joints_of(lively(t), true); });
   const LinkedBody body = linked_body(Subject{}, motion.joints);

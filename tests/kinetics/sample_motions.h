@@ -10,7 +10,7 @@ namespace walktrack {
 
 inline constexpr double kSampleRate = 100;  // Hz
 
-// Joints of a pose of the standard subject; what the body does not model is unknown.
+// Joints of a pose of the standard subject; joints that the body does not model are unknown.
 inline JointPositions joints_of(const Pose& pose, bool arms = false) {
   const Body body = make_body(Subject{}, {.head = true, .arms = arms});
   JointPositions joints = forward_kinematics(body, pose).joints;
@@ -40,7 +40,7 @@ Motion motion_by(F f, int rows = 101) {
   return motion;
 }
 
-// Anything but still: every joint swings, the pelvis moves on all axes.
+// A lively motion: every joint swings, the pelvis moves on all axes.
 inline Pose lively(double t) {
   Pose pose = standing();
   pose.root += Eigen::Vector3d(1.2 * t, 0.03 * std::sin(5 * t), 0.02 * std::cos(9 * t));

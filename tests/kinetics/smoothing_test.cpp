@@ -21,16 +21,17 @@ TEST(LowPass, HalvesThePowerAtTheCutOffAndKeepsTheRest) {
   EXPECT_NEAR(gain(6, 6, 100), std::sqrt(0.5), 2e-3);  // Butterworth's definition
   EXPECT_NEAR(gain(1, 6, 100), 1, 2e-3);               // 1 / (1 + (1 / 7.5)^4)
   EXPECT_LT(gain(24, 6, 100), 0.02);
-  EXPECT_NEAR(gain(6, 6, 1000), std::sqrt(0.5), 2e-3);  // whatever the rate
+  EXPECT_NEAR(gain(6, 6, 1000), std::sqrt(0.5), 2e-3);  // for any rate
 }
 
 TEST(LowPass, HasNoLagAndKeepsStraightLines) {
   std::vector<double> line;
   for (int i = 0; i < 60; ++i) line.push_back(3 - 0.2 * i);
   const std::vector<double> same = low_pass(line, 30, 6);
-  // Two periods of continuation are forgotten to a millionth of what the line gains there, 2.
+  // After two periods the effect of the continuation has decayed to a millionth of the line's
+  // change, 2.
   for (size_t i = 0; i < line.size(); ++i) EXPECT_NEAR(same[i], line[i], 2e-5);
-  // A pulse stays where it is: symmetric about its place.
+  // A pulse is not shifted: it is symmetric about its place.
   std::vector<double> pulse(101, 0);
   pulse[50] = 1;
   const std::vector<double> wide = low_pass(pulse, 100, 6);

@@ -112,7 +112,7 @@ TEST(ArticulatedDynamics, HeldBodyKeepsItsEnergyAndItsHold) {
   EXPECT_LT(by_euler(Stabilisation::kProjection), 1e-13);
 }
 
-// Standing still on two attached points, the attachments carry the weight.
+// A body at rest on two attached points: the attachments carry the weight.
 TEST(ArticulatedDynamics, AttachmentForcesBalanceTheWeight) {
   const ArticulatedBody body = sample_body();
   Rng rng(44, Purpose::kTest);
@@ -124,7 +124,7 @@ TEST(ArticulatedDynamics, AttachmentForcesBalanceTheWeight) {
     held.push_back({part, point, point_position(motions[part], point)});
   }
   const ForwardDynamics found = forward_dynamics(body, q, u, {}, held, 0);
-  // Newton: sum of the outer forces is the rate of linear momentum.
+  // Newton: the sum of the external forces is the rate of change of linear momentum.
   Vector3d sum = body.mass() * Vector3d(0, 0, -kStandardGravity);
   for (const Vector3d& force : found.attachment_forces) sum += force;
   const double h = 1e-6;
@@ -134,8 +134,8 @@ TEST(ArticulatedDynamics, AttachmentForcesBalanceTheWeight) {
   EXPECT_LT((sum - rate).norm(), 1e-6);
 }
 
-// The missing force and torque at the root are the ground reaction: they equal the rate of the
-// whole body's momentum minus the weight, by an independent difference quotient.
+// The missing force and torque at the root are the ground reaction: they equal the rate of change
+// of the whole body's momentum minus the weight, by an independent difference quotient.
 TEST(ArticulatedDynamics, RootResidualIsTheGroundReaction) {
   const ArticulatedBody body = sample_body();
   Rng rng(45, Purpose::kTest);

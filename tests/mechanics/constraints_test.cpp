@@ -58,7 +58,7 @@ TEST(Constraints, BeadDriftsFreelyWithoutStabilisation) {
   const double at_4 = drift(slid(Stabilisation::kNone, Integrator::kEuler, 1e-3, 4));
   EXPECT_GT(at_1, 1e-3);
   EXPECT_GT(at_4, 3 * at_1);
-  // RK4 drifts as well, at its order: halving the step divides the drift by at least 2^4.
+  // RK4 drifts as well, with its order: halving the step divides the drift by at least 2^4.
   const double coarse = drift(slid(Stabilisation::kNone, Integrator::kRk4, 2e-2, 4));
   const double fine = drift(slid(Stabilisation::kNone, Integrator::kRk4, 1e-2, 4));
   EXPECT_GT(coarse, 1e-7);
@@ -79,7 +79,7 @@ TEST(Constraints, ProjectedRk4KeepsTheBeadsEnergy) {
   EXPECT_NEAR(bead.energy(), Bead().energy(), 1e-9);  // order 4 at 1 ms, energies of order 10
 }
 
-// Swinging in a vertical plane the bead is a pendulum; the multiplier is minus the rod's pull.
+// A bead that swings in a vertical plane is a pendulum; the multiplier is minus the rod's tension.
 TEST(Constraints, MultiplierIsTheRodsForce) {
   const Vector3d x(0, 0, -1), v(3, 0, 0);
   const auto motion = solve_augmented(2 * MatrixXd::Identity(3, 3),

@@ -72,7 +72,7 @@ TEST(Limits, StopPushesButNeverPulls) {
 }
 
 // A plastic impact is the projection of the velocity onto the feasible cone in the metric of M: it
-// can only lose kinetic energy, and does not grow any violated rate.
+// never increases kinetic energy, nor any violated rate.
 TEST(Limits, PlasticImpactNeverGainsEnergy) {
   Rng rng(8, Purpose::kTest);
   for (int i = 0; i < 200; ++i) {

@@ -18,7 +18,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// The definition itself: sums over the cells of a fine grid whose centres lie inside.
+// The definition itself: sums over the cells of a fine grid whose centres are inside.
 MassProperties brute_force(const Vector3d& low, const Vector3d& high,
                            const std::function<bool(const Vector3d&)>& inside) {
   constexpr int kCells = 120;
@@ -42,7 +42,7 @@ MassProperties brute_force(const Vector3d& low, const Vector3d& high,
   return {mass, com, central.trace() * Matrix3d::Identity() - central};
 }
 
-// 120 cells across leave the surface uncertain by a part in a few hundred.
+// With 120 cells across, the surface is uncertain by a part in a few hundred.
 void expect_close(const MassProperties& exact, const MassProperties& grid) {
   EXPECT_NEAR(exact.mass, grid.mass, 3e-3 * exact.mass);
   EXPECT_LT((exact.com - grid.com).norm(), 3e-3);

@@ -68,7 +68,7 @@ TEST(Planar, JacobianAndConvectiveTermAreDerivatives) {
 TEST(Planar, DirectionsFollowTheConventions) {
   const VectorXd lean = VectorXd::Constant(1, 0.1);  // positive leans the upper end forward (+x)
   EXPECT_GT(position(bar(1, 0, 1), lean).x(), 0);
-  EXPECT_LT(position(bar(1, 0, 0, 1), lean).y(), 0);  // and drops what lies ahead
+  EXPECT_LT(position(bar(1, 0, 0, 1), lean).y(), 0);  // and lowers what is in front
   EXPECT_LT((position(bar(1, 0, 2, 3) - bar(1, 0, 2, 3), lean)).norm(), 1e-15);
 }
 
@@ -114,8 +114,8 @@ TEST(Planar, MomentumIsTheIndependentSumAndForceItsRate) {
 }
 
 TEST(Planar, GradedMassesKeepTheirDigits) {
-  // A swinging leg of 1e-10 of the body's mass: its equation must not drown in the other's
-  // rounding.
+  // A swinging leg of 1e-10 of the body's mass: its equation must not be lost in the rounding of
+  // the other one.
   const DoublePendulum light{1, 1e-10, 1, 1, 0, 0};
   const VectorXd q = Vector2d(0.2, 0.5), qd = Vector2d(0.3, -0.4);
   const TmtSystem system = assemble(light.parts(), kDown, q, qd);

@@ -88,7 +88,7 @@ TEST(RigidBody, EnergyDriftFallsAtTheIntegratorsOrder) {
   EXPECT_NEAR(
       std::log2(energy_drift(Integrator::kEuler, 2e-3) / energy_drift(Integrator::kEuler, 1e-3)), 1,
       0.05);
-  // The quadratic invariants lose two orders more than RK4's solution does at worst, never fewer.
+  // The quadratic invariants are at least two orders more accurate than RK4's solution.
   EXPECT_GE(std::log2(energy_drift(Integrator::kRk4, 0.08) / energy_drift(Integrator::kRk4, 0.04)),
             3.9);
   EXPECT_LT(energy_drift(Integrator::kMidpoint, 0.1), 1e-13);
@@ -115,8 +115,8 @@ TEST(RigidBody, AngularMomentumStaysFixedInTheWorld) {
   EXPECT_LT((spin_angular_momentum(asymmetric_top(), state) - start).norm(), 1e-11);
 }
 
-// A force at a point gives the work it should: dE/dt = f . v of that point, which pins the order of
-// the factors in (x - c) x f.
+// The power of a force at a point: dE/dt = f . v of that point, which determines the order of the
+// factors in (x - c) x f.
 TEST(RigidBody, PowerOfAForceAtAPoint) {
   Rng rng(4, Purpose::kTest);
   const RigidBody body = asymmetric_top();
@@ -147,7 +147,7 @@ TEST(RigidBody, FreeFall) {
   EXPECT_LT((state.position - Vector3d(0.5, 1, 1.5 - kStandardGravity / 8)).norm(), 1e-14);
 }
 
-// The lecture's quaternion equation is the same motion as Newton-Euler.
+// The lecture's quaternion equation gives the same motion as Newton-Euler.
 TEST(RigidBody, QuaternionEquationAgreesWithNewtonEuler) {
   Rng rng(5, Purpose::kTest);
   for (int i = 0; i < 50; ++i) {

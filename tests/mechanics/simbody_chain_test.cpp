@@ -1,4 +1,4 @@
-// The 3-D articulated body against an independent engine (Simbody), where that is installed.
+// The 3-D articulated body compared with an independent engine (Simbody), if it is installed.
 #include <gtest/gtest.h>
 
 #include "mechanics/articulated_dynamics.h"

@@ -9,8 +9,8 @@
 namespace walktrack {
 namespace {
 
-// Foot positions are smooth between frames, so strikes read off them are at most this far from the
-// made ones (gait_test.cpp measures it), and differences of strikes much less.
+// Foot positions are smooth between frames, so that strikes computed from them differ by at most
+// this from the true ones (gait_test.cpp measures it), and differences of strikes by much less.
 constexpr double kTiming = 0.01;  // s
 
 TEST(GaitTable, RowsOfAMadeWalkAreThatWalk) {
@@ -18,7 +18,8 @@ TEST(GaitTable, RowsOfAMadeWalkAreThatWalk) {
   const GaitTable table = gait_table(walk_motion(walk), {}, {});
   ASSERT_GT(table.contacts.size(), 7u);
   size_t strides = 0;
-  // At the start both feet stand already, so the first step between strikes ends in the fourth row.
+  // At the start both feet are on the ground, so that the first step between strikes ends in the
+  // fourth row.
   for (size_t i = 3; i + 3 < table.contacts.size(); ++i) {
     const auto& at = table.contacts[i].at;
     EXPECT_NE(table.contacts[i].side, table.contacts[i - 1].side);
@@ -29,8 +30,8 @@ TEST(GaitTable, RowsOfAMadeWalkAreThatWalk) {
     EXPECT_NEAR(at[kStrideTime].value, 2 * walk.step_time, kTiming);
     EXPECT_NEAR(at[kStrideSpeed].value, walk.speed, 0.02);
     EXPECT_NEAR(at[kStanceShare].value + at[kSwingShare].value, 100, 1e-9);
-    // Both feet together stand 2 x stance of a stride, which without flight is one stride and what
-    // they share.
+    // Both feet together are on the ground for 2 x stance of a stride, which without flight is one
+    // stride plus double support.
     EXPECT_NEAR(at[kDoubleSupportShare].value, 2 * at[kStanceShare].value - 100, 1);
     ++strides;
   }
@@ -49,7 +50,7 @@ TEST(GaitTable, ContactsCutByTheEndsLackWhatTheyNeed) {
 }
 
 TEST(GaitTable, ALimpIsAnAsymmetryOfItsSide) {
-  // The right foot comes down 6 cm short: left steps are 12 cm longer than right ones.
+  // The right foot lands 6 cm short: left steps are 12 cm longer than right ones.
   const TestWalk walk;
   const Motion limping = changed(walk_motion(walk), [](JointPositions& joints, size_t) {
     joints[ankle(Side::kRight)].x() -= 0.06;
@@ -91,7 +92,7 @@ TEST(GaitTable, WithoutMostMembersThereIsNoBand) {
   EXPECT_TRUE(std::isnan(table.contacts[3].at[kFootStrike].p05));
 }
 
-// A member that lost the walker earlier has seen other steps, not another walker.
+// A member in which the walker was lost earlier has other steps, but is not another walker.
 TEST(GaitTable, MembersAreComparedOverTheStepsTheySaw) {
   const Motion limping = changed(walk_motion({}), [](JointPositions& joints, size_t) {
     joints[ankle(Side::kRight)].x() -= 0.06;
@@ -104,14 +105,15 @@ TEST(GaitTable, MembersAreComparedOverTheStepsTheySaw) {
     }));
   const GaitTable table = gait_table(limping, ensemble_of(members), {});
   for (const SummaryColumn k : {kMeanStepLength, kMeanStepWidth, kMeanStrideLength}) {
-    // A stance that the cut shortens has its place from fewer rows: a foot stands still, so equal.
+    // A stance that is shortened by the cut has its place from fewer rows; a foot on the ground
+    // does not move, so that it is equal.
     EXPECT_NEAR(table.both[k].p95 - table.both[k].p05, 0, 1e-3) << kSummaryColumns[k];
     EXPECT_TRUE(std::isfinite(table.both[k].p05)) << kSummaryColumns[k];
   }
 }
 
-// Times and lengths are positive in every member, so they are in every band, and each band holds
-// its value, however rough the members are.
+// Times and lengths are positive in every member, and therefore in every band, and each band
+// contains its value, however noisy the members are.
 TEST(GaitTable, BandsStayAmongWhatMembersShow) {
   std::vector<Motion> members;
   for (size_t m = 0; m < 20; ++m)

@@ -8,10 +8,10 @@
 namespace walktrack {
 namespace {
 
-// An ankle is furthest ahead of the pelvis where it has slowed down to the pelvis's speed, 6 u (1 -
-// u) / (1 - stance) = 1, that is 7.2 % of the swing or 32 ms before it stands; the strike is read
-// 4.5 % of the stride or 50 ms later, 18 ms late; toe-offs when the toe starts to gain on the
-// pelvis, 32 ms after it left.
+// An ankle is furthest in front of the pelvis when it has slowed down to the pelvis's speed, 6 u (1
+// - u) / (1 - stance) = 1, i.e. 7.2 % of the swing or 32 ms before it is on the ground; the strike
+// is detected 4.5 % of the stride or 50 ms later, 18 ms late; toe-offs are detected when the toe
+// begins to gain on the pelvis, 32 ms after it left.
 constexpr double kLateStrike = 0.023, kLate = 0.04;
 
 TEST(Gait, ReadsTheNumbersThatTheWalkWasMadeOf) {
@@ -46,12 +46,12 @@ TEST(Gait, PutsTheStrikesOfEachFootInTime) {
     EXPECT_NE(gait.stances[i].side, gait.stances[i - 1].side);
 }
 
-// A foot that the video's beginning finds on its way, or half off the ground, has no place yet.
+// A foot that is moving, or partly off the ground, at the video's beginning has no place yet.
 TEST(Gait, AStepNeedsBothStrikes) {
   for (const double phase : {0.05, 0.2, 0.35, 0.45, 0.55, 0.8}) {
     const TestWalk walk{.phase = phase};
     const Motion motion = changed(walk_motion(walk), [](JointPositions& joints, size_t i) {
-      for (const Side side : {Side::kLeft, Side::kRight})  // still settling
+      for (const Side side : {Side::kLeft, Side::kRight})  // still changing
         for (const Joint joint : {ankle(side), toe(side)}) joints[joint].x() -= i < 12 ? 0.4 : 0;
     });
     const Gait gait = gait_from_motion(motion);
@@ -123,7 +123,7 @@ TEST(EventErrors, FindDelayMissedAndExtraEvents) {
   const EventErrors delay = event_errors(truth, late);
   EXPECT_EQ(delay.matched, truth.size());
   EXPECT_NEAR(delay.mean_late, 0.033, 1e-12);
-  late.front().time += 0.4;  // beyond any match: one missed and one extra
+  late.front().time += 0.4;  // outside any match: one missed and one additional
   late.pop_back();           // and one missed
   const EventErrors some = event_errors(truth, late);
   EXPECT_EQ(some.missed, 2u);

@@ -50,12 +50,13 @@ TEST(JointErrors, OffsetsAreAlongTheWayItsLeftAndUp) {
     const Motion moved = changed(way, [&](JointPositions& joints, size_t) {
       for (Vector3d& p : joints.at) p += turned * Vector3d(-0.04, 0.02, 0.01);
     });
-    // The pelvis sways 2 cm about the straight way, so a window's way is off by up to 2 degrees.
+    // The pelvis sways 2 cm about the straight path, so that the direction in a window is wrong by
+    // up to 2 degrees.
     EXPECT_LT((joint_errors(way, moved).mean_offset - Vector3d(-0.04, 0.02, 0.01)).norm(), 0.002);
   }
 }
 
-TEST(JointErrors, NobodyIsAheadOfWhoStandsStill) {
+TEST(JointErrors, StandingHasNoForwardOffset) {
   const Motion truth = walk_motion({});
   const Motion still = changed(truth, [&](JointPositions& j, size_t) { j = truth.joints[0]; });
   EXPECT_TRUE(joint_errors(still, still).mean_offset.hasNaN());

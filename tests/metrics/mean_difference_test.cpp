@@ -36,7 +36,7 @@ bool holds_zero(const MeanDifference& found) {
   return true;
 }
 
-// Share of made comparisons of equals whose whole band holds zero.
+// Share of comparisons between equal groups in which the whole band contains zero.
 double coverage(size_t count, size_t points) {
   constexpr int kTrials = 200;
   int held = 0;
@@ -51,7 +51,7 @@ double coverage(size_t count, size_t points) {
 // 200 trials of 95 % have a standard error of 1.5 %.
 TEST(MeanDifference, BandHoldsAWholeCurveAsOftenAsItSays) {
   for (const size_t count : {3, 5, 8, 15}) EXPECT_GE(coverage(count, 51), 0.93) << count;
-  EXPECT_LE(coverage(15, 51), 0.995);  // nor is it so wide that it says nothing
+  EXPECT_LE(coverage(15, 51), 0.995);  // nor is it too wide to be useful
 }
 
 TEST(MeanDifference, BandHoldsANumberAsOftenAsItSays) {

@@ -33,8 +33,8 @@ TEST(ParetoFront, EdgeCases) {
   for (const Case& each : cases) EXPECT_EQ(pareto_front(each.trades), each.front) << each.what;
 }
 
-// Sorted by cost, the errors of a front fall; and whatever is off it is beaten by one that is on
-// it.
+// Sorted by cost, the errors of a front decrease, and for every setting off the front there is a
+// better one on it.
 TEST(ParetoFront, OfRandomTradesFallsAndBeatsTheRest) {
   Rng rng(1, Purpose::kTest, 0);
   std::vector<Trade> trades(200);

@@ -17,13 +17,13 @@ TEST(Plausibility, StandingFeetDoNotSlide) {
 }
 
 TEST(Plausibility, FindsFeetThatDriftWithThePelvis) {
-  // A world that slides by 10 mm a second: the flat part lasts 45 % of 0.6 strides of 1.1 s.
+  // A world that slides by 10 mm per second: the flat part lasts 45 % of 0.6 strides of 1.1 s.
   const TestWalk walk;
   const Motion drifting = changed(walk_motion(walk), [&](JointPositions& joints, size_t i) {
     for (Eigen::Vector3d& p : joints.at) p.y() += 0.1 * double(i) / walk.rate;
   });
   const double expected = 0.1 * 0.45 * walk.stance_share * 2 * walk.step_time;
-  // Rows are 33 ms apart, so up to one row of travel at either end is not seen.
+  // Rows are 33 ms apart, so that up to one row of travel at either end is missed.
   EXPECT_NEAR(of(drifting).mean_foot_slide, expected, 2 * 0.1 / walk.rate);
 }
 
@@ -53,7 +53,7 @@ TEST(Plausibility, StepsGoAsFarAsTheBody) {
   EXPECT_NEAR(p.fastest, walk.speed, 1e-6);
 }
 
-// From the middle of a walk on, the legs have each other's names.
+// From the middle of a walk on, the legs are swapped.
 TEST(Plausibility, FindsLegsThatChangePlaces) {
   const TestWalk walk;
   const Motion right = walk_motion(walk);

@@ -7,7 +7,7 @@
 namespace walktrack {
 namespace {
 
-// The stances that the walk was made of: strike k (left for even k) at k step times.
+// The stances of which the walk was made: strike k (left for even k) at k step times.
 std::vector<FootPlant> plants_of(const TestWalk& walk) {
   std::vector<FootPlant> plants;
   const double stride_time = 2 * walk.step_time, stride = walk.speed * stride_time;

@@ -1,5 +1,5 @@
-// A walk made of known numbers, shared by the tests of this folder: the pelvis goes at constant
-// speed, each foot stands still for a known share of the stride and swings in between.
+// A walk of known numbers, shared by the tests of this folder: the pelvis moves at constant speed,
+// each foot is at rest for a known share of the stride and swings in between.
 #pragma once
 
 #include <cmath>
@@ -14,10 +14,10 @@ namespace walktrack {
 struct TestWalk {
   double speed = 1.2, step_time = 0.55, stance_share = 0.6, step_width = 0.12;
   double heading = 0, rate = 30, duration = 5;
-  double phase = 0;  // strides that lie before time 0
+  double phase = 0;  // strides before time 0
 };
 
-// x and z of a foot `cycle` strides after one of its strikes, and when it struck relative to the
+// x and z of a foot `cycle` strides after one of its strikes, and the strike's time relative to the
 // pelvis: x relative to that strike's place, in strides.
 inline Eigen::Vector2d swing(double cycle, double stance_share) {
   const double whole = std::floor(cycle), u = (cycle - whole - stance_share) / (1 - stance_share);
@@ -25,8 +25,8 @@ inline Eigen::Vector2d swing(double cycle, double stance_share) {
   return {whole + u * u * (3 - 2 * u), 0.4 * u * (1 - u)};
 }
 
-// The left foot strikes at strides 0, 1, …, the right one half a stride later. A standing foot is
-// under the pelvis at the middle of its stance.
+// The left foot strikes at strides 0, 1, …, the right one half a stride later. A supporting foot is
+// below the pelvis at the middle of its stance.
 inline JointPositions walk_joints(const TestWalk& walk, double time) {
   const double stride_time = 2 * walk.step_time, stride = walk.speed * stride_time;
   JointPositions joints = unknown_joints();

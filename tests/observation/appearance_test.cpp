@@ -16,7 +16,7 @@ double density_sum(const ColourBins& bins, const ColourTable& table) {
   return sum;
 }
 
-// `pixels` pixels of one colour, all of them surely foreground, in one class.
+// `pixels` pixels of one colour, all certainly foreground, in one class.
 AppearanceModel::Counts counts_of(const AppearanceModel& model, int cls, int bin, float pixels) {
   AppearanceModel::Counts counts = model.empty_counts();
   counts.weights[static_cast<size_t>(cls)][static_cast<size_t>(bin)] = pixels;
@@ -64,7 +64,7 @@ TEST(AppearanceModel, DoesNotLearnFromMisses) {
   AppearanceModel::Counts counts = counts_of(model, 0, red, 100);
   counts.seen[0] = 1000;  // nine pixels in ten were background
   model.learn(bins, counts);
-  model.learn(bins, counts_of(model, 2, red, 4));  // a foot that is all but hidden
+  model.learn(bins, counts_of(model, 2, red, 4));  // a foot that is almost hidden
   EXPECT_FALSE(model.any_learned());
 }
 
@@ -75,7 +75,7 @@ TEST(AppearanceModel, NeverForgetsItsFirstFrames) {
   for (int i = 0; i < 10; ++i) model.learn(bins, counts_of(model, 0, red, 300));
   const float at_first = model.table(0)[static_cast<size_t>(red)];
   for (int i = 0; i < 1000; ++i) model.learn(bins, counts_of(model, 0, blue, 300));
-  // Half of the model stays: log 2 less. The rest is what smoothing adds of the other colour.
+  // Half of the model remains: log 2 less. The rest is due to smoothing of the other colour.
   EXPECT_NEAR(static_cast<double>(model.table(0)[static_cast<size_t>(red)]),
               static_cast<double>(at_first) - std::log(2), 0.01);
   EXPECT_GT(model.table(0)[static_cast<size_t>(blue)],
@@ -90,7 +90,7 @@ TEST(AppearanceModel, OneFrameOfAnotherColourChangesLittle) {
   for (int i = 0; i < 50; ++i) model.learn(bins, counts_of(model, 0, red, 300));
   const double before = static_cast<double>(model.table(0)[static_cast<size_t>(red)]);
   model.learn(bins, counts_of(model, 0, blue, 300));
-  // The recent half gives up its share of one frame.
+  // The recent half loses the share of one frame.
   const double after = std::log(1 - (1 - config.anchor_share) * config.learning_rate);
   EXPECT_NEAR(static_cast<double>(model.table(0)[static_cast<size_t>(red)]), before + after, 1e-3);
 }

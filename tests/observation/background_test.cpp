@@ -42,7 +42,7 @@ BackgroundModel model_of(const std::vector<cv::Mat>& frames, const BackgroundCon
   return sampler.model();
 }
 
-// Log-ratios of "any colour" against the background over a whole frame.
+// Log-ratios of "any colour" to the background over a whole frame.
 std::vector<double> log_ratios(const BackgroundModel& model, const cv::Mat& frame) {
   const ColourBins bins;
   const ColourTable broad = broad_table(bins);
@@ -94,7 +94,7 @@ TEST(Background, ThingsStandOutAndShadowsDoNot) {
     frame = scene(rng, 2);
     scale(frame, kBox, strength);
     const std::vector<double> ratios = log_ratios(model, frame);
-    // Without its edge, which is as sharp here as no real shadow's.
+    // Without its edge, which is sharper here than a real shadow's.
     const cv::Rect inside(kBox.x + 1, kBox.y + 1, kBox.width - 2, kBox.height - 2);
     EXPECT_LT(foreground_share(ratios, inside), 0.01) << strength;
   }
@@ -121,7 +121,7 @@ TEST(Background, IsFoundBehindAWalkerWhoCoversItHalfTheTime) {
   std::vector<cv::Mat> frames;
   for (int i = 0; i < 24; ++i) {
     frames.push_back(scene(rng, 2, 1 + 0.04 * std::sin(i)));
-    // Five frames in ten the box is covered, by clothes of changing folds.
+    // In five frames of ten the box is covered by clothes with changing folds.
     if (i % 2 == 0) frames.back()(kBox) = cv::Scalar(60, 70, 150) + cv::Scalar::all(3 * (i % 8));
   }
   const BackgroundModel model = model_of(frames);
@@ -136,13 +136,14 @@ TEST(Background, IsFoundBehindAWalkerWhoCoversItHalfTheTime) {
           std::abs(static_cast<double>(model.luma[static_cast<size_t>(y * kWidth + x)]) - luma));
     }
   }
-  // Twelve samples with a deviation of 2, and the frames' gains within 1 %: five sigma.
+  // Twelve samples with a standard deviation of 2, and the frames' brightness within 1 %: five
+  // sigma.
   EXPECT_LT(worst, 5 * 2 / std::sqrt(12.0) + 0.01 * 140);
   EXPECT_LT(foreground_share(log_ratios(model, scene(rng, 2)), kEverywhere), 0.01);
 }
 
-// Somebody who stands in most frames is not part of the room where it is known which pixels they
-// are; what they always hide is known to be unknown.
+// A person who stands in most frames is not part of the background if their pixels are known; what
+// they always hide is marked as unknown.
 TEST(Background, LeavesOutWhatIsHidden) {
   Rng rng(9, Purpose::kTest);
   const cv::Rect always(70, 10, 8, 8);
@@ -184,14 +185,14 @@ TEST(Background, MemoryIsBounded) {
   EXPECT_THROW(BackgroundSampler(config, 1).model(), InputError);
 }
 
-// Pixels that hold still are summed in rows, others are sorted one by one: both are the plain mean
-// where every sample counts.
+// Pixels that do not change are summed in rows, others are sorted one by one: both give the plain
+// mean if every sample counts.
 TEST(Background, StillPixelsHaveTheMeanAndVarianceOfTheirSamples) {
   constexpr int kFrames = 30;
   BackgroundConfig config;
   config.noise = 0.1;
   config.jitter_px = 0;
-  for (const double noise : {2.0, 4.0}) {  // hardly a pixel is sorted; nearly all are
+  for (const double noise : {2.0, 4.0}) {  // few pixels are sorted; nearly all are
     Rng rng(1, Purpose::kTest);
     std::vector<cv::Mat> frames;
     for (int i = 0; i < kFrames; ++i) frames.push_back(scene(rng, noise));
@@ -210,7 +211,7 @@ TEST(Background, StillPixelsHaveTheMeanAndVarianceOfTheirSamples) {
       stated += 1 / static_cast<double>(model.luma_precision[i]);
     }
     const auto n = static_cast<double>(model.luma.size());
-    EXPECT_LT(std::sqrt(squares / n), 0.05 * noise) << noise;  // the light is measured, too
+    EXPECT_LT(std::sqrt(squares / n), 0.05 * noise) << noise;  // the brightness is estimated, too
     EXPECT_NEAR(stated / variance, 1, 0.05) << noise;
   }
 }
@@ -308,7 +309,7 @@ TEST(Background, DensityIsThatOfTheHeader) {
   }
 }
 
-// Who has walked out of the picture leaves an area without columns at its edge.
+// A person who has left the image leaves an area without columns at its border.
 TEST(Background, AnAreaWithoutColumnsWritesNothing) {
   Rng rng(11, Purpose::kTest);
   const cv::Mat frame = scene(rng, 4);

@@ -24,8 +24,8 @@ constexpr Board kCircles{BoardKind::kCircles, 7, 5, 0.04};   // both ends are al
 constexpr Board kShifted{BoardKind::kAsymmetricCircles, 4, 11, 0.03};
 constexpr Board kUneven{BoardKind::kChessboard, 8, 5, 0.04};
 
-// Largest distance between found points and where the board's points are projected, from whichever
-// end where both are alike; infinite when the board is not found.
+// Largest distance between found points and projected points of the board, from the nearer end if
+// both ends look alike; infinite if the board is not found.
 double worst_miss(const Camera& camera, const BoardVideo& video, const Board& board,
                   const BoardPose& pose) {
   const auto found = find_board(video.picture(board, pose.rotation, pose.translation), board);
@@ -43,8 +43,8 @@ double worst_miss(const Camera& camera, const BoardVideo& video, const Board& bo
   return has_one_origin(board) ? worst : std::min(worst, worst_turned);
 }
 
-// Squares are 15 to 20 px here; the worst corner of a view is some three times as far off as they
-// are on average.
+// Squares are 15 to 20 px here; the error of the worst corner of a view is about three times the
+// mean.
 constexpr double kWorstCorner = 0.3;  // px
 
 TEST(Board, CornersAreFoundToAFractionOfAPixelInTheirOrder) {
@@ -54,8 +54,8 @@ TEST(Board, CornersAreFoundToAFractionOfAPixelInTheirOrder) {
     EXPECT_LT(worst_miss(camera, video, kUneven, pose), kWorstCorner);
 }
 
-// The centre of a circle's picture is not the picture of its centre: at 40 px a circle and tilts of
-// 35 degrees they lie up to a quarter of a pixel apart.
+// The centre of a circle's image is not the image of its centre: for circles of 40 px and tilts of
+// 35 degrees they are up to a quarter of a pixel apart.
 TEST(Board, CirclesAreFoundToAThirdOfAPixelInTheirOrder) {
   const Camera camera = usual_lens();
   const BoardVideo video(camera);
@@ -69,7 +69,8 @@ TEST(Board, CirclesAreFoundToAThirdOfAPixelInTheirOrder) {
   EXPECT_GE(found, 10);
 }
 
-// Rows are shifted in turn, so the ends of an odd number of rows differ and the order is one.
+// Rows are shifted in turn, so that the ends of an odd number of rows differ and the order is
+// unique.
 TEST(Board, ShiftedCirclesAreFoundInTheirOrderHoweverTheyLie) {
   const Camera camera = usual_lens();
   const BoardVideo video(camera);

@@ -17,14 +17,15 @@ namespace {
 constexpr int kRaysAcross = 4;
 constexpr double kTable = 120, kPaper = 235, kInk = 25;
 
-// The last point's place, in spacings.
+// Coordinates of the last point, in spacings.
 Vector2d extent(const Board& board) {
   const int columns =
       board.kind == BoardKind::kAsymmetricCircles ? 2 * board.columns : board.columns;
   return {columns - 1, board.rows - 1};
 }
 
-// Asymmetric grids: is a circle's centre near? Rows about p, and in each the nearest column.
+// Asymmetric grids: whether a circle's centre is near. Tests the rows around p, and in each the
+// nearest column.
 bool in_shifted_circle(const Board& board, const Vector2d& p) {
   for (const double near : {std::floor(p.y()), std::ceil(p.y())}) {
     const int row = std::clamp(static_cast<int>(near), 0, board.rows - 1);
@@ -82,7 +83,7 @@ cv::Mat BoardVideo::picture(const Board& board, const Matrix3d& rotation,
     return (rotation.transpose() * (along * d - translation)).head<2>();
   };
   const Vector2d middle = 0.5 * board.spacing * extent(board);
-  const double reach = middle.norm() + 4 * board.spacing;  // past the sheet
+  const double reach = middle.norm() + 4 * board.spacing;  // beyond the sheet
   cv::Mat out(height_, width_, CV_8UC3);
   for (int v = 0; v < height_; ++v) {
     for (int u = 0; u < width_; ++u) {
@@ -116,13 +117,13 @@ BoardPose board_pose(const Camera& lens, const Board& board, const Vector2d& pix
 
 std::vector<BoardPose> board_poses(const Camera& lens, const Board& board) {
   const double size = board.spacing * (extent(board).maxCoeff() + 1);
-  // So far that the board spans a third of the picture.
+  // At such a distance that the board covers a third of the image.
   const double distance = 3 * size * lens.focal_px.x() / lens.width_px;
   std::vector<BoardPose> out;
   for (int i = 0; i < 12; ++i) {
     const double across = 0.5 + 0.24 * (i % 3 - 1), down = 0.5 + 0.2 * (i / 3 % 3 - 1);
     const Vector2d pixel(across * lens.width_px, down * lens.height_px);
-    const double angle = 2.4 * i;  // about the golden angle: every tilt is another
+    const double angle = 2.4 * i;  // about the golden angle: every tilt is different
     out.push_back(board_pose(lens, board, pixel, distance * (1 + 0.1 * (i % 4 - 1)),
                              0.6 * std::cos(angle), 0.6 * std::sin(angle),
                              0.3 * std::sin(5.0 * i)));

@@ -1,4 +1,4 @@
-// Pictures of calibration boards, exact for any lens: every pixel is the mean over rays.
+// Images of calibration boards, exact for any lens: every pixel is the mean over rays.
 #pragma once
 
 #include <functional>
@@ -11,13 +11,13 @@
 
 namespace walktrack {
 
-// A camera whose rays are computed once; boards are then put before it.
+// A camera whose rays are computed once, for images of boards in front of it.
 class BoardVideo {
  public:
   explicit BoardVideo(const Camera& lens);
 
-  // The picture of a board whose frame (observation/calibration/board.h) is placed by
-  // camera_from_board: a white sheet with a margin of one and a half spacings, before grey.
+  // The image of a board whose frame (observation/calibration/board.h) is given by
+  // camera_from_board: a white sheet with a margin of one and a half spacings, in front of grey.
   cv::Mat picture(const Board& board, const Eigen::Matrix3d& rotation,
                   const Eigen::Vector3d& translation) const;
 
@@ -28,7 +28,7 @@ class BoardVideo {
   std::vector<Eigen::Vector2d> corners_;  // normalised, of the pixels' corners, row by row
 };
 
-// A pose of a board in view: its middle at `distance` along the ray of a pixel, turned about its
+// A pose of a board in view: its middle at `distance` along the ray of a pixel, rotated about its
 // own axes by yaw, pitch (from facing the camera) and roll, rad.
 struct BoardPose {
   Eigen::Matrix3d rotation;
@@ -37,7 +37,7 @@ struct BoardPose {
 BoardPose board_pose(const Camera& lens, const Board& board, const Eigen::Vector2d& pixel,
                      double distance, double yaw, double pitch, double roll);
 
-// Twelve poses that determine a lens: tilted to all sides, over the whole picture.
+// Twelve poses that determine a lens: tilted to all sides, over the whole image.
 std::vector<BoardPose> board_poses(const Camera& lens, const Board& board);
 
 }  // namespace walktrack

@@ -49,14 +49,14 @@ const Case kCases[] = {
     {"fisheye", LensModel::kFisheye, {-0.02, 0.005, -0.002, 0.0005}},
 };
 
-// Single precision of OpenCV's points (3e-5 px) is what is left of exact views.
+// With exact views the error is the single precision of OpenCV's points (3e-5 px).
 TEST(FitLens, ExactViewsGiveTheLensBackForEachModel) {
   for (const Case& each : kCases) {
     const Camera camera = usual_lens(each.coefficients, each.model == LensModel::kFisheye);
     const auto fit = fit_lens(kBoard, views_of(camera), 640, 480, each.model);
     ASSERT_TRUE(fit) << each.name;
     EXPECT_LT(fit->rms_px, 1e-2) << each.name;
-    // Rational coefficients compensate each other; what they do to the picture is what counts.
+    // Rational coefficients compensate each other, so that their effect on the image is compared.
     for (const Vector2d& flat : {Vector2d(0, 0), Vector2d(0.4, 0.2), Vector2d(-0.3, 0.3)}) {
       const Vector3d point = flat.homogeneous();
       const Vector2d miss = project_camera_point(fit->camera, point).value() -
@@ -76,7 +76,7 @@ TEST(FitLens, NoiseComesBackAsMissesAndAsTheFocalLengthsDeviation) {
     for (Vector2d& point : view) point += kNoise * Vector2d(rng.normal(), rng.normal());
   const auto fit = fit_lens(kBoard, views, 640, 480, LensModel::kBrown);
   ASSERT_TRUE(fit);
-  // Length of a two-dimensional miss; 960 numbers, 8 + 72 of them fitted.
+  // Length of a two-dimensional residual; 960 numbers, 8 + 72 of them fitted.
   EXPECT_NEAR(fit->rms_px, kNoise * std::sqrt(2.0 * (960 - 80) / 960), 0.02);
   const Vector2d error = (fit->camera.focal_px - camera.focal_px).cwiseAbs();
   EXPECT_TRUE((error.array() < 5 * fit->focal_sd_px.array()).all());

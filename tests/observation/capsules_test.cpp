@@ -15,8 +15,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Points densely on the surface of the solid that body/body.h describes: elliptic cone and half
-// ellipsoids, written down anew.
+// Points densely on the surface of the solid that body/body.h describes, an elliptic cone and half
+// ellipsoids, computed independently.
 std::vector<Vector3d> surface(const PosedPart& part) {
   constexpr int kRound = 48, kAlong = 24, kCap = 12;
   std::vector<Vector3d> points;
@@ -41,8 +41,8 @@ std::vector<Vector3d> surface(const PosedPart& part) {
   return points;
 }
 
-// The largest distance by which the solid's image reaches beyond the capsule's outline, or falls
-// short of it, in any of 64 directions of the image.
+// The largest distance between the outlines of the solid's image and of the capsule in any of 64
+// directions of the image.
 double outline_error(const Camera& camera, const PosedPart& part, const Capsule& capsule) {
   double worst = 0;
   const std::vector<Vector3d> points = surface(part);
@@ -81,7 +81,7 @@ TEST(ProjectParts, RoundPartsSeenFromTheSideAreExact) {
   EXPECT_LT(outline_error(camera, part, capsules[0]), 0.03);
 }
 
-// The statement of the header: over poses and views, how well do capsules fit the elliptic solids?
+// The statement in the header: the error of capsules for the elliptic solids, over poses and views.
 TEST(ProjectParts, OutlinesOfTheBodyFitItsSolids) {
   Rng rng(1, Purpose::kTest);
   const Body body = make_body(Subject{}, {.head = true, .arms = true});
@@ -101,8 +101,8 @@ TEST(ProjectParts, OutlinesOfTheBodyFitItsSolids) {
   RecordProperty("median_px", std::to_string(quantile(0.5)));
   RecordProperty("p95_px", std::to_string(quantile(0.95)));
   RecordProperty("largest_px", std::to_string(quantile(1)));
-  // A figure about 190 px high, 9 mm a pixel: the margins over what was measured (0.10, 1.04 and
-  // 2.20 px) are for other draws of the poses.
+  // A figure about 190 px high, 9 mm per pixel: the margins over the measured values (0.10, 1.04
+  // and 2.20 px) are for other random poses.
   EXPECT_LT(quantile(0.5), 0.15);
   EXPECT_LT(quantile(0.95), 1.3);
   EXPECT_LT(quantile(1), 2.8);
@@ -117,7 +117,7 @@ TEST(ProjectParts, ScalesAndMovesWithTheLens) {
   const Capsule bent = project_parts(camera, std::vector{part})[0];
   EXPECT_LT(bent.lower.centre.x(), plain.lower.centre.x() - 1);
   EXPECT_LT(bent.lower.radius, 0.99 * plain.lower.radius);
-  // Straight lines bend by this much between the two ends, on top of the error without a lens.
+  // Straight lines bend by this much between the two ends, in addition to the error without a lens.
   EXPECT_LT(outline_error(camera, part, bent), 0.1);
 }
 

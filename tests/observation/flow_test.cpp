@@ -21,7 +21,7 @@ cv::Mat pattern(const Vector2d& shift, int width = kSize, int height = kSize) {
   cv::Mat image(height, width, CV_8U);
   std::array<std::array<double, 4>, 24> waves;
   for (size_t i = 0; i < waves.size(); ++i) {
-    // As in photographs, the longer the wave the stronger.
+    // As in photographs, long waves are stronger.
     const double fastest = 0.7 * static_cast<double>(i + 2) / static_cast<double>(waves.size());
     waves[i] = {draw(rng, -fastest, fastest), draw(rng, -fastest, fastest), draw(rng, 0, 2 * kPi),
                 8 / (fastest + 0.2)};
@@ -53,7 +53,7 @@ FlowField paired(const cv::Mat& before, const cv::Mat& now, const PixelRect& are
   return field;
 }
 
-// The whole picture moves.
+// The whole image moves.
 FlowField moving(const Vector2d& motion) { return paired(pattern({0, 0}), pattern(motion)); }
 
 FlowField blank() {
@@ -91,7 +91,7 @@ TEST(FlowField, LightThatChangesIsNoMotion) {
   double lost = 0;
   for (size_t i = 0; i < same.cells.size(); ++i)
     lost += static_cast<double>(same.cells[i].at_rest - lit.cells[i].at_rest);
-  // Of rounding to whole levels; it would be 3 if nothing were done.
+  // The rest is due to rounding to integers; it would be 3 without the correction.
   EXPECT_LT(lost / static_cast<double>(same.cells.size()), 0.3) << "nats a cell";
 }
 
@@ -113,7 +113,7 @@ CapsuleList one_body() {
   return project_parts(camera_at({0, -6, 1.5}, {0, 0, 0.9}, 300, kSize, kSize), posed(body, pose));
 }
 
-// Pictures of a textured body in front of a still, textured scene.
+// Images of a textured body in front of a static, textured scene.
 cv::Mat filmed(const CapsuleList& body, const Vector2d& place) {
   cv::Mat image = pattern({500, 300});
   const cv::Mat cloth = pattern(place);
@@ -133,7 +133,7 @@ TEST(FlowLogRatio, IsLargestForTheMotionSeen) {
     };
     const double best = score(motion);
     EXPECT_GT(best, 0);
-    // Of a long way a share is not told apart.
+    // For a long distance only a share of it is resolved.
     const double apart = 0.4 + FlowConfig{}.error_share * motion.norm();
     for (const Vector2d& off : {Vector2d(1, 0), Vector2d(-1, 0), Vector2d(0, 1), Vector2d(0, -1)})
       EXPECT_LT(score(motion + apart * off), best) << motion.transpose();
@@ -143,7 +143,7 @@ TEST(FlowLogRatio, IsLargestForTheMotionSeen) {
   }
 }
 
-// It covers background at one side and uncovers some at the other: both places are known.
+// It covers background at one side and uncovers some at the other: both places are evidence.
 TEST(FlowLogRatio, BothEndsOfTheWayCount) {
   const Vector2d way(4, 0);
   const CapsuleList now = one_body(), before = moved(now, -way);
@@ -158,9 +158,8 @@ TEST(FlowLogRatio, BothEndsOfTheWayCount) {
   }
 }
 
-// Densities are of all pixels, whatever the poses: what leaves the picture or the body gains
-// nothing by it.
-TEST(FlowLogRatio, NothingIsWonByLeavingThePicture) {
+// Densities are of all pixels for all poses: leaving the image or the body gives no advantage.
+TEST(FlowLogRatio, LeavingTheImageGivesNoAdvantage) {
   const CapsuleList there = one_body(), away = moved(there, {2000, 0});
   const FlowField still = moving({0, 0});
   EXPECT_LT(flow_log_ratio({}, still, away, there), -100);
@@ -169,17 +168,17 @@ TEST(FlowLogRatio, NothingIsWonByLeavingThePicture) {
   EXPECT_EQ(flow_log_ratio({}, still, away, away), 0) << "nobody there at all";
 }
 
-// The sum of exp(log ratio) p_rest over all grey levels of a pixel is one, for a body that moves as
-// for none: asked of a single pixel's worth of body. Bounding how strange a pixel can be stands for
-// a tenth of pixels that may be anything, of which it does not spend all, and some lie beyond
-// white: the sum is a little less than 1.
+// The sum of exp(log ratio) p_rest over all grey levels of a pixel is one, both for a body that
+// moves and for none; it is tested for a body with the area of one pixel. Because a difference is
+// limited to represent a tenth of pixels with any colour, not all of that tenth is used, and some
+// values are beyond white: the sum is slightly less than 1.
 TEST(FlowLogRatio, IsADensityOfThePicture) {
   const cv::Mat before = pattern({0, 0});
   const auto total = [&](const CapsuleList& now, const CapsuleList& was) {
     double sum = 0;
     cv::Mat after = before.clone();
     for (int level = 0; level < 256; ++level) {
-      // So wide that smoothing leaves the middle as it is.
+      // So wide that smoothing does not change the middle.
       after(cv::Rect(76, 76, 9, 9)).setTo(level);
       const FlowField field = paired(before, after, {80, 80, 81, 81}, 0.04);
       sum += std::exp(flow_log_ratio({}, field, now, was) +
@@ -212,8 +211,8 @@ TEST(FlowLogRatio, SaysNothingWithoutAFrameBefore) {
   EXPECT_EQ(flow_log_ratio({}, FlowField{}, one_body(), one_body()), 0);
 }
 
-// Where nothing has texture only what is uncovered costs: without a model of the scene it might
-// look like anything.
+// Without texture only uncovered pixels are evidence: without a model of the scene they might have
+// any colour.
 TEST(FlowLogRatio, WithoutTextureTheLeastMotionIsBest) {
   const CapsuleList before = one_body();
   double last = 1;
@@ -224,8 +223,8 @@ TEST(FlowLogRatio, WithoutTextureTheLeastMotionIsBest) {
   }
 }
 
-// What another part hid a frame ago might look like anything, and not like that part.
-TEST(FlowLogRatio, WhatWasHiddenMayLookLikeAnything) {
+// What another part hid in the previous frame might have any colour, and not that part's.
+TEST(FlowLogRatio, HiddenPixelsMayHaveAnyColour) {
   const auto leg = [](int part, double x, double depth) {
     return Capsule{{{x, 50}, 10}, {{x, 110}, 10}, depth, Appearance::kLegs, part};
   };
@@ -235,7 +234,7 @@ TEST(FlowLogRatio, WhatWasHiddenMayLookLikeAnything) {
     out.insert(leg(1, near_x, near_depth));
     return out;
   };
-  // A striped leg steps aside and lays a dark one bare.
+  // A striped leg moves aside and uncovers a dark one.
   const auto picture = [&](double near_x) {
     cv::Mat image = pattern({500, 300});
     const cv::Mat cloth = pattern({near_x, 0});
@@ -252,14 +251,14 @@ TEST(FlowLogRatio, WhatWasHiddenMayLookLikeAnything) {
             flow_log_ratio({}, field, legs(105, 4), legs(80, 6)) + 100);
 }
 
-// A walker seen through a strongly bending lens: the picture moves as a material point does,
-// computed here from 3-D; the predicted motion must agree with it to a small part of a pixel.
+// A walker seen through a strongly distorting lens: the image moves as a material point does, which
+// is computed here in 3-D; the predicted motion must agree with it to a small part of a pixel.
 TEST(FlowLogRatio, PredictsMotionThroughTheLens) {
   constexpr int kPictureWidth = 320, kPictureHeight = 240;
   Camera camera = camera_at({0, -6, 1.5}, {0, 0, 0.9}, 336, kPictureWidth, kPictureHeight);
   const double distortion[] = {-0.25, 0.08, 0.002, -0.001};
   set_distortion(camera, distortion);
-  const Eigen::Vector3d velocity(0.06, 0.01, 0.01);  // m a frame
+  const Eigen::Vector3d velocity(0.06, 0.01, 0.01);  // m per frame
   PosedPart part{{1.6, 0, 0.2}, {1.7, 0, 0.6}, {0, 1, 0},        {0.97, 0, -0.24},
                  {0.05, 0.05},  {0.05, 0.05},  Appearance::kLegs};
   PosedPart later = part;

@@ -5,7 +5,7 @@
 namespace walktrack {
 namespace {
 
-// Somebody covers the columns from ... to - 1 of the upper twenty rows.
+// A person covers the columns from ... to - 1 of the upper twenty rows.
 LogRatioPlanes covered(int from, int to) {
   LogRatioPlanes planes;
   resize(planes, {5, 2, 46, 33}, 1);
@@ -17,7 +17,7 @@ LogRatioPlanes covered(int from, int to) {
   return planes;
 }
 
-TEST(ForegroundGrid, CoversCellsOfWhichMostSpeaksForABody) {
+TEST(ForegroundGrid, CoversCellsInWhichMostPixelsShowABody) {
   const ForegroundGrid grid = foreground_grid(covered(4, 20), 10);
   EXPECT_EQ(grid.columns, 4);
   EXPECT_EQ(grid.rows, 3);

@@ -49,7 +49,7 @@ struct SeenFromTheSide : testing::Test {
   }
   PosedBody posed(const Pose& p) const { return {body, p}; }
 
-  // Every point exactly where the body model has it.
+  // Every point exactly at the body model's.
   DetectedPerson seen(const Pose& p, float confidence = 0.8F) const {
     const PointPixels px = point_pixels(camera, posed(p), offsets());
     DetectedPerson out;
@@ -126,7 +126,7 @@ TEST_F(KeypointTermTest, TruePoseBeatsPerturbedPoses) {
   }
 }
 
-// The same person in a picture of half the size says the same.
+// The same person in an image of half the size gives the same evidence.
 TEST_F(KeypointTermTest, PixelsAreThoseOfThePictureAsRecorded) {
   const CameraEvidence whole = evidence({seen(pose(0))}), half = evidence({seen(pose(0))}, 2);
   for (size_t i = 0; i < kBodyPoints; ++i) {
@@ -142,7 +142,7 @@ TEST_F(KeypointTermTest, SwappedNamesCostTheirLogOddsAlone) {
   swap_names(legs, kLegNames);
   swap_names(both, kLegNames);
   swap_names(both, kArmNames);
-  config.keypoints.weight = 1;  // so that the other names are out of the question
+  config.keypoints.weight = 1;  // so that swapped labels are practically excluded
   const double best = score(evidence({seen(pose(0))}), pose(0));
   EXPECT_NEAR(best - score(evidence({legs}), pose(0)), odds, 0.01);
   EXPECT_NEAR(best - score(evidence({both}), pose(0)), 2 * odds, 0.02);
@@ -177,13 +177,13 @@ TEST_F(KeypointTermTest, SomebodyElseChangesNothing) {
   const CameraEvidence alone = evidence({subject}), two = evidence({seen(far), subject});
   for (const double x : {0.0, 0.02, 0.1})
     EXPECT_NEAR(score(two, pose(x)), score(alone, pose(x)), 1e-3) << x;
-  // Alone in the picture, they leave poses that are not theirs as they are.
+  // Other people alone have no effect on poses that are far from them.
   const CameraEvidence other = evidence({seen(far)});
   EXPECT_NEAR(score(other, pose(0)), 0, 1e-3);
   EXPECT_NEAR(score(other, pose(0.1)), 0, 1e-3);
 }
 
-// Beside the camera and behind it points have no place in the image, or any.
+// Beside the camera and behind it points have no place in the image, or an arbitrary one.
 TEST_F(KeypointTermTest, AnyPoseHasAFiniteScore) {
   const CameraEvidence seen_now = evidence({seen(pose(0)), seen(pose(0.5))});
   for (const double y : {-4.9, -5.0, -5.1, -9.0}) {
@@ -195,7 +195,7 @@ TEST_F(KeypointTermTest, AnyPoseHasAFiniteScore) {
   }
 }
 
-// By an independent route: every choice of person and of names, one density after the other.
+// Computed independently: every choice of person and labels, one density after the other.
 double brute_force(const KeypointConfig& config, const KeypointEvidence& evidence,
                    const PointPixels& predicted) {
   double sum = 1;
@@ -247,7 +247,7 @@ TEST_F(KeypointTermTest, NamesOfATrackAreThoseOfMostPoints) {
   EXPECT_NEAR(odds(wrong), -odds(right), 1e-9);
 }
 
-// A detector that errs by half a per cent of the height, and sees hips two per cent too high.
+// A detector with errors of half a per cent of the height, and hips that are two per cent too high.
 struct Learning : SeenFromTheSide {
   CameraEvidence now;
   Observer watching = observer();
@@ -280,7 +280,7 @@ TEST_F(KeypointErrorsTest, AreLearntFromTheRecording) {
   const auto knee = static_cast<size_t>(PointKind::kKnee);
   EXPECT_LT(after.scale[knee], 0.5 * before.scale[knee]);
   const Vector2d hip = offsets_of(after)[static_cast<size_t>(PointKind::kHip)];
-  EXPECT_NEAR(hip.y(), 0.02, 0.006);  // drawn towards none
+  EXPECT_NEAR(hip.y(), 0.02, 0.006);  // the prior pulls towards none
   EXPECT_NEAR(hip.x(), 0, 0.005);
   EXPECT_NEAR(offsets_of(after)[knee].norm(), 0, 0.004);
   EXPECT_EQ(watching.state().use.matched, 300);
@@ -298,8 +298,8 @@ TEST_F(KeypointErrorsTest, OfSomebodyElseAreNotLearnt) {
   EXPECT_EQ(watching.state().errors.scale, initial_errors().scale);
 }
 
-// An observer that takes the state of another one goes on as that one.
-TEST_F(KeypointErrorsTest, GoOnFromAState) {
+// An observer that takes the state of another one continues in the same way.
+TEST_F(KeypointErrorsTest, ContinueFromAState) {
   watch(20);
   Observer other = observer();
   other.resume(watching.state());

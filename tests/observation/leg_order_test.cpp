@@ -48,7 +48,7 @@ const std::vector<Part>& parts() {
   return all;
 }
 
-// A part that stands upright.
+// A vertical part.
 Capsule upright(int part, double x, double depth) {
   Capsule capsule{};
   capsule.lower = {{x, 90}, 8};
@@ -64,7 +64,7 @@ CapsuleList list(std::initializer_list<Capsule> capsules) {
   return out;
 }
 
-// The left shank has come 4 px from the left, the right one stands.
+// The left shank has moved 4 px to the right, the right one is at rest.
 constexpr double kStep = 4;
 CapsuleList shanks(double left_depth, double left_x = 60) {
   return list({upright(kLeftShank, left_x, left_depth), upright(kRightShank, 62, 5)});
@@ -116,7 +116,8 @@ TEST(LegOrder, DoesNotAskWhatIsHiddenOrLooksLikeTheEmptyScene) {
   EXPECT_EQ(log_ratio(cloth(0), cloth(kStep), shanks(4, 60 - kStep), shanks(4), everywhere(-1)), 0);
 }
 
-// A shoe, a hem, the edge of a shadow: however bright, a pixel says no more than 2 ln(12 / 3) nats.
+// A shoe, a hem, the edge of a shadow: a pixel contributes at most 2 ln(12 / 3) nats, however
+// bright.
 TEST(LegOrder, StrangePixelsDoNotDecide) {
   GreyImage dark{kSize, kSize, std::vector<uint8_t>(kSize * kSize, 20)}, bright = dark;
   for (int y = 0; y < kSize; ++y)
@@ -141,7 +142,7 @@ TEST(LegOrder, AsksOnlyTheLowerEndsOfThighs) {
   EXPECT_LT(lower, 0.6 * whole);
 }
 
-// Cloth that moves by `shift` px, on somebody who fills the picture.
+// Cloth that moves by `shift` px, on a person who fills the image.
 CameraEvidence cloth_evidence(const Camera& camera, double shift) {
   CameraEvidence out;
   out.picture = {camera.width_px, camera.height_px, {}};
@@ -155,7 +156,8 @@ CameraEvidence cloth_evidence(const Camera& camera, double shift) {
   return out;
 }
 
-// Somebody walks to the right before a camera on their right-hand side: the right leg is in front.
+// A person walks to the right in front of a camera on their right-hand side: the right leg is in
+// front.
 TEST(LegOrderTerm, SpeaksForTheSwingOfTheLegInFront) {
   const Camera camera = camera_at({0, -4, 0.9}, {0, 0, 0.9}, 600);
   const Body body = make_body(Subject{}, {});

@@ -16,7 +16,7 @@
 namespace walktrack {
 namespace {
 
-// A textured wall, the same for one key whatever is drawn in front.
+// A textured wall, the same for one key whatever is drawn in front of it.
 cv::Mat wall(int width, int height) {
   Rng rng(11, Purpose::kTest);
   cv::Mat image(height, width, CV_8UC3);
@@ -50,7 +50,7 @@ void draw_body(cv::Mat& image, const CapsuleList& capsules) {
   for (const VisibleRun& run : visible_runs({0, 0, image.cols, image.rows}, capsules)) {
     const cv::Vec3b colour = clothes(capsules[static_cast<size_t>(run.capsule)].appearance);
     for (int x = run.x0; x < run.x1; ++x) {
-      // Stripes give the flow something to hold on to.
+      // Stripes give the flow term texture.
       const int stripe = (x + 2 * run.y) / 3 % 2 * 30;
       for (int c = 0; c < 3; ++c)
         image.at<cv::Vec3b>(run.y, x)[c] = cv::saturate_cast<uint8_t>(colour[c] + stripe);
@@ -149,8 +149,8 @@ TEST(Observer, RegionLimitsWhatIsComputed) {
   EXPECT_EQ(log_likelihood(config, b, now, &now), 0);
 }
 
-// The next frame may be prepared, and prepared again elsewhere, before this one has been learned
-// from.
+// The next frame may be prepared, and prepared again for another region, before this one has been
+// learned from.
 TEST(Observer, PreparingTheNextFrameEarlyChangesNothing) {
   const World world;
   Observer plain = world.observer(every_term()), early = world.observer(every_term());
@@ -251,8 +251,8 @@ TEST(Observer, OccludersSayNothing) {
   EXPECT_GE(seen(170), 0);
 }
 
-// What is behind people who always stood there is not known, whatever else comes and goes.
-TEST(Observer, WhatWasNeverSeenSaysNothing) {
+// The background behind people who always stood there is unknown, whatever else moves.
+TEST(Observer, PixelsThatWereNeverSeenGiveNoEvidence) {
   const World world;
   BackgroundSampler sampler({}, 1);
   sampler.add(world.empty);
@@ -274,7 +274,7 @@ TEST(Observer, WhatWasNeverSeenSaysNothing) {
   EXPECT_NE(ratio(165), 0);
 }
 
-// A prepared frame keeps its memory, but nothing of the flow before frames were dropped.
+// A prepared frame keeps its memory, but no flow from before dropped frames.
 TEST(Observer, AfterDroppedFramesThereIsNoFlowForAnOccluderToBlock) {
   const World world;
   Observer observer = world.observer(every_term());
@@ -291,7 +291,7 @@ TEST(Observer, AfterDroppedFramesThereIsNoFlowForAnOccluderToBlock) {
   }
 }
 
-TEST(Observer, WhatStandsInFrontMayComeAndGo) {
+TEST(Observer, OccludersMayComeAndGo) {
   const World world;
   Observer observer = world.observer({});
   const auto ratio = [&] {
@@ -304,7 +304,7 @@ TEST(Observer, WhatStandsInFrontMayComeAndGo) {
   observer.hide({{{-1, -1}, {320, -1}, {320, 240}, {-1, 240}}});
   EXPECT_EQ(ratio(), 0);
   observer.hide({});
-  // Light and drift are followed meanwhile: the same picture again, to some per cent.
+  // Light and drift are followed meanwhile: the same image has the same evidence to some per cent.
   EXPECT_NEAR(ratio(), seen, 0.1 * std::abs(seen));
 }
 
@@ -323,7 +323,7 @@ TEST(Observer, RefusesFramesAndModelsOfAnotherSize) {
   EXPECT_THROW(make(std::nullopt), InputError);
 }
 
-// Each term alone: the pose that made the frames beats poses moved off it.
+// For each term alone the pose that made the frames is more likely than shifted poses.
 class TermAlone : public testing::TestWithParam<int> {};
 
 TEST_P(TermAlone, TruePoseBeatsPerturbedPoses) {
@@ -334,7 +334,7 @@ TEST_P(TermAlone, TruePoseBeatsPerturbedPoses) {
   config.flow.enabled = GetParam() == 2 ? TermSetting::kOn : TermSetting::kOff;
   Observer observer = world.observer(config);
   CameraEvidence evidence;
-  const double step = 0.04;  // m a frame
+  const double step = 0.04;  // m per frame
   Pose pose;
   for (int i = 0; i < 4; ++i) {
     pose = world.pose(i * step);
@@ -363,12 +363,13 @@ TEST_P(TermAlone, TruePoseBeatsPerturbedPoses) {
   }
 }
 
-// A level of half the size has a quarter of the pixels; each stands for four times the area.
+// An image of half the size has a quarter of the pixels, each of which represents four times the
+// area.
 TEST(Observer, LevelsOfThePyramidWeighTheSameArea) {
   const World world;
   ObservationConfig config;
   config.foreground.enabled = false;
-  const auto gain = [&](int factor) {  // of the true pose over one 10 cm ahead
+  const auto gain = [&](int factor) {  // of the true pose over one 10 cm in front
     BackgroundSampler sampler(config.background, factor);
     sampler.add(world.empty);
     Observer observer(config,
@@ -386,7 +387,8 @@ TEST(Observer, LevelsOfThePyramidWeighTheSameArea) {
   };
   const double full = gain(1), half = gain(2);
   EXPECT_GT(full, 0);
-  // Edges blur into a twelfth of the body's width at half the size: a tenth of the sum either way.
+  // At half the size edges are blurred over a twelfth of the body's width: a tenth of the sum
+  // either way.
   EXPECT_NEAR(half / full, 1, 0.15);
 }
 

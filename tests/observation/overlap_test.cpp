@@ -45,7 +45,7 @@ bool in_figure(const CapsuleList& figure, const Vector2d& pixel) {
                      [&](const Capsule& capsule) { return inside(capsule, pixel); });
 }
 
-// Somebody who looks like the figure there and nowhere else.
+// A person with the figure's outline at one place.
 LogRatioPlanes somebody_at(double x) {
   const auto seen = [figure = figure_at(x)](const Vector2d& pixel) {
     return in_figure(figure, pixel) ? 2.0 : -1.0;
@@ -67,7 +67,7 @@ TEST(Overlap, FallsWithTheDistanceFromThePerson) {
   }
 }
 
-// By looking at every pixel: no runs, no prefix sums.
+// Computed pixel by pixel: no runs, no prefix sums.
 TEST(Overlap, EqualsTheSumOverPixels) {
   Rng rng(3, Purpose::kTest);
   const auto noise = [&](const Vector2d&) { return std::floor(draw(rng, -800, 800)) / 256; };

@@ -14,8 +14,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// The formula of observation/silhouette/capsules.h for one end, in world axes, by the camera's own
-// project(): nothing of it is shared with the vector code.
+// The formula in observation/silhouette/capsules.h for one end, in world axes, with the camera's
+// own project(): independent of the vector code.
 struct PlainDisc {
   Vector2d centre;
   double radius;
@@ -48,7 +48,7 @@ void expect_plain_discs(const Camera& camera, std::span<const PosedPart> parts) 
                upper = plain_disc(camera, parts[i], true);
     ASSERT_EQ(discs.nearest[i] >= kMinDepth, lower && upper);
     if (!lower || !upper) continue;
-    // Both round a dozen times in numbers up to some 1e4 px.
+    // Both round about a dozen times, in numbers up to some 1e4 px.
     const double small = 1e-9 * (1 + lower->centre.norm() + upper->centre.norm());
     EXPECT_NEAR(discs.lower.x[i], lower->centre.x(), small);
     EXPECT_NEAR(discs.lower.y[i], lower->centre.y(), small);
@@ -95,7 +95,7 @@ TEST(FindDiscs, APartSeenEndOnIsAsWideAsItsSectionsArea) {
   PartDiscs discs;
   find_discs(camera, std::vector{part}, discs);
   const double radius = std::sqrt(0.12 * 0.05);
-  // Its disc stands towards the eye by the half ellipsoid's height less its radius.
+  // Its disc is nearer to the camera by the half ellipsoid's height minus its radius.
   const double depth = 5 - (0.5 * (0.12 + 0.05) - radius);
   EXPECT_NEAR(discs.lower.radius[0], 600 * radius / depth, 1e-9);
   EXPECT_NEAR(discs.lower.x[0], camera.centre_px.x(), 1e-9);

@@ -1,4 +1,4 @@
-// Poses beside the true one: a likelihood is worth something where the true one beats them.
+// Poses beside the true one, which should have a lower likelihood.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace walktrack {
 
 using Change = std::function<void(JointPositions&)>;
 
-// Turns joints about another one, in the sagittal plane.
+// Rotates joints about another one, in the sagittal plane.
 inline void turn(JointPositions& j, std::initializer_list<Joint> which, Joint about, double angle) {
   const Eigen::Vector3d axis = (j[Joint::kLeftHip] - j[Joint::kRightHip]).normalized();
   const Eigen::AngleAxisd rotation(angle, axis);

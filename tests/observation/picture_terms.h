@@ -1,5 +1,5 @@
-// The terms that read pictures, summed by hand: the oracle of the fold in observation/terms.h, and
-// what tests ask that have capsules rather than poses. These may ask flow about the whole body.
+// The terms that use images, summed by hand: the oracle of the sum in observation/terms.h, and a
+// function for tests with capsules instead of poses, which may use flow for the whole body.
 #pragma once
 
 #include "observation/observer.h"
@@ -7,7 +7,7 @@
 
 namespace walktrack {
 
-// `before`: the same body's capsules at the frame before, or nullptr for no flow.
+// `before`: the same body's capsules in the previous frame, or nullptr without flow.
 inline double log_likelihood(const ObservationConfig& config, const CameraEvidence& evidence,
                              const CapsuleList& now, const CapsuleList* before) {
   double sum = silhouette_log_ratio(evidence.planes, now);
@@ -15,7 +15,7 @@ inline double log_likelihood(const ObservationConfig& config, const CameraEviden
   return evidence.pixel_weight * sum;
 }
 
-// The same as particles are weighed: flow is asked about legs and feet.
+// The same as for particles: flow is used for legs and feet only.
 inline double particle_log_likelihood(const ObservationConfig& config,
                                       const CameraEvidence& evidence, const CapsuleList& now,
                                       const CapsuleList* before) {

@@ -13,7 +13,7 @@ constexpr size_t kCells = size_t{kSide} * kSide;
 
 size_t cell(int x, int y) { return static_cast<size_t>(y * kSide + x); }
 
-// Maps of nobody; a test says where what is.
+// Empty maps, in which tests set values.
 struct HandMade {
   std::vector<float> centre = std::vector<float>(kCells, -9);
   std::vector<float> heat = std::vector<float>(kCocoPoints * kCells, -9);
@@ -21,7 +21,7 @@ struct HandMade {
   std::vector<float> offset = std::vector<float>(2 * kCocoPoints * kCells, 0);
 
   void person(int x, int y, float strength) { centre[cell(x, y)] = strength; }
-  // Where a person whose middle is at (x, y) has point k.
+  // Sets the expected position of point k of a person whose middle is at (x, y).
   void expect(size_t k, int x, int y, float dx, float dy) {
     regress[2 * k * kCells + cell(x, y)] = dy;
     regress[(2 * k + 1) * kCells + cell(x, y)] = dx;
@@ -49,7 +49,7 @@ TEST(PoseMaps, PlaceIsTheCellPlusItsOffset) {
   EXPECT_FLOAT_EQ(knee.confidence, 1 / (1 + std::exp(-2.f)));
 }
 
-// A cut-out is moved and scaled back to the picture.
+// A cut-out is shifted and scaled back to the image.
 TEST(PoseMaps, ArePlacedInThePicture) {
   HandMade maps;
   maps.person(24, 24, 4);
@@ -60,11 +60,11 @@ TEST(PoseMaps, ArePlacedInThePicture) {
   EXPECT_FLOAT_EQ(nose.y_px, 50 - 0.5f + 125);
 }
 
-// Of two people the one nearer the middle counts, of two knees that of the person.
+// Of two people the one nearer to the middle is chosen, of two knees that of the person.
 TEST(PoseMaps, AnswerForThePersonInTheMiddle) {
   HandMade maps;
   maps.person(23, 24, 2);
-  maps.person(2, 24, 3);  // surer, but far off
+  maps.person(2, 24, 3);  // more confident, but far away
   maps.expect(14, 23, 24, 0, 6);
   maps.expect(14, 2, 24, 0, 6);
   maps.point(14, 23, 31, 1, 0, 0);
@@ -76,7 +76,7 @@ TEST(PoseMaps, OfNobodyHaveLowConfidences) {
   for (const Keypoint& point : HandMade().read(kWhole).points) EXPECT_LT(point.confidence, 0.001);
 }
 
-// The network knows nothing of feet.
+// The network has no points of feet.
 TEST(PoseMaps, LeaveTheFeetOut) {
   HandMade maps;
   maps.person(24, 24, 4);

@@ -23,7 +23,7 @@ std::string shipped() {
   return read_file(WALKTRACK_SOURCE_DIR "/data/pose_net/movenet_lightning.onnx");
 }
 
-// OpenCV on so many threads, for the length of a test.
+// Sets the number of OpenCV's threads for the duration of a test.
 class Threads {
  public:
   explicit Threads(int count) : before_(cv::getNumThreads()) { cv::setNumThreads(count); }
@@ -49,7 +49,7 @@ TEST(NetFile, WidensHalfPrecision) {
   const NetFile wide = widened_net(half, "net");
   EXPECT_EQ(wide.side_px, 192);
   EXPECT_GT(wide.onnx.size(), 1.9 * static_cast<double>(half.size()));
-  EXPECT_EQ(widened_net(wide.onnx, "net").onnx, wide.onnx);  // nothing is left to widen
+  EXPECT_EQ(widened_net(wide.onnx, "net").onnx, wide.onnx);  // no weights are left to convert
 }
 
 TEST(NetFile, RefusesOtherFiles) {
@@ -71,7 +71,7 @@ TEST(PoseNet, RefusesWhatItCannotRun) {
   EXPECT_THAT(message_of([&] { PoseNet(net, "x.onnx"); }), HasSubstr("x.onnx: found a network"));
 }
 
-// Somebody drawn with a few lines is not believed in; nobody at all even less.
+// A person drawn with a few lines gets a low confidence; an empty image an even lower one.
 TEST(PoseNet, SeesNobodyInAnEmptyPicture) {
   if (!has_pose_net()) GTEST_SKIP() << "built without OpenCV's dnn module";
   const Threads one(1);
@@ -103,7 +103,7 @@ TEST(PoseNet, FindsAPersonsJoints) {
   }
 }
 
-// A picture moved by some pixels moves the points by as many.
+// If the image is shifted, the points are shifted by as much.
 TEST(PoseNet, FollowsThePicture) {
   if (!has_pose_net()) GTEST_SKIP() << "built without OpenCV's dnn module";
   const cv::Mat frame = side_view();

@@ -1,5 +1,5 @@
-// The independently rendered walks under ../shared/data/rendered, where they exist: calibration,
-// frames, true joints, and the parts of our body laid over them.
+// The independently rendered walks below ../shared/data/rendered, if they exist: calibration,
+// frames, true joints, and the parts of the body model at these joints.
 #pragma once
 
 #include <cmath>
@@ -84,7 +84,7 @@ inline Eigen::Matrix3d axes_up(const Eigen::Vector3d& up, const Eigen::Vector3d&
   return axes;
 }
 
-// A skeleton whose segments point along the given joints, whatever the body's lengths.
+// A skeleton whose segments are directed along the given joints, whatever the body's lengths.
 inline Skeleton skeleton_from_joints(const Body& body, const JointPositions& j) {
   Skeleton s;
   s.joints = j;
@@ -106,7 +106,7 @@ inline Skeleton skeleton_from_joints(const Body& body, const JointPositions& j) 
     set(l ? Segment::kLeftUpperArm : Segment::kRightUpperArm,
         axes_up(j[shoulder] - j[elbow], left));
     set(l ? Segment::kLeftForearm : Segment::kRightForearm, axes_up(j[elbow] - j[wrist], left));
-    // The ball lies ahead of and below the ankle; the foot's x axis lies along the sole.
+    // The ball is in front of and below the ankle; the foot's x axis is along the sole.
     const BodyLengths& lengths = body.lengths;
     const double drop =
         std::atan2(lengths.ankle_height - lengths.ball_height, lengths.ball_forward);

@@ -1,4 +1,4 @@
-// The likelihood on walks rendered by an independent program, whose bodies are not ours.
+// The likelihood on walks rendered by an independent program with other bodies.
 #include "tests/observation/rendered.h"
 #include "tests/observation/picture_terms.h"
 
@@ -14,7 +14,8 @@ namespace {
 // 4 cm, and 10 degrees (7 cm at the end of a thigh).
 std::vector<Change> small_changes() { return changes(0.04, 0.17); }
 
-// How often the true pose beats a changed one, over the frames 6, 14, 22 ... of a side view.
+// How often the true pose is more likely than a changed one, over the frames 6, 14, 22 ... of a
+// side view.
 Share true_pose_wins(const std::filesystem::path& folder, const ObservationConfig& config) {
   const Camera camera = read_camera(folder / "cam0.yaml");
   const std::vector<JointPositions> truth = read_truth(folder / "truth.csv");
@@ -56,7 +57,7 @@ class Rendered : public testing::Test {
   std::filesystem::path folder_ = shared_data() / "rendered/cmu_02_01";
 };
 
-// Shares are those measured, less a margin for small changes of the models.
+// Limits are the measured shares minus a margin for small changes of the models.
 TEST_F(Rendered, TruePoseBeatsPerturbedPosesForEachTermAndTogether) {
   const ObservationConfig all = every_term();
   ObservationConfig foreground, background, flow = all;

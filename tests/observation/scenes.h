@@ -1,4 +1,4 @@
-// What several tests of this module need: random poses and a camera looking at them.
+// Common parts of several tests of this module: random poses and a camera looking at them.
 #pragma once
 
 #include <vector>

@@ -60,7 +60,7 @@ TEST(Silhouette, EqualsTheSumOverPixelsForRandomCapsules) {
   Rng rng(1, Purpose::kTest);
   const LogRatioPlanes planes = random_planes(rng, {3, 5, 50, 75}, 3);
   for (int i = 0; i < 1500; ++i) {
-    const double reach = i % 3 == 0 ? 200 : 10;  // a third lies partly or wholly outside
+    const double reach = i % 3 == 0 ? 200 : 10;  // a third is partly or completely outside
     const CapsuleList capsules = random_capsules(rng, 1 + i % 15, reach);
     ASSERT_EQ(silhouette_log_ratio(planes, capsules), brute_force(planes, capsules)) << i;
   }
@@ -77,8 +77,8 @@ TEST(Silhouette, EqualsTheSumOverPixelsForRandomBodiesAndLenses) {
                                  draw(rng, -0.01, 0.01)};
     set_distortion(camera, distortion);
     for (int i = 0; i < 50; ++i) {
-      // From all sides; some too near, so that parts or all of the body are behind the camera, and
-      // some looking elsewhere.
+      // From all sides; some are so near that parts or all of the body are behind the camera, and
+      // some look elsewhere.
       const Camera view = camera_at({draw(rng, -3, 3), draw(rng, -5, 0.5), draw(rng, 0.5, 3)},
                                     {draw(rng, -2, 2), 0.6, draw(rng, 0.3, 1.4)}, 20, 24, 18);
       camera.rotation = view.rotation;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kRate = 30;
 
-// The head of somebody who comes nearer: it rises and falls by two centimetres, once a step.
+// The head of a person who approaches: it rises and falls by two centimetres, once in each step.
 std::vector<double> head_heights(double step, double noise, uint64_t seed) {
   Rng rng(seed, Purpose::kTest);
   std::vector<double> out;

@@ -1,7 +1,9 @@
-// Whether terms weigh what they know (lib/observation/reports/weights.md), on walks rendered by an
-// independent program. At the true pose a log-likelihood's slopes scatter as its curvature says,
+// Whether the weights of terms match their information (lib/observation/reports/weights.md), on
+// walks rendered by an independent program. At the true pose the variance of a log-likelihood's
+// slopes matches its curvature,
 //   E[(sum of slopes)^2] = -E[sum of second derivatives];
-// the quotient of the right side by the left is the factor by which the term might weigh more.
+// the quotient of the right side by the left is the factor by which the weight of the term might be
+// larger.
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,7 +19,7 @@
 namespace walktrack {
 namespace {
 
-// A degree of freedom, moved by so many of its steps: 2 cm, or 4 degrees.
+// A degree of freedom, changed by a number of its steps: 2 cm, or 4 degrees.
 using Freedom = std::function<void(JointPositions&, double steps)>;
 
 std::vector<Freedom> freedoms() {
@@ -39,7 +41,7 @@ std::vector<Freedom> freedoms() {
   return out;
 }
 
-// Of one camera and one degree of freedom, frame by frame; nats per step, per step squared.
+// For one camera and one degree of freedom, frame by frame; nats per step, per step squared.
 struct Derivatives {
   std::vector<double> slopes, curvatures;
 };
@@ -115,8 +117,9 @@ class Temper : public testing::Test {
   const std::filesystem::path folder_ = shared_data() / "rendered";
 };
 
-// Errors that last a tenth of a second make a patch of `independent_m` one pixel. A body that is
-// not ours errs for longer, so more frames know less than the sum of what each knows.
+// Errors that last a tenth of a second make a patch of `independent_m` one pixel. The errors of a
+// body with another shape last longer, so that several frames contain less information than the sum
+// of theirs.
 TEST_F(Temper, SilhouettesWeighWhatATenthOfASecondKnows) {
   const std::vector<Derivatives> all = of({});
   EXPECT_GT(factor(all, 1), 2);
@@ -125,7 +128,7 @@ TEST_F(Temper, SilhouettesWeighWhatATenthOfASecondKnows) {
   EXPECT_LT(factor(all, 10), 1);
 }
 
-// A third of a second's frames know as much as they weigh.
+// The frames of a third of a second contain as much information as they are weighted with.
 TEST_F(Temper, FlowWeighsWhatAThirdOfASecondKnows) {
   ObservationConfig flow = every_term();
   flow.foreground.enabled = flow.background.enabled = false;

@@ -37,7 +37,7 @@ TEST(Terms, ThatAreOffCostNothing) {
   for (const TermSwitch& each : term_switches()) EXPECT_FALSE(each.on(off)) << each.key;
 }
 
-// The fold is the sum that is written out by hand.
+// The sum over the list of terms is the sum that is written out by hand.
 TEST(Terms, AddUp) {
   CameraEvidence evidence = made_evidence(0.7, true);
   evidence.pixel_weight = 0.3;
@@ -61,7 +61,7 @@ TEST(Terms, AddUp) {
   EXPECT_NEAR(sum, by_hand, 1e-12 * std::abs(by_hand));
 }
 
-// Arms that a body has change nothing, and neither do those that it has not.
+// Arms have no effect, whether the body has them or not.
 TEST(Terms, FlowAsksLegsAndFeetAlone) {
   const CameraEvidence evidence = made_evidence(0.7, true);
   const Camera camera = camera_at({0, -4, 1}, {0, 0, 1}, 300, kEvidenceWidth, kEvidenceHeight);

@@ -65,7 +65,8 @@ Camera camera_at(const Vector3d& place, const Vector3d& at, double focal_px) {
   return camera;
 }
 
-// What the camera sees, `late` seconds before its clock says so, each point off by `noise_px`.
+// The observations of the camera, with a lag of `late` seconds and noise of `noise_px` for each
+// point.
 std::vector<SeenMoment> seen_by(const Camera& camera, double late, double noise_px, Rng& rng) {
   std::vector<SeenMoment> out;
   for (int frame = 0; frame < 60; ++frame) {
@@ -93,7 +94,7 @@ double turned(const Camera& a, const Camera& b) {
   return std::acos(std::clamp(0.5 * (turn.trace() - 1), -1.0, 1.0));
 }
 
-// The pose of the second camera to the first, whatever the world.
+// The pose of the second camera relative to the first, for any world.
 Camera second_from_first(const Camera& first, const Camera& second) {
   Camera out = second;
   out.rotation = second.rotation * first.rotation.transpose();
@@ -114,7 +115,7 @@ TEST(TwoViews, OfAWalkerSeenExactlyAreExact) {
   EXPECT_NEAR(found.height[1].value, 1.1, 0.03);
   EXPECT_NEAR(found.lag.value, 0, 1e-3);
   EXPECT_LT(found.residual, 1e-3);
-  // Ahead of both cameras, and he walks towards them.
+  // In front of both cameras, and he walks towards them.
   EXPECT_LT(camera_point(found.cameras[0], found.places.back()).z(),
             camera_point(found.cameras[0], found.places.front()).z() - 2);
 }
@@ -127,8 +128,8 @@ TEST(TwoViews, FindsTheLag) {
   EXPECT_NEAR(found.lag.value, 0.1, 0.015);
 }
 
-// Lenses that are wrong by as much as they may be: what is said of the cameras holds as often as
-// it says.
+// With lenses that are wrong within their uncertainty, the stated bands contain the truth as often
+// as they should.
 TEST(TwoViews, BandsHold) {
   constexpr int kTrials = 12;
   const Rig rig;

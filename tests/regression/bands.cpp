@@ -51,7 +51,7 @@ constexpr WatchedFigure kWatched[] = {
     {"coverage90_percent", Better::kNeither, 0.05, 0, 100},
     {"interval_width_mm", Better::kNeither, 0.15, 0, kInfinity, kNotDoubled},
     {"log_evidence", Better::kNeither, 0.1},
-    // Of clips whose reference is no motion.
+    // For clips whose reference is not a motion.
     {"plants_found", Better::kHigher, 0, 0},
     {"plant_error_mean_mm", Better::kLower, 0.2, 0},
     {"ground_error_median_mm", Better::kLower, 0.2, 0},
@@ -61,7 +61,7 @@ constexpr WatchedFigure kWatched[] = {
     {"step_time_s", Better::kNeither, 0.1, 0},
 };
 
-// The value that a run has for a key; NaN where it has none.
+// The value of a run for a key; NaN if it has none.
 double value_of(const FigureValues& values, const std::string& key) {
   const auto found = values.find(key);
   return found == values.end() ? kNone : found->second;
@@ -82,13 +82,13 @@ double median_of_first(std::vector<double> values, size_t count) {
   return quantile(std::move(values), 0.5);
 }
 
-// Half of what lies between two deviations on either side of a seed's values.
+// Half of the distance between two standard deviations on either side of the seeds' values.
 double deviation(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return (values.at(kBandSeeds - 2) - values.at(1)) / kInnerRange;
 }
 
-// A share of the median; of what has two signs, of how far it usually is from zero.
+// A share of the median; for a quantity with two signs, of its usual magnitude.
 double floor_of(const WatchedFigure& figure, std::vector<double> values) {
   for (double& value : values) value = std::abs(value);
   return figure.share * quantile(std::move(values), 0.5);

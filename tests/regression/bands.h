@@ -1,15 +1,17 @@
-// Bands: between which values each figure of each scene of the regression suite may lie, kept as
-// bands.csv in the repository and read in reviews.
+// Bands: the range of each value of each scene of the regression suite, stored as bands.csv in the
+// repository and read in reviews.
 //
 // A band comes from nine seeds: its middle is their median, its half width a share of that median
-// (a change that nobody cares about, never above a fifth) plus three standard deviations of a seed.
-// Now and then a seed swaps the legs, so the deviation is taken from the inner seven: their
-// range over its expectation for normal values. What is compared with a band is the median of three
-// seeds: three deviations of a seed are four and a half of such a median. A band always holds that
-// of its first three and ends where a figure cannot be. An error may shrink: an improvement of what
-// has a better side never fails. Coverage, widths and evidence have none, and are held from both.
+// (a change that does not matter, never above a fifth) plus three standard deviations of a seed.
+// A few seeds swap the legs, so that the deviation is computed from the inner seven: their range
+// over its expectation for normal values. The median of three seeds is compared with a band: three
+// standard deviations of a seed are four and a half of such a median. A band always contains the
+// median of its first three seeds and ends at the limit of possible values. An error may shrink: an
+// improvement never fails. Coverage, widths and evidence have no better side and are limited on
+// both.
 //
-// Each band knows the best median that its scene ever had: small steps for the worse add up there.
+// Each band stores the best median that its scene ever had, so that small steps for the worse add
+// up.
 #pragma once
 
 #include <cstddef>
@@ -24,14 +26,14 @@
 namespace walktrack {
 
 using FigureValues = std::map<std::string, double>;  // by key; NaN = there is none
-using SuiteValues = std::map<std::string, std::vector<FigureValues>>;  // scene -> one a seed
+using SuiteValues = std::map<std::string, std::vector<FigureValues>>;  // scene -> one for each seed
 
 enum class Better { kLower, kHigher, kNearerZero, kNeither };
 
 struct WatchedFigure {
   std::string_view key;
   Better better;
-  double share;  // of the median: a change that nobody cares about
+  double share;  // of the median: a change that does not matter
   double least = -std::numeric_limits<double>::infinity();  // that is possible
   double most = std::numeric_limits<double>::infinity();
   // A band ends there at the latest, times the median, however much seeds differ: nothing that has

@@ -26,7 +26,7 @@ const Band& band(const std::vector<Band>& bands, const std::string& key) {
   throw std::out_of_range(key);
 }
 
-// Runs with one figure.
+// Runs with one value.
 std::vector<FigureValues> runs_of(const std::string& key, const std::vector<double>& values) {
   std::vector<FigureValues> out;
   for (const double value : values) out.push_back({{key, value}});
@@ -56,7 +56,7 @@ TEST(Bands, HoldNothingThatHasDoubledHoweverMuchSeedsDiffer) {
   EXPECT_NEAR(bands.front().high, 1.9 * 20, 1e-9);
 }
 
-// One seed in nine says nothing of the others.
+// One seed in nine does not represent the others.
 TEST(Bands, AreNoWiderForOneOddSeed) {
   const auto runs = runs_of("joint_error_mean_mm", {300, 72, 70, 71, 72, 73, 70, 71, 72});
   const std::vector<Band> bands = bands_from({{"scene", runs}});

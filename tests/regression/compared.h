@@ -1,4 +1,4 @@
-// The results that this program's tests compare with bands, each scene tracked once.
+// The results that this program's tests compare with bands, with each scene tracked once.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,7 @@ namespace walktrack {
 // Seeds 1 to kComparedSeeds.
 const std::vector<SuiteResult>& compared_results(std::string_view name);
 
-// Where that has rendered its scenes; removed at the end.
+// The folder of the rendered scenes; removed at the end.
 const std::filesystem::path& compared_folder();
 
 }  // namespace walktrack

@@ -1,6 +1,6 @@
-// Would the suite notice? Faults of a tracker, planted into its results, its scenes or its
-// configuration, never into its code; each must take a figure of a fast scene out of its band.
-// README.md lists them.
+// Whether the suite detects faults of a tracker: they are planted into its results, its scenes or
+// its configuration, never into its code, and each must take a value of a fast scene out of its
+// band. README.md lists them.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -30,7 +30,7 @@ std::vector<std::string> noticed(const std::string& scene, const Results& result
   return out_of_bands(read_bands(bands_file()), scene, values_of(results));
 }
 
-// What leaves its band when every run of the scene has the fault.
+// The values that leave their bands if every run of the scene has the fault.
 std::vector<std::string> noticed(const std::string& scene, const Fault& fault) {
   Results results = compared_results(scene);
   for (SuiteResult& result : results) fault(result);
@@ -74,7 +74,7 @@ void straighten_knees(JointPositions& joints) {
   }
 }
 
-// Each row as if the body had jumped back and forth.
+// Each row as if the body jumped back and forth.
 void tremble(SuiteResult& result) {
   for (size_t i = 0; i < result.estimate.joints.size(); ++i)
     for (Vector3d& p : result.estimate.joints[i].at) p.x() += i % 2 == 0 ? 0.02 : -0.02;
@@ -138,8 +138,8 @@ TEST(PlantedFaults, ExchangedCalibrationsTakeAFigureOutOfItsBand) {
   EXPECT_THAT(noticed("three_cameras", with("three_cameras", exchange)), Not(IsEmpty()));
 }
 
-// Threads in another order: the tracker must not care, and the suite must see it if it did, even if
-// a single coordinate moved by the last digit that is written.
+// Threads in another order: the tracker must not depend on it, and the suite must notice if it did,
+// even if a single coordinate changed by its last written digit.
 TEST(PlantedFaults, AnOrderThatDependsOnThreadsChangesTheDigest) {
   const auto scene = rendered_scene("one_camera", compared_folder());
   const auto run = [&](int threads) {

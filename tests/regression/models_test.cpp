@@ -1,4 +1,4 @@
-// The three motion models on a scene of the suite. What each is worth:
+// The three motion models on a scene of the suite. Their accuracy is in
 // lib/tracker/reports/physics.md.
 #include <string>
 
@@ -18,13 +18,13 @@ TrackJob job_with(const char* model, uint64_t seed) {
   return job;
 }
 
-// Where the walker is and how they go; their legs may be swapped, which is what the physics is
-// for.
+// Only the position and the velocity of the subject are tested; the legs may be swapped, which
+// physics prevents.
 TEST(MotionModels, EachFollowsAClearWalk) {
   for (const char* model : {"anthropomorphic", "markov"}) {
     FigureValues values = values_of(tracked(job_with(model, 1)));
     EXPECT_EQ(values["filled_percent"], 100) << model;
-    // Less than half a foot's length; three seeds of either stay within 35 mm and 0.05 m/s.
+    // Less than half a foot's length; three seeds of each model are within 35 mm and 0.05 m/s.
     EXPECT_NEAR(values["offset_along_mm"], 0, 100) << model;
     EXPECT_NEAR(values["offset_left_mm"], 0, 100) << model;
     EXPECT_NEAR(values["speed_error_m_s"], 0, 0.1) << model;

@@ -1,7 +1,7 @@
-// Measures the scenes of the regression suite anew, writes their bands and prints what changed as a
-// Markdown table: scripts/refresh_bands.sh. Arguments name the scenes to refresh; none: all. After
-// --anew the scenes are other ones than they were, and what they had says nothing. Exit code 1: a
-// figure is worse than it once was, and worse.csv does not say why.
+// Measures the scenes of the regression suite again, writes their bands and prints the changes as a
+// Markdown table: scripts/refresh_bands.sh. Arguments name the scenes to refresh; none: all. With
+// --anew the scenes have changed, and their former values are not compared. Exit code 1: a value is
+// worse than it once was, and worse.csv does not state the reason.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -32,7 +32,7 @@ std::vector<Band> read_present() {
   return std::filesystem::exists(bands_file()) ? read_bands(bands_file()) : std::vector<Band>();
 }
 
-// Each scene is written when it is measured, so that nothing is lost if this is stopped.
+// Each scene is written as soon as it is measured, so that nothing is lost by an interruption.
 bool refresh(std::set<std::string> wanted) {
   const bool anew = wanted.erase("--anew") > 0;
   const TemporaryFolder folder;
@@ -44,7 +44,7 @@ bool refresh(std::set<std::string> wanted) {
     if (!is_there(scene)) continue;
     const auto runs = values_of(suite_results(name, kBandSeeds, folder.path()));
     const std::vector<Band> found = bands_from({{name, runs}});
-    // What another process may have measured meanwhile stays.
+    // Results that another process has measured meanwhile are kept.
     const std::vector<Band> now = read_present();
     write_file_atomically(bands_file(),
                           bands_csv(replaced(now, name, anew ? found : with_best(found, before))));

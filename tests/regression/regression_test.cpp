@@ -1,5 +1,5 @@
-// The scenes of the suite against the bands in the repository. The fast subset runs with every test
-// run, the whole suite with `ctest -L slow`.
+// The scenes of the suite compared with the bands in the repository. The fast subset is part of
+// every test run, the whole suite of `ctest -L slow`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,7 +45,8 @@ TEST(Regression, EverySceneHasBands) {
   const std::vector<Band> bands = read_bands(bands_file());
   for (const SuiteScene& scene : suite_scenes()) {
     const auto of_scene = [&](const Band& band) { return band.scene == scene.name; };
-    // A figure may be lacking, e.g. the slide of a foot that never stands; most must not.
+    // A value may be missing, e.g. the slide of a foot that is never on the ground; most must not
+    // be.
     EXPECT_GE(std::count_if(bands.begin(), bands.end(), of_scene), scene.clip.empty() ? 20 : 7)
         << scene.name;
   }
@@ -56,7 +57,7 @@ TEST(Regression, WhatIsWorseThanItWasIsExplained) {
               testing::IsEmpty());
 }
 
-// A band that twice the usual error is in says little.
+// A band that contains twice the usual error is useless.
 TEST(Regression, ErrorsAndWidthsThatDoubleLeaveTheirBands) {
   for (const Band& band : read_bands(bands_file())) {
     const auto of = [&](const WatchedFigure& figure) { return figure.key == band.key; };

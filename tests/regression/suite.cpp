@@ -69,7 +69,7 @@ double median_evidence(const nlohmann::json& run) {
   return values.empty() ? kNoValue : quantile(std::move(values), 0.5);
 }
 
-// Of the flexion of a joint, over both legs.
+// RMS of the flexion of a joint, over both legs.
 double rms_of_sides(const FigureValues& values, const std::string& joint) {
   const auto of = [&](const char* side) {
     const std::string angle = joint == "ankle" ? "_dorsiflexion" : "_flexion";

@@ -19,9 +19,8 @@ namespace walktrack {
 
 struct SuiteScene {
   std::string_view name;  // scenes/<name>.yaml, and <name>.track.yaml if it is tracked differently
-  bool fast;              // in the subset that every test run does
-  // Of a real clip, below ../shared/data: its scene and what it is measured against, which may not
-  // be there.
+  bool fast;              // part of the subset in every test run
+  // For a real clip, below ../shared/data: its scene and its reference, which may be missing.
   std::string_view clip = {}, truth = {};
 };
 
@@ -39,7 +38,7 @@ std::filesystem::path rendered_scene(std::string_view name, const std::filesyste
 TrackJob suite_job(std::string_view name, const std::filesystem::path& scene, uint64_t seed,
                    const std::filesystem::path& output);
 
-// A result and what it is measured against.
+// A result and its reference.
 struct SuiteResult {
   Truth truth;
   Motion estimate;
@@ -54,7 +53,7 @@ SuiteResult tracked(const TrackJob& job);
 std::vector<SuiteResult> suite_results(std::string_view name, size_t seeds,
                                        const std::filesystem::path& folder);
 
-// What `evaluate` says of results, and what else is watched.
+// The results of `evaluate`, and the other watched values.
 FigureValues values_of(const SuiteResult& result);
 std::vector<FigureValues> values_of(const std::vector<SuiteResult>& results);
 

@@ -30,7 +30,7 @@ struct System {
   SimTK::SimbodyMatterSubsystem matter{system};
   std::vector<SimTK::MobilizedBody> bodies;
 
-  // Mobilizers turn about the z axis of their frames: `turn` brings it to the pin's axis.
+  // Mobilizers rotate about the z axis of their frames: `turn` maps it to the pin's axis.
   void add(const Part& part, SimTK::MobilizedBody& parent) {
     Matrix3d turn = Matrix3d::Identity();
     if (part.joint == Joint::kPin) {
@@ -64,7 +64,7 @@ struct System {
     const SimTK::Transform inboard = parent * bodies[i].getInboardFrame(state);
     const SimTK::Transform outboard = own * bodies[i].getOutboardFrame(state);
     bodies[i].setQToFitTransform(state, ~inboard * outboard);
-    // The outboard frame sits at the joint: only a free root moves away from its inboard frame.
+    // The outboard frame is at the joint: only a free root moves away from its inboard frame.
     const SimTK::Vec3 omega = vec(Vector3d(motions[i].omega - base.omega));
     const SimTK::Vec3 velocity = is_root ? vec(motions[i].velocity) : SimTK::Vec3(0);
     bodies[i].setUToFitVelocity(state,

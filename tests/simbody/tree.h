@@ -1,5 +1,5 @@
-// Simbody behind plain numbers: its headers do not compile as C++20, so the tests reach it through
-// this one. No walktrack header is included here.
+// Simbody behind an interface of plain numbers: its headers do not compile as C++20, so that the
+// tests use this one. No walktrack header is included here.
 #pragma once
 
 #include <vector>
@@ -33,14 +33,14 @@ struct Acceleration {
   Eigen::Vector3d alpha, linear;
 };
 
-// Accelerations of all parts, each under its load.
+// Accelerations of all parts, each with its load.
 std::vector<Acceleration> accelerations(const std::vector<Part>& parts,
                                         const std::vector<Motion>& motions,
                                         const std::vector<Load>& loads);
 
 // A planar chain of pins about the y axis whose first part rolls on the ground z = 0 by a wheel of
 // radius `wheel_radius` around its origin (0: pinned to the ground). `angles` are absolute,
-// positive about y; returns their second derivatives under gravity (x, z) and torques on the parts.
+// positive about y; returns their second derivatives with gravity (x, z) and torques on the parts.
 std::vector<double> rolling_chain(const std::vector<Part>& parts, double wheel_radius,
                                   const std::vector<double>& angles,
                                   const std::vector<double>& rates, double gravity_x,

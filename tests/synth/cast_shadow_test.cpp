@@ -1,5 +1,5 @@
-// Cast shadows are not taken for legs: walks rendered with and without the walker's shadow say
-// which pixels lie in it, the background model which of them look like a walker.
+// Cast shadows are not taken for legs: walks rendered with and without the walker's shadow show
+// which pixels are in it, and the background model which of them look like a walker.
 #include <array>
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@
 namespace walktrack {
 namespace {
 
-// Two seconds of a walk; one camera at its side, one ahead of it that looks down on the floor.
+// Two seconds of a walk; one camera at its side, one in front that looks down on the floor.
 Stage stage_in(Setting setting) {
   RenderOptions options;
   options.setting = setting;
@@ -41,7 +41,8 @@ Stage stage_in(Setting setting) {
   return make_stage(walker, options, {});
 }
 
-// A class of pixels: how many of them say, by more than that many nats, that a walker is there.
+// A class of pixels, with the number of those whose log-ratio for a walker exceeds a number of
+// nats.
 struct Share {
   int asked = 0, more_than_0 = 0, more_than_1 = 0;
   void add(double log_ratio) {
@@ -74,7 +75,7 @@ Observer observer_of(const Stage& stage, const View& view, const BackgroundConfi
 
 void add_pixels(const Picture& seen, const Picture& unshaded, const LogRatioPlanes& planes,
                 Shares& shares) {
-  constexpr float kInShadow = 0.85F;  // share of the light that is left
+  constexpr float kInShadow = 0.85F;  // share of the light that remains
   for (int y = 0; y < seen.colour.height; ++y) {
     for (int x = 0; x < seen.colour.width; ++x) {
       const double log_ratio = log_ratio_at(planes, Appearance::kLegs, x, y);
@@ -90,7 +91,7 @@ void add_pixels(const Picture& seen, const Picture& unshaded, const LogRatioPlan
   }
 }
 
-// One a configuration of the background, over both cameras and four frames.
+// One for each configuration of the background, over both cameras and four frames.
 std::vector<Shares> shares_in(Setting setting, const std::vector<BackgroundConfig>& configs) {
   const Stage stage = stage_in(setting);
   World unshaded = stage.world;
@@ -122,7 +123,7 @@ std::string setting_name(const testing::TestParamInfo<Setting>& info) {
   return names[static_cast<size_t>(info.param)];
 }
 
-// The figures are in lib/observation/reports/background.md.
+// The results are in lib/observation/reports/background.md.
 TEST_P(CastShadow, IsNotTakenForAWalker) {
   BackgroundConfig unaware;
   unaware.shadow_share = 0;

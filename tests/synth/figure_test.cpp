@@ -40,7 +40,7 @@ TEST(SkeletonFromJoints, HasTheAxesThatForwardKinematicsHad) {
     ASSERT_TRUE(found.has_value());
     for (size_t s = 0; s < kSegmentCount; ++s) {
       const bool leg_or_trunk = s <= static_cast<size_t>(Segment::kRightFoot);
-      // Arms turn about their long axis with the trunk: close, not equal, and hardly visible.
+      // Arms rotate about their long axis with the trunk: nearly equal, and hardly visible.
       const double tolerance = leg_or_trunk ? 1e-9 : 0.35;
       EXPECT_TRUE(found->world_from_segment[s].isApprox(expected.world_from_segment[s], tolerance))
           << s;

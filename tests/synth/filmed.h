@@ -1,4 +1,4 @@
-// A small camera on a walker, and what it sees as a grey picture.
+// A small camera that looks at a walker, and its grey images.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ inline RenderCamera small_camera(double azimuth_deg, int scale = 1) {
   return camera;
 }
 
-// Row by row, of the frame at `time`, s.
+// The frame at `time` (s), row by row.
 inline std::vector<uint8_t> grey_picture(const Stage& stage, const View& view, uint32_t frame,
                                          double time) {
   const Picture picture = render(view, stage.world, actors_at(stage, time));

@@ -1,4 +1,4 @@
-// Floors that mirror, and even light that walkers keep off them.
+// Floors that mirror, and ambient light that walkers block.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -50,8 +50,8 @@ Shown shown(const World& world, const Camera& camera, const PosedPart& part) {
   return {view, render(view, world, {}), render(view, world, walkers)};
 }
 
-// Fresnel's equations for unpolarised light on glass of refractive index 1.5, against which
-// Schlick's approximation is good to some thousandths up to 70 degrees from the upright.
+// Fresnel's equations for unpolarised light on glass with the refractive index 1.5, from which
+// Schlick's approximation differs by some thousandths up to 70 degrees from the vertical.
 TEST(Floor, MirrorsAsFresnelSays) {
   const World world = floor_world(1, false);
   for (const double below : {90.0, 60.0, 40.0, 25.0}) {
@@ -66,7 +66,7 @@ TEST(Floor, MirrorsAsFresnelSays) {
               0.5 * mirrored_share(world, ray_down(30)), 1e-12);
 }
 
-// Where a ball's mirror image is: at the image of the ball that is as far below the ground.
+// The mirror image of a ball is the image of the ball that is as far below the ground.
 TEST(Floor, MirrorImageIsWhereTheBallBelowTheGroundWouldBe) {
   const Camera camera = camera_from({0, -4, 1.4}, {0, 0, 0.3});
   const Vector3d centre(0.2, 0, 0.5);
@@ -101,12 +101,13 @@ TEST(Floor, MattOnesHaveNoMirrorImage) {
   for (size_t i = 0; i < matt.empty.colour.values.size(); ++i) {
     const bool ground = matt.with.sights.values[i].walker < 0;
     if (!ground || matt.with.colour.values[i] == matt.empty.colour.values[i]) continue;
-    // Only the ball's own edge, which sub-pixel rays meet.
+    // Only the ball's own edge, which sub-pixel rays hit.
     EXPECT_LT(std::abs(static_cast<double>(i % 160) - 87), 12);
   }
 }
 
-// The even light that a ball keeps off, by counting rays that leave the ground as cosine says.
+// The ambient light that a ball blocks, by counting rays that leave the ground with a cosine
+// distribution.
 TEST(Floor, ContactShadowIsTheShareOfTheSkyThatIsHidden) {
   const double radius = 0.1;
   const Vector3d centre(0, 0, 0.16);

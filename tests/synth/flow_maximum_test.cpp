@@ -1,8 +1,8 @@
 // Of all motions, the true one explains two frames best: walks are rendered with everything that
-// moves in them (arms that the model has not, a shadow), and pairs of poses beside the true pair
-// are put to the flow term alone. Flow that is measured first fails here: it falls short of fast
-// legs and clings to background that the walker has just laid bare, so that a body 6 cm behind the
-// true one, or one that moves a tenth too slowly, was preferred (lib/observation/reports/flow.md).
+// moves in them (arms that the model lacks, a shadow), and pairs of poses beside the true pair are
+// evaluated with the flow term alone. Measured flow fails here: it underestimates fast legs and
+// sticks to background that the walker has just uncovered, so that a body 6 cm behind the true one,
+// or one that moves a tenth too slowly, was preferred (lib/observation/reports/flow.md).
 #include <array>
 #include <functional>
 #include <string>
@@ -31,11 +31,11 @@ struct PosePair {
   Pose now, before;
 };
 
-// What moves in the pictures beside what the model knows of.
+// Motion in the images that the model does not know.
 enum class ResidualAngle { kNothing, kArmsAndShadow };
 
-// Pairs of frames over a stride, each seen by a camera at the side and one ahead, with a model of
-// the empty scene.
+// Pairs of frames over a stride, each seen by a camera at the side and one in front, with a model
+// of the empty scene.
 class Pairs {
  public:
   explicit Pairs(ResidualAngle extra) {
@@ -77,8 +77,8 @@ class Pairs {
     return sum;
   }
 
-  // The same of true pairs in which a part is ahead in the later frame, by this share of its own
-  // motion in the picture.
+  // The same for true pairs in which a part is ahead in the later frame, by this share of its own
+  // motion in the image.
   double score_ahead(Segment segment, double share) const {
     double sum = 0;
     for (size_t i = 0; i < truth_.size(); ++i) {
@@ -167,7 +167,7 @@ const std::vector<Move>& moves() {
   return all;
 }
 
-// Where a body stands is seen by what moves and what rests.
+// The place of a body follows from what moves and what is at rest.
 TEST(FlowMaximum, LiesWhereTheBodyIs) {
   const double truth = true_score();
   EXPECT_GT(truth, 0);
@@ -215,10 +215,10 @@ TEST(FlowMaximum, FallsShortOfNothing) {
   for (const double share : {0.5, 0.8, 0.9, 1.1, 1.2, 1.5}) EXPECT_LT(of_motion(share), truth);
 }
 
-// A part that lags costs as much as one that is ahead, because what the body has uncovered counts
-// as what it covers, and the truth is a peak, no plateau: a quarter of a frame's motion costs more
-// than a parabola's sixteenth of what the whole costs. Without the uncovered pixels a foot that
-// lagged cost half, and a quarter a twentieth.
+// A part that lags costs as much as one that is ahead, because uncovered pixels count as much as
+// covered ones, and the truth is a peak, not a plateau: a quarter of a frame's motion costs more
+// than a sixteenth of the whole, which a parabola would give. Without the uncovered pixels a
+// lagging foot cost half, and a quarter of the motion a twentieth.
 TEST(FlowMaximum, IsAsSteepBehindAsAhead) {
   const Pairs plain(ResidualAngle::kNothing);
   const double truth = plain.score([](PosePair&) {});

@@ -15,8 +15,8 @@ using Eigen::Vector2d;
 
 const BodyLengths kLengths = body_lengths(Subject{});
 
-// A point of the sole, `ahead` of the ankle when it is flat, where the ankle is and the foot
-// pitched.
+// A point of the sole, `ahead` of the ankle if it is flat, for this position of the ankle and this
+// pitch.
 Vector2d sole_point(const Vector2d& ankle, double pitch, double ahead) {
   const double c = std::cos(pitch), s = std::sin(pitch), down = kLengths.ankle_height;
   return ankle + Vector2d(ahead * c - down * s, -ahead * s - down * c);

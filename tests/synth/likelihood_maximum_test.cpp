@@ -1,8 +1,9 @@
-// Renderer and likelihood share no code, so each is the other's check: on noise-free pictures of
-// the tracker's own body the likelihood of two cameras is greatest at the truth, for each degree of
-// freedom that two views can see. They hardly see a hip's rotation, which turns a round thigh, nor
-// the abduction of a shoulder, whose arm moves towards one camera and over the trunk for the other:
-// six degrees cost 1 to 6 nats where those of hip flexion cost 80. These are held to 3 degrees.
+// Renderer and likelihood share no code, so that each tests the other: on noise-free images of the
+// tracker's own body the likelihood of two cameras has its maximum at the truth, for each degree of
+// freedom that two views show. They hardly show a hip's rotation, which rotates a round thigh, nor
+// the abduction of a shoulder, whose arm moves towards one camera and in front of the trunk for the
+// other: six degrees cost 1 to 6 nats where those of hip flexion cost 80. These are tested to 3
+// degrees.
 #include <cmath>
 #include <functional>
 #include <string>
@@ -36,11 +37,12 @@ Pose striding_pose() {
   return pose;
 }
 
-// Two cameras that have seen the empty studio, the walker a frame ago, and the walker in that pose.
+// Two cameras that have seen the empty studio, the walker in the previous frame, and the walker in
+// that pose.
 class TwoCameras {
  public:
   explicit TwoCameras(const Pose& truth) {
-    light_.shadows = false;  // the likelihood knows no shadows
+    light_.shadows = false;  // the likelihood has no model of shadows
     world_ = make_world(Setting::kStudio, {0, 0}, 6, light_, 5);
     Pose before = truth;
     before.root.x() -= 0.04;
@@ -111,7 +113,7 @@ Freedom angle(const std::string& name, std::function<double&(Pose&)> of) {
   return {name, std::move(of), 0.2 * kDegree, kDegree};
 }
 
-// Those that two views can see: to 5 mm and 1 degree.
+// Those that two views show: to 5 mm and 1 degree.
 std::vector<Freedom> seen_freedoms() {
   std::vector<Freedom> out;
   for (Eigen::Index axis = 0; axis < 3; ++axis)
@@ -177,7 +179,7 @@ TEST(LikelihoodMaximum, LiesAtTheTruthForEveryDegreeOfFreedom) {
   for (const Freedom& freedom : hardly_seen_freedoms()) expect_maximum_at_truth(freedom);
 }
 
-// Six degrees off the truth.
+// Six degrees from the truth.
 double cost_of(const Freedom& freedom) {
   return log_likelihood_beside(freedom, 0) - 0.5 * (log_likelihood_beside(freedom, -6 * kDegree) +
                                                     log_likelihood_beside(freedom, 6 * kDegree));

@@ -1,5 +1,5 @@
-// Made walks beside measured ones: mean and standard deviation of healthy people, where their file
-// is present. It is not part of the product.
+// Generated walks compared with measured ones: mean and standard deviation of healthy people, if
+// their file is present. It is not part of the product.
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -35,7 +35,7 @@ Columns read_columns(const std::filesystem::path& path) {
   return out;
 }
 
-// Share of the stride in which the curve, `offset` taken off, is within one standard deviation.
+// Share of the stride in which the curve minus `offset` is within one standard deviation.
 double share_within(const std::array<double, kWholeStride>& curve, const Columns& norms,
                     const std::string& angle, double offset) {
   const std::vector<double>& mean = norms.at(angle + "_X_mean");
@@ -53,8 +53,8 @@ TEST(MadeWalkNorms, HipKneeAndAnkleAreThoseOfHealthyPeople) {
   MadeWalk walk;
   walk.speed = 1.3;
   const WalkedCurves curves = walked_curves(make_body(Subject{}, {}), walk);
-  // Ours counts hip flexion from the trunk's lean of 4 degrees, the norms' from a pelvis that its
-  // spines tilt by 11.
+  // Hip flexion is measured here from the trunk's lean of 4 degrees, in the norms from a pelvis
+  // that its spines tilt by 11.
   constexpr double kHipOffset = -6;
   EXPECT_GE(share_within(curves.hip, norms, "HipAngles", kHipOffset), .8);
   EXPECT_GE(share_within(curves.knee, norms, "KneeAngles", 0), .8);

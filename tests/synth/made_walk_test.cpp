@@ -95,7 +95,7 @@ TEST(MadeWalk, TheBodyGoesAsHighAsLegsMakeIt) {
   // Hips over the ground, share of the straight leg; 2 to 4 cm of rise (Perry & Burnfield 2010).
   EXPECT_NEAR(0.5 * (high.value + low.value) / leg_length(body.lengths), 0.97, 0.01);
   EXPECT_NEAR(high.value - low.value, 0.03, 0.01);
-  EXPECT_NEAR(static_cast<double>(high.at % 50), 28, 6);  // over the leg that bears it
+  EXPECT_NEAR(static_cast<double>(high.at % 50), 28, 6);  // over the supporting leg
 }
 
 double made_stance(double speed) {
@@ -140,7 +140,7 @@ TEST(MadeWalk, SwingingToesPassOneOrTwoCentimetresAboveTheGround) {
   }
 }
 
-// Movements go with the step for the body's size: a child's step is short for an adult.
+// Movements scale with the step relative to the body's size: a child's step is short for an adult.
 TEST(MadeWalk, AChildBendsKneesAsAnAdultDoes) {
   Subject child;
   child.height = 1.1;
@@ -204,14 +204,14 @@ TEST(MadeWalk, FollowsItsPathAndPhase) {
   walk.to = kPi / 2 / 0.4;
   const Motion turn = made_walk(body, walk);
   const double radius = walk.speed / walk.turn_rate;
-  // A quarter of a circle to the left, up to the sway of 18 mm.
+  // A quarter of a circle to the left, up to the lateral motion of 18 mm.
   EXPECT_NEAR(turn.joints.back()[Joint::kPelvis].x(), radius, 0.03);
   EXPECT_NEAR(turn.joints.back()[Joint::kPelvis].y(), radius, 0.03);
   MadeWalk shifted;
   shifted.phase = 0.5;
   const JointPositions a = made_walk(body, {}).joints.front();
   const JointPositions b = made_walk(body, shifted).joints.front();
-  // Half a stride later the sides have changed places.
+  // Half a stride later the sides are swapped.
   EXPECT_NEAR(a[Joint::kLeftAnkle].x(), b[Joint::kRightAnkle].x(), 1e-9);
   EXPECT_NEAR(a[Joint::kLeftAnkle].y(), -b[Joint::kRightAnkle].y(), 1e-9);
 }
@@ -222,7 +222,7 @@ TEST(MadeWalk, RefusesStepsThatLegsCannotTake) {
   EXPECT_THROW(made_walk(test_body(), walk), InputError);
 }
 
-// Landing places of the ankles along the way, in order: where the foot is flat.
+// Places of the ankles along the walk, in order, while the foot is flat.
 std::vector<double> landings(const Motion& motion) {
   std::vector<double> out;
   for (const Side side : {Side::kLeft, Side::kRight}) {

@@ -34,7 +34,7 @@ PosedPart random_part(Rng& rng) {
           Appearance::kTrunk};
 }
 
-// The definition in the header, written down without the code under test: < 0 inside.
+// The definition in the header, independent of the code under test: < 0 inside.
 double implicit(const PosedPart& part, const Vector3d& point) {
   Eigen::Matrix3d basis;
   basis << part.forward, part.lateral, part.upper - part.lower;

@@ -1,4 +1,4 @@
-// What each option of a recording does to the pictures.
+// The effect of each option of a recording on the images.
 #include "synth/stage.h"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ int walker_pixels(const Plane<uint8_t>& labels) {
                                         [](uint8_t label) { return label != 0; }));
 }
 
-// Neither the walker nor one of the pixels at its edge, which show a little of it.
+// Neither the walker nor one of the pixels at its edge, which show a part of it.
 bool away_from_walker(const Plane<uint8_t>& labels, size_t i) {
   const int x = static_cast<int>(i) % labels.width, y = static_cast<int>(i) / labels.width;
   for (int v = std::max(0, y - 1); v <= std::min(labels.height - 1, y + 1); ++v)
@@ -130,7 +130,7 @@ TEST(Stage, LightIsSumOfSunAndAmbient) {
   const double bright = brightness(shot(walker(), options()).image);
   EXPECT_LT(brightness(shot(walker(), dim).image), 0.95 * bright);
   EXPECT_LT(brightness(shot(walker(), flat).image), 0.95 * bright);
-  // Where the sun comes from decides which side of the walker is lit.
+  // The direction of the sun decides which side of the walker is lit.
   RenderOptions moved = options();
   moved.light.azimuth += kPi;
   const Shot a = shot(walker(), options()), b = shot(walker(), moved);
@@ -158,7 +158,7 @@ TEST(Stage, MotionBlurIsTheMeanOfTheShuttersInstants) {
   blurred.frame_rate = 15;
   blurred.shutter = {.open = 0.8, .blur_samples = 4};
   const Shot blur = shot(walker(), blurred), sharp = shot(walker(), options());
-  // Open for 0.8 / 15 s about the frame's time: four instants in the middles of its quarters.
+  // Open for 0.8 / 15 s around the frame's time: four samples in the middles of its quarters.
   Image mean(160, 120, Colour::Zero());
   for (const double quarter : {-1.5, -0.5, 0.5, 1.5}) {
     const Shot instant = shot(walker(), options(), kTime + quarter / 4 * 0.8 / 15);
@@ -174,7 +174,7 @@ TEST(Stage, MotionBlurIsTheMeanOfTheShuttersInstants) {
 TEST(Stage, OccludersHideTheWalkerAndStandInTheEmptySceneToo) {
   const Shot open = shot(walker(), options());
   RenderOptions how = options();
-  // The camera is 4 m to the right of the way (negative y), the walker near x = 1.25.
+  // The camera is 4 m to the right of the walk (negative y), the walker near x = 1.25.
   how.occluders.push_back({upright_cone({1.25, -1, 0}, 1.0, 0.3, 0.3), {}, true});
   const Shot hidden = shot(walker(), how);
   EXPECT_LT(walker_pixels(hidden.labels), 0.7 * walker_pixels(open.labels));
@@ -202,7 +202,7 @@ TEST(Stage, FurtherWalkersAreLabelledAfterTheFirstWhoseTruthItIs) {
       truth_at(make_stage(walker(), options(), {}), std::span(&time, 1)).joints[0][Joint::kPelvis]);
 }
 
-// Straight edges bend: a thing's image moves where the lens distorts.
+// Straight edges are bent: an object's image moves as the lens distorts.
 TEST(Stage, LensesAreTheirCameras) {
   RenderOptions how = options();
   how.cameras[0].distortion = {-0.3, 0.1, 0, 0};

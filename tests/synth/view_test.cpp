@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A camera 4 m away on the y axis, 1 m up, looking along +y and a little down and aside.
+// A camera 4 m away on the y axis, 1 m up, looking along +y and slightly down and aside.
 Camera test_camera(bool distorted) {
   const std::array bent{-0.15, 0.05, 1e-3, -5e-4};
   const Vector3d eye(0.3, -4, 1);
@@ -29,7 +29,7 @@ Camera test_camera(bool distorted) {
 
 World empty_world() { return make_world(Setting::kStudio, {0, 0}, 5, {}, 1); }
 
-// Neither along the pixels' rows nor columns, or the edges would all be rounded alike.
+// Neither along rows nor along columns of pixels, for which all edges would be rounded alike.
 const Vector3d kAxis = Vector3d(0.3, 0.1, 0.9).normalized();
 const Vector3d kAcross = kAxis.cross(Vector3d::UnitX()).normalized();
 
@@ -111,7 +111,7 @@ Blob hull_of(std::vector<Vector2d> points) {
 }
 
 // Exact projections of the points of a round cone with half balls at its ends. The solid is convex
-// but for a furrow of radius (sqrt(1 + taper^2) - 1) at its thin end.
+// except for a groove with a radius of (sqrt(1 + taper^2) - 1) at its thin end.
 Blob cone_image(const Vector3d& lower, double length, double below, double above) {
   const Camera camera = test_camera(false);
   std::vector<Vector2d> points;
@@ -167,7 +167,8 @@ TEST(Depth, IsExactOnSphereAndGround) {
       const Vector3d to = centre - ray->origin;
       const double along = to.dot(ray->direction);
       const double inside = radius * radius - to.squaredNorm() + along * along;
-      // Grazing rays turn the 1e-7 of single precision into its root; leave the rim out.
+      // For grazing rays the 1e-7 of single precision becomes its root, so that the rim is left
+      // out.
       if (std::abs(inside) < 0.01) continue;
       double distance = along - std::sqrt(std::max(0.0, inside));
       if (inside < 0) {
@@ -193,7 +194,7 @@ TEST(Flow, FollowsTheSurfaceOfAMovingBody) {
   Pose pose;
   pose.root = {0, 0, 0.9};
   pose.legs[0].knee_flexion = 0.5;
-  // The whole figure turns about the vertical through (0.1, 0) and moves: every point is known.
+  // The whole figure rotates about the vertical through (0.1, 0) and moves: every point is known.
   const double turn = 0.04;
   const Vector3d shift(0.03, -0.02, 0.005), pivot(0.1, 0, 0);
   const Eigen::AngleAxisd rotation(turn, Vector3d::UnitZ());

@@ -1,4 +1,4 @@
-// Angles of the left leg over one stride of a made walk.
+// Angles of the left leg over one stride of a generated walk.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct WalkedCurves {
   std::array<double, kWholeStride> height;            // of the pelvis, m
 };
 
-// `walk` from phase 0, at its preferred step for the average person.
+// `walk` from phase 0, with the preferred step of the average person.
 inline WalkedCurves walked_curves(const Body& body, MadeWalk walk) {
   const double step = 0.40 * body.subject.height * std::pow(walk.speed / 1.25, 0.42);
   walk.step_length = walk.step_length.value_or(step);

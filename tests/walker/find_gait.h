@@ -1,11 +1,11 @@
-// The limit cycle near a guess, with what it costs.
+// The limit cycle near a guess, with its cost.
 #pragma once
 
 #include "walker/gait_cycle.h"
 
 namespace walktrack {
 
-// Newton from a guess of (q, qd) on the section.
+// Newton's method from a guess of (q, qd) on the section.
 inline std::optional<GaitCycle> find_gait(const Walker& walker, const Eigen::VectorXd& guess,
                                           const GaitOptions& options = {}) {
   const auto cycle =

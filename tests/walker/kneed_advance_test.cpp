@@ -33,15 +33,16 @@ TEST_F(KneedCycles, ReturnToTheirStart) {
     const auto run = kneed_advance(model, cycle.controls, kQuiet, state, 2, fine);
     ASSERT_EQ(run.event, KneedEvent::kTransfer);
     // The file's states have 12 digits, its periods and steps four. In the two cycles whose stance
-    // stop lets go, the file released it only at the end of a 1 ms step, 0.65 and 0.97 ms late
-    // (doing the same here brings 4e-9); located, they end 0.9e-4 and 4.1e-4 rad/s away.
+    // stop is released, the file released it only at the end of a 1 ms step, 0.65 and 0.97 ms late
+    // (doing the same here gives 4e-9); with the event located, they end 0.9e-4 and 4.1e-4 rad/s
+    // away.
     const double tolerance = lets_go_of_stance_knee(cycle) ? 5e-4 : 1e-7;
     EXPECT_LT((state.q - cycle.start.q).cwiseAbs().maxCoeff(), tolerance);
     EXPECT_LT((state.qd - cycle.start.qd).cwiseAbs().maxCoeff(), tolerance);
     EXPECT_NEAR(run.elapsed, cycle.period, 1e-4);
     EXPECT_NEAR(run.step_length, cycle.step_length, 1e-4);
     EXPECT_NEAR(run.clearance, cycle.clearance, 1.5e-3);  // the file's is not a local minimum
-    // The body moves by what the stance foot rolls as well.
+    // The body moves additionally by the rolling of the stance foot.
     const double roll = cycle.start.q[kSwingShank] - cycle.start.q[kStanceShank];
     EXPECT_NEAR(state.contact_x, run.step_length + file.parameters.foot_radius * roll, tolerance);
     EXPECT_GT(run.impulse.y(), 0);
@@ -186,8 +187,8 @@ TEST_F(KneedCycles, HyperextendedStateIsPutOnItsStop) {
   EXPECT_GE(state.qd[kSwingShank], state.qd[kSwingThigh]);
 }
 
-// A foot dragged along the ground passes the stance foot below it: still sinking it strikes there,
-// rising it stumbles.
+// A foot dragged along the ground passes the stance foot below it: if it still sinks it strikes
+// there, if it rises the walker stumbles.
 TEST_F(KneedCycles, ScuffingFootStrikesOrStumblesWhenItPasses) {
   KneedState sinking;
   sinking.q << 0, -0.3, -0.09, 0.3, -0.09;  // the bent stance knee lowers the straight swing leg
@@ -227,7 +228,7 @@ TEST_F(KneedCycles, LimpWalkerFallsAndBrokenStateDiverges) {
   EXPECT_TRUE(state.qd.allFinite());
 }
 
-// Whatever the extremes, the answer is a finite state or a status, after a bounded time.
+// For any extreme input the result is a finite state or a status, after a bounded time.
 TEST_F(KneedCycles, ExtremesEndInAStateOrAStatus) {
   int walked = 0;
   for (const double stiffness : {1e-3, 1e-1, 1.0, 10.0, 1e3})

@@ -30,7 +30,7 @@ class KneedBatch : public testing::Test {
   CycleFile file = read_kneed_cycles();
   KneedModel model = kneed_model(file.parameters);
 
-  // Walkers of all cycles somewhere in a step, pushed about by up to `push` rad and 10 `push`
+  // Walkers of all cycles at any moment of a step, perturbed by up to `push` rad and 10 `push`
   // rad/s.
   Crowd crowd(size_t count, double duration, double push) const {
     Crowd c;
@@ -74,7 +74,7 @@ void expect_agreement(const Crowd& batch, const Crowd& scalar, double tolerance)
   for (size_t i = 0; i < batch.size(); ++i) {
     SCOPED_TRACE(i);
     const KneedAdvance &a = batch.results[i], &b = scalar.results[i];
-    // Two knees that throw each other off their stops, ever more slowly, end at rounding: either
+    // Two knees that push each other off their stops, ever more slowly, end at rounding: either
     // code may come to rest or give up.
     if (a.event != b.event && b.event == KneedEvent::kDiverged) {
       EXPECT_LE(++given_up, batch.size() / 100);
@@ -121,7 +121,7 @@ TEST_F(KneedBatch, IsTheScalarModelForThoseWhoFallAndThoseWhoStopEarly) {
   Crowd scalar = batch;
   advance(batch);
   advance_one_by_one(scalar);
-  // Knees that throw each other off their stops make rounding grow tenfold each time.
+  // Knees that push each other off their stops amplify rounding tenfold each time.
   expect_agreement(batch, scalar, 1e-8);
   EXPECT_GT(count(batch, KneedEvent::kTransfer), 50u);
   EXPECT_GT(count(batch, KneedEvent::kFallen), 50u);
@@ -150,7 +150,7 @@ TEST_F(KneedBatch, DivergedWalkersAreReportedAndDisturbNobody) {
   batch.states[17].qd[kSwingShank] = 1e9;
   batch.controls[20].hip.stiffness = 1e22;
   batch.noise[40][kTorso] = std::numeric_limits<double>::infinity();
-  batch.noise[41][kTorso] = 1e8;  // sound at first, too fast within the step
+  batch.noise[41][kTorso] = 1e8;  // valid at first, too fast within the step
   advance(batch);
   advance(healthy);
   for (size_t i = 0; i < batch.size(); ++i) {
@@ -160,7 +160,7 @@ TEST_F(KneedBatch, DivergedWalkersAreReportedAndDisturbNobody) {
   }
 }
 
-// Whoever else is in the batch, and wherever in it: the same bytes.
+// The result does not depend on the other walkers in the batch, nor on the place in it.
 TEST_F(KneedBatch, DependsOnNobodyElse) {
   Crowd all = crowd(101, 0.3, 0.05);
   const Crowd before = all;

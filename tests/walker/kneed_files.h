@@ -9,7 +9,7 @@
 namespace walktrack {
 
 struct ReferenceState {
-  KneedState state;  // stops set where the file says so
+  KneedState state;  // stops are set as in the file
   Matrix5 mass_matrix;
   Vector5 qdd_free;
   std::optional<Vector5> qdd_limited;

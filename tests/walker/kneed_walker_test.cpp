@@ -16,8 +16,8 @@ double relative_error(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expec
   return (found - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
 }
 
-// A walker's parts written out link by link: an independent route to what the kernel has in closed
-// form. Positions of the centres of mass and of the joints.
+// A walker's parts computed link by link, independent of the kernel's closed form. Positions of the
+// centres of mass and of the joints.
 struct Chain {
   std::array<Vector2, 5> centre;
   Vector2 stance_knee, hip, swing_knee, swing_contact;
@@ -90,7 +90,7 @@ class KneedReference : public testing::Test {
 };
 
 TEST_F(KneedReference, MassMatrix) {
-  // The file has 12 digits; issue: 1e-9 relative, here and below.
+  // The file has 12 digits; the requirement is 1e-9 relative, here and below.
   for (const auto& r : file.states)
     EXPECT_LT(relative_error(kneed_mass_matrix(model, r.state.q), r.mass_matrix), 1e-9);
 }
@@ -140,7 +140,7 @@ TEST_F(KneedReference, PostureFollowsTheChainAndContinuesThroughATransfer) {
               1e-13);
     const KneedState after = kneed_support_transfer(model, 0, before).state;
     const KneedPosture b = kneed_posture(model, after);
-    // These states are not on the ground, so only the horizontal contact is continuous.
+    // These states are not on the ground, so that only the horizontal contact is continuous.
     EXPECT_NEAR(a.swing_foot.x(), b.stance_foot.x(), 1e-13);
     EXPECT_NEAR(a.hip.x(), b.hip.x(), 1e-13);
     EXPECT_NEAR(a.stance_foot.x(), b.swing_foot.x(), 1e-13);
@@ -150,7 +150,7 @@ TEST_F(KneedReference, PostureFollowsTheChainAndContinuesThroughATransfer) {
   }
 }
 
-// Random postures of an upright walker; every draw is a walker of different build as well.
+// Random postures of an upright walker; every draw has another build as well.
 struct Sample {
   KneedParameters parameters;
   KneedControls controls;
@@ -257,8 +257,8 @@ TEST_F(KneedReference, ContactForceIsTheRateOfMomentum) {
   }
 }
 
-// The walker's points at the instant of a strike do not move, so the angular momenta of every part
-// chain about the joint that carries it are conserved. Parts in the order before the strike.
+// The walker's points do not move during a strike, so that the angular momenta of every chain of
+// parts about the joint that carries it are conserved. Parts are in the order before the strike.
 TEST_F(KneedReference, TransferConservesSpinAboutContactAndJoints) {
   for (uint32_t n = 0; n < 50; ++n) {
     const Sample s = random_sample(file, n);

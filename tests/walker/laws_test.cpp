@@ -15,7 +15,7 @@ double between(double low, double high) {
   return low + (high - low) * *rc::gen::inRange(0, 10'001) / 1e4;
 }
 
-// A walker of a person's build, give or take a half.
+// A walker with a person's build, varied by up to a half.
 KneedParameters some_walker() {
   static const KneedParameters kPerson = read_kneed_reference().parameters;
   KneedParameters p = kPerson;
@@ -27,7 +27,7 @@ KneedParameters some_walker() {
   return p;
 }
 
-// A step taken, knees bent.
+// A step with flexed knees.
 KneedState some_state() {
   KneedState s;
   s.q[kTorso] = between(-0.3, 0.3);
@@ -46,7 +46,7 @@ KneedControls some_controls() {
   return {spring(), spring(), spring(), spring(), between(0, 60)};
 }
 
-// Walking the other way: everything ahead is behind.
+// The mirrored walker: everything in front is behind.
 KneedParameters mirrored(KneedParameters p) {
   p.slope = -p.slope;
   p.foot_forward = -p.foot_forward;
@@ -77,8 +77,8 @@ RC_GTEST_PROP(WalkerLaw, MirroredItMovesAsItsMirrorImage, ()) {
   RC_ASSERT((ours + theirs).norm() <= 1e-11 * (1 + ours.norm()));
 }
 
-// Without springs nothing but gravity works on a walker that rolls on a foot; knees that reach
-// their stops and feet that strike only take.
+// Without springs only gravity does work on a walker that rolls on a foot; knee stops and strikes
+// only remove energy.
 RC_GTEST_PROP(WalkerLaw, WithoutSpringsItKeepsItsEnergyButForKneesAndFeetThatStrike, ()) {
   const KneedModel model = kneed_model(some_walker());
   const bool bent = *rc::gen::arbitrary<bool>();
@@ -86,7 +86,7 @@ RC_GTEST_PROP(WalkerLaw, WithoutSpringsItKeepsItsEnergyButForKneesAndFeetThatStr
   for (const int shank : {kStanceShank, kSwingShank}) state.q[shank] += bent ? 0.4 : 0;
   const KneedEnergy before = kneed_energy(model, state);
   constexpr double kTime =
-      0.02;  // s; knees that are bent by 0.4 rad close at 8 rad/s and stay open
+      0.02;  // s; knees that are flexed by 0.4 rad straighten at 8 rad/s and stay flexed
   const KneedAdvance done = kneed_advance(model, {}, Vector5::Zero(), state, kTime,
                                           {.max_step = 5e-4, .min_hip_height = 0});
   RC_PRE(done.event == KneedEvent::kNone || !bent);
@@ -108,7 +108,7 @@ RC_GTEST_PROP(WalkerLaw, AStrikeWithoutToeOffNeverGivesEnergy, ()) {
   RC_ASSERT(after.q[kStanceThigh] == before.q[kSwingThigh]);
 }
 
-// Whatever it is told, it moves on, or says how it ended with a state that is sound.
+// For any input it advances, or states the outcome with a valid state.
 RC_GTEST_PROP(WalkerLaw, ItNeverLeavesANumberThatIsNone, ()) {
   const KneedModel model = kneed_model(some_walker());
   KneedState state = some_state();

@@ -92,8 +92,8 @@ ReturnMap towards(double point, double multiplier) {
   };
 }
 
-// At a = .5 the fixed point leaps farther than it comes on its way; or its multiplier does.
-// Newton finds it from anywhere, so that nothing but a look at it can tell.
+// At a = .5 the fixed point jumps farther than its change so far, or its multiplier does. Newton's
+// method finds it from anywhere, so that only a comparison can detect it.
 TEST(LimitCycle, SaysWhereItChangedTheBranch) {
   const auto followed = [](double leap, double multiplier_after, double to) {
     const MapFamily family{
@@ -112,8 +112,8 @@ TEST(LimitCycle, SaysWhereItChangedTheBranch) {
   EXPECT_TRUE(followed(0.05, -2, 0.49).changes.empty());
 }
 
-// The circle x^2 + y^2 = 1, on which a map turns towards a point and which it leaves unharmed, as
-// an energy: whatever the guess, the fixed point is to lie on it.
+// The circle x^2 + y^2 = 1, on which a map rotates towards a point and which it keeps, like an
+// energy: for any guess, the fixed point has to be on it.
 TEST(LimitCycle, KeepsWhatIsConserved) {
   const ReturnMap map = [](const VectorXd& p) -> std::optional<VectorXd> {
     const double angle = std::atan2(p(1), p(0));

@@ -32,7 +32,7 @@ LinkageWalker reference_walker(double impulse = 0) {
   return LinkageWalker(kneed(reference().parameters, controls, {.may_fly = false}));
 }
 
-// The kernel's state as ours, knees' stops as they are flagged.
+// The kernel's state as a WalkerState, with the flags of the knees' stops.
 WalkerState same_state(const KneedParameters& p, const KneedState& kneed) {
   WalkerState state;
   state.q = kneed.q;
@@ -91,7 +91,7 @@ TEST(LinkageWalker, SupportTransferEqualsTheKneedKernel) {
   Rng rng(62, Purpose::kTest);
   for (int i = 0; i < 100; ++i) {
     KneedState kneed = random_kneed(rng);
-    // Both knees bent, so that no stop takes part on either side.
+    // Both knees are flexed, so that no stop is active on either side.
     kneed.q(kStanceShank) = kneed.q(kStanceThigh) + 0.1;
     kneed.q(kSwingShank) = kneed.q(kSwingThigh) + 0.2;
     kneed.stance_stop = kneed.swing_stop = false;
@@ -122,7 +122,7 @@ TEST(LinkageWalker, ReproducesTheReferenceStates) {
       EXPECT_NEAR(limited.force(0), row.limit_torque(0), 1e-9 * row.limit_torque.norm());
       EXPECT_NEAR(limited.force(1), row.limit_torque(1), 1e-9 * row.limit_torque.norm());
     }
-    // The file's map leaves the knees' stops out; they are free here.
+    // The file's map does not include the knees' stops; they are free here.
     Linkage unlimited = kneed(p, reference().controls, {});
     unlimited.limits.clear();
     for (const double impulse : {0.0, 20.0}) {
@@ -143,9 +143,9 @@ bool lets_go_of_stance_knee(const WalkerStep& step) {
   return false;
 }
 
-// The nine cycles return to where they start, here by the general route. In the two whose stance
-// knee leaves its stop the file released it at the end of a 1 ms step; located, they end up to
-// 4.6e-4 rad/s away (kneed_advance_test.cpp shows the cause).
+// The nine cycles return to their start, here with the general implementation. In the two whose
+// stance knee leaves its stop the file released it at the end of a 1 ms step; with the event
+// located, they end up to 4.6e-4 rad/s away (kneed_advance_test.cpp shows the cause).
 TEST(LinkageWalker, ReproducesThePoweredCycles) {
   const CycleFile file = read_kneed_cycles();
   int released = 0;
@@ -162,12 +162,13 @@ TEST(LinkageWalker, ReproducesThePoweredCycles) {
     EXPECT_LT((step->end.qd - start.qd).norm(), tolerance);
     EXPECT_NEAR(step->period, row.period, 1e-4);  // printed digits
     EXPECT_NEAR(step->step_length, row.step_length, 1e-4);
-    EXPECT_GT(step->travel, step->step_length);  // the stance foot rolls besides
+    EXPECT_GT(step->travel, step->step_length);  // the stance foot rolls in addition
   }
   EXPECT_EQ(released, 2);
 }
 
-// The two cycles whose stance stop lets go: their source noticed it only at the end of a 1 ms step.
+// The two cycles whose stance stop is released, which their source noticed only at the end of a 1
+// ms step.
 class LateRelease : public LinkageWalker {
  public:
   using LinkageWalker::LinkageWalker;
@@ -200,7 +201,7 @@ TEST(LinkageWalker, ReleasingLateReproducesTheRemainingCycles) {
   }
 }
 
-// Newton from a disturbed start finds the cycle again, with the file's multipliers.
+// Newton's method from a disturbed start finds the cycle again, with the file's multipliers.
 TEST(LinkageWalker, FindsAPoweredCycleAndItsMultipliers) {
   const CycleFile file = read_kneed_cycles();
   const ReferenceCycle& row = file.cycles[2];  // 1 m/s
@@ -217,8 +218,8 @@ TEST(LinkageWalker, FindsAPoweredCycleAndItsMultipliers) {
   }
 }
 
-// Along an impact-free motion d(kinetic + gravity)/dt is the power of the joints' torques, and the
-// springs and dampers of hip and knees never add to kinetic + gravity + elastic.
+// Along a motion without impacts d(kinetic + gravity)/dt is the power of the joints' torques, and
+// the springs and dampers of hip and knees never add to kinetic + gravity + elastic.
 TEST(LinkageWalker, PowerBalance) {
   const LinkageWalker walker = reference_walker();
   Rng rng(63, Purpose::kTest);
@@ -238,7 +239,7 @@ TEST(LinkageWalker, PowerBalance) {
         (later.kinetic + later.gravity - earlier.kinetic - earlier.gravity) / (2 * h);
     const VectorXd powers = walker.actuator_powers(state);
     EXPECT_NEAR(rate, powers.sum(), 1e-5 * (1 + powers.cwiseAbs().sum()));
-    // All but the torso's law, the first: elastic energy and dissipation only.
+    // All except the torso's law, the first: elastic energy and dissipation only.
     const double elastic_rate = (later.elastic - earlier.elastic) / (2 * h);
     EXPECT_LE(powers.tail(powers.size() - 1).sum() + elastic_rate, 1e-5 * (1 + std::abs(rate)));
   }
@@ -265,8 +266,8 @@ TEST(LinkageWalker, UnforcedEnergyDriftsAtTheIntegratorsOrder) {
   EXPECT_LT(drift(Integrator::kMidpoint, 1e-3), drift(Integrator::kEuler, 1e-3) / 100);
 }
 
-// The independent sum: every part is two point masses at its radius of gyration along the part,
-// their positions written out by hand from the ankle up and from the hip down.
+// An independent sum: every part is two point masses at its radius of gyration along the part, with
+// positions written out by hand from the ankle up and from the hip down.
 struct PointMass {
   double mass;
   Vector2d position;
@@ -311,7 +312,7 @@ double angular_momentum_about(const KneedParameters& p, const WalkerState& state
 }
 
 // Without toe-off the impulse acts at the new contact point alone: the angular momentum of the
-// whole walker about it is the same before and after.
+// whole walker about it is conserved.
 TEST(LinkageWalker, StrikeConservesMomentumAboutTheContactAndNeverGainsEnergy) {
   const KneedParameters& p = reference().parameters;
   Linkage linkage = kneed(p, {}, {.may_fly = false});
@@ -342,7 +343,7 @@ TEST(LinkageWalker, StepImpulseActsAlongAStraightLegWithoutTorque) {
   WalkerState state = idle.section_state(q, qd);
   const Transition with = driven.strike(state, true), without = idle.strike(state, true);
   const Vector2d extra = driven.momentum(with.after).linear - idle.momentum(without.after).linear;
-  // What the ground gives besides the toe-off is the landing foot's impulse.
+  // The ground's impulse except for the toe-off is that of the landing foot.
   EXPECT_LT(
       (extra - (with.impulse - without.impulse) - 0.1 * Vector2d(std::sin(0.3), std::cos(0.3)))
           .norm(),
@@ -350,8 +351,8 @@ TEST(LinkageWalker, StepImpulseActsAlongAStraightLegWithoutTorque) {
 }
 
 // Kuo's closed form for massless legs: rate+ = cos 2a rate + P sin 2a, and the new swing leg keeps
-// rate+ cos 2a. Legs of 1e-10 err by as much; rounding of the impulse on them would be 1e3 times
-// as large.
+// rate+ cos 2a. Legs of 1e-10 have an error of that size; rounding of the impulse on them would be
+// 1e3 times as large.
 TEST(LinkageWalker, ToeOffLeavesLightLegsTheirDigits) {
   const StraightLeggedParameters p{.hip_mass = 1,
                                    .leg_mass = 1e-10,
@@ -373,7 +374,7 @@ TEST(LinkageWalker, ToeOffLeavesLightLegsTheirDigits) {
   }
 }
 
-// Limits by degeneration: latched knees, shank mass to zero and the thigh's mass at the leg's
+// A limiting case: latched knees, shank mass tending to zero and the thigh's mass at the leg's
 // centre give the straight-legged walker.
 TEST(LinkageWalker, LatchedKneesWithLightShanksAreGoswamisLegs) {
   const StraightLeggedParameters straight = goswami();
@@ -434,8 +435,8 @@ TEST(LinkageWalker, SpreadLimitHoldsTheLegs) {
   EXPECT_LT(widest, p.widest_spread + 1e-9);
 }
 
-// Running: thrown upwards hard enough the stance foot is released, the walker flies on a parabola
-// and lands on the other foot.
+// Running: when it is thrown upwards hard enough, the stance foot is released, the walker flies on
+// a parabola and lands on the other foot.
 TEST(LinkageWalker, FliesBallisticallyAndLands) {
   const CycleFile file = read_kneed_cycles();
   const ReferenceCycle& row = file.cycles.back();  // 1.8 m/s: its ground reaction would pull
@@ -466,7 +467,7 @@ TEST(LinkageWalker, FallsAreAStateAndFeetInOnePlaceAreNoStrike) {
   EXPECT_EQ(state.health, Health::kFallen);
   EXPECT_TRUE(state.q.allFinite());
   state = walker.section_state(Vector2d(0, 0), Vector2d(0, 0));
-  EXPECT_FALSE(advance(walker, state, 0.5, {}, events));  // an unstable balance, no event at all
+  EXPECT_FALSE(advance(walker, state, 0.5, {}, events));  // an unstable balance without an event
   EXPECT_EQ(state.health, Health::kSound);
 }
 
@@ -492,8 +493,8 @@ TEST(LinkageWalker, AngularMomentumOfAWalkingCycleStaysSmall) {
   EXPECT_LT(largest / (mass * 1.0 * 1.75), 0.1);
 }
 
-// Rates off the cycle by 5 % bend knees that rest and rest knees that bend. Some walkers fall;
-// none ends in a stop that fires for ever.
+// Rates that differ from the cycle by 5 % flex knees at rest and straighten flexed ones. Some
+// walkers fall; none has a stop that fires for ever.
 TEST(LinkageWalker, DisturbedWalksEndInNoChatter) {
   const CycleFile file = read_kneed_cycles();
   const ReferenceCycle& row = file.cycles.back();

@@ -1,5 +1,6 @@
 // Published walkers, row by row: fixed points, periods, speeds and Floquet multipliers. The tables
-// count angles counter-clockwise with forward to the right, so every angle and rate changes sign.
+// count angles counter-clockwise with forward to the right, so that every angle and rate changes
+// sign.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -26,14 +27,14 @@ VectorXd vector(std::initializer_list<double> values) {
   return v;
 }
 
-// Time is counted in sqrt(l / g) of about a second: RK4 at 4e-3 errs by 1e-10.
+// Time is in units of sqrt(l / g), about a second: RK4 at 4e-3 has errors of 1e-10.
 GaitOptions options() {
   GaitOptions result;
   result.simulation.max_step = 4e-3;
   return result;
 }
 
-// Guess a few parts in a thousand off, so that Newton has to find the way.
+// The guess is wrong by a few parts in a thousand, so that Newton's method has to converge.
 GaitCycle gait_near(const Walker& walker, const VectorXd& guess) {
   VectorXd off = guess;
   for (Eigen::Index i = guess.size() / 2; i < guess.size(); ++i) off(i) *= 1.002;
@@ -56,7 +57,7 @@ void expect_relative(double value, double expected, double tolerance = 1e-6) {
   EXPECT_NEAR(value, expected, tolerance * std::abs(expected));
 }
 
-// Garcia's limit: the hip infinitely heavier than point feet. Masses of 1e-10 leave 1e-10.
+// Garcia's limit: a hip infinitely heavier than point feet. Masses of 1e-10 give errors of 1e-10.
 StraightLeggedParameters garcia(double slope) {
   StraightLeggedParameters p;
   p.slope = slope;
@@ -69,8 +70,8 @@ StraightLeggedParameters garcia(double slope) {
   return p;
 }
 
-// (theta, swing leg) and rates after impact; phi = theta - psi = 2 theta, phi_dot from the impact
-// map is not free: the guess takes the swing leg's rate from it.
+// (theta, swing leg) and rates after impact; phi = theta - psi = 2 theta, and phi_dot follows from
+// the impact map: the guess takes the swing leg's rate from it.
 VectorXd garcia_guess(double theta, double theta_rate) {
   const double phi_rate = (1 - std::cos(2 * theta)) * theta_rate;
   return vector({-theta, theta, -theta_rate, -(theta_rate - phi_rate)});
@@ -119,7 +120,7 @@ TEST(GarciaFamily, StepAngleGrowsLikeTheCubeRootOfTheSlope) {
 }
 
 // Gaits of one step are stable up to .0151; there a multiplier leaves the unit circle through -1,
-// where gaits of two steps begin.
+// and gaits of two steps begin.
 TEST(GarciaFamily, LosesItsStabilityByPeriodDoublingAtTheSlopePrinted) {
   const auto first_multiplier = [](double slope) {
     const LinkageWalker walker(straight_legged(garcia(slope)));
@@ -183,7 +184,8 @@ TEST(Published, McGeerRoundFeet) {
                    {{.43164, 0}, {-.15292, .29860}, {-.15292, -.29860}}});
 }
 
-// The often copied fixed point .189472782 uses the relative spin at heel strike, wrong for I > 0.
+// The frequently copied fixed point .189472782 uses the relative spin at heel strike, which is
+// wrong for I > 0.
 TEST(Published, RoundFeetWithInertia) {
   const StraightLeggedParameters round{.gravity = 1,
                                        .slope = .01,
@@ -227,8 +229,8 @@ INSTANTIATE_TEST_SUITE_P(
         KuoRow{0, .10, .10, .335708232, -.512001304, -.393117244, 1.5744242, .420876, .9253},
         KuoRow{0, .05, .10, .357459851, -.479461382, -.355249490, 1.8990592, .370884, 1.3052}));
 
-// Kuo 2002: Garcia's walker on the level, driven by an impulse along the trailing leg and a spring
-// on the swing leg (its stiffness counts per mass of the leg).
+// Kuo 2002: Garcia's walker on level ground, driven by an impulse along the trailing leg and a
+// spring on the swing leg (with stiffness per mass of the leg).
 TEST(Published, SimplestPoweredWalker) {
   StraightLeggedParameters p = garcia(0);
   p.hip_stiffness = 2.5127 * p.leg_mass;
@@ -280,7 +282,7 @@ MonopodeParameters runner(double attack_deg) {
   return p;
 }
 
-// The guess fixes the energy (given to five digits); Newton stays on its level.
+// The guess determines the energy (given with five digits), which Newton's method keeps.
 GaitCycle running_at(const Monopode& walker, double apex) {
   return find_gait(walker, walker.apex(apex, 0, 1784.8).value()).value();
 }
@@ -353,8 +355,8 @@ TEST(Published, MonopodeWalking) {
   expect_relative(legs.peak_together / walker.weight(), 1.873, 1e-3);
 }
 
-// Hsu Chen 2007: knees latched at their stops, freed at the strike. Point mass at the hip: no torso
-// angle, q = (stance thigh, swing thigh, stance shank, swing shank).
+// Hsu Chen 2007: knees latched at their stops, released at the strike. Point mass at the hip: no
+// torso angle, q = (stance thigh, swing thigh, stance shank, swing shank).
 TEST(Published, PassiveWalkerWithKnees) {
   KneedParameters p;
   p.gravity = 9.81;
@@ -381,9 +383,9 @@ TEST(Published, PassiveWalkerWithKnees) {
   EXPECT_NEAR(deg_from_rad(flexion), 30, 2);  // "about 30 degrees"
 }
 
-// Other members of the families, from guesses with one or two digits. What must hold of any of
-// them: lengths x 2, masses x 3 and gravity x 5 leave angles and multipliers, rates grow by
-// sqrt(5 / 2); without actuators what the strike takes is what gravity gave.
+// Other members of the families, from guesses with one or two digits. Laws for all of them: lengths
+// x 2, masses x 3 and gravity x 5 keep angles and multipliers, and multiply rates by sqrt(5 / 2);
+// without actuators the strike dissipates the energy from gravity.
 struct OtherRow {
   const char* name;
   StraightLeggedParameters parameters;
@@ -413,7 +415,7 @@ TEST_P(OtherWalkers, AreFoundFromCoarseGuessesAndObeyTheirLaws) {
   ASSERT_TRUE(gait);
   EXPECT_LT(gait->cycle.residual, 1e-10);
   if (row.parameters.toe_off_impulse == 0) {
-    std::vector<double> kinetic;  // the last two stand on both sides of the strike
+    std::vector<double> kinetic;  // the last two are before and after the strike
     WalkerState state = gait->start;
     std::vector<WalkerEvent> events;
     advance(walker, state, 10, options().simulation, events,

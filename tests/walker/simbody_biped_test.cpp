@@ -1,5 +1,5 @@
-// The kneed walker as a linkage against Simbody, where that is installed: five links on a foot that
-// rolls without slip.
+// The kneed walker as a linkage compared with Simbody, if it is installed: five links on a foot
+// that rolls without slip.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(SimbodyBiped, AccelerationsAgree) {
   const ReferenceFile reference = read_kneed_reference();
   const KneedParameters& p = reference.parameters;
   const LinkageWalker walker(kneed(p, {}, {.may_fly = false}));
-  const std::vector<Eigen::Index> order{3, 1, 0, 2, 4};  // theirs from ours
+  const std::vector<Eigen::Index> order{3, 1, 0, 2, 4};  // Simbody's order from the linkage's
   Rng rng(71, Purpose::kTest);
   for (int i = 0; i < 25; ++i) {
     WalkerState state;

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-// Balls thrown up under g = 1; guards and events are given by the test.
+// Balls thrown up under g = 1; the test defines guards and events.
 class Balls : public Walker {
  public:
   std::function<std::vector<Guard>(const WalkerState&)> guards_of;
@@ -93,7 +93,7 @@ TEST(Simulate, SimultaneousEventsAllHappen) {
   for (const double z : state.q) EXPECT_NEAR(z, 0.375, 1e-10);
 }
 
-// A ceiling that is passed and left again within one step of 0.3 s.
+// A ceiling that is crossed twice within one step of 0.3 s.
 TEST(Simulate, GrazingWithinOneStepIsSeen) {
   Balls balls = bouncing(1);
   const double top = 0.5;  // apex of a ball thrown at 1 from 0, at t = 1

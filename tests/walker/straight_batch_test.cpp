@@ -39,12 +39,12 @@ double spread(Rng& rng, double size) { return size * (2 * rng.uniform() - 1); }
 
 class StraightBatch : public testing::Test {
  protected:
-  // Sub-steps of the linkage and of the batch are the same where durations are whole multiples.
+  // Sub-steps of the linkage and of the batch are equal if durations are multiples of them.
   static constexpr double kStep = 0.01;
   StraightLeggedParameters parameters{.gravity = 1};
   StraightModel model = straight_model(parameters);
 
-  // After transfers of the published cycles, pushed about.
+  // After transfers of the published cycles, perturbed.
   LegsCrowd crowd(size_t count, double duration, double push) const {
     LegsCrowd c;
     for (size_t i = 0; i < count; ++i) {
@@ -67,7 +67,7 @@ class StraightBatch : public testing::Test {
     straight_advance_batch(model, c.controls, c.noise, c.durations, c.states, c.results, kStep);
   }
 
-  // The general route, without noise.
+  // The general implementation, without noise.
   StraightAdvance by_linkage(const StraightControls& controls, StraightState& state,
                              double duration) const {
     StraightLeggedParameters p = parameters;
@@ -112,7 +112,9 @@ TEST_F(StraightBatch, IsTheLinkageForRandomStates) {
     const StraightAdvance &a = batch.results[i], &b = general.results[i];
     ASSERT_EQ(a.event, b.event);
     fallen += a.event == KneedEvent::kFallen;
-    if (a.event == KneedEvent::kFallen) continue;  // the linkage locates the instant, at a height
+    if (a.event == KneedEvent::kFallen)
+      continue;  // the linkage locates the time at which the hip
+                 // has a height
     transfers += a.event == KneedEvent::kTransfer;
     EXPECT_NEAR(a.elapsed, b.elapsed, 1e-9);
     EXPECT_NEAR(a.step_length, b.step_length, 1e-9);
@@ -152,7 +154,7 @@ TEST_F(StraightBatch, AccelerationsAndForcesAreTheLinkages) {
   }
 }
 
-// Torques do work: what they add over a short time is their power.
+// Torques do work: the energy that they add over a short time is their power.
 TEST_F(StraightBatch, NoiseIsATorqueOnTheLegs) {
   StraightState s;
   s.q = {-0.1, 0.2};
@@ -196,7 +198,7 @@ TEST_F(StraightBatch, IllWalkersHarmNobody) {
   }
 }
 
-// In pieces of any size, on any number of threads: the same bytes.
+// In groups of any size, on any number of threads: the same bytes.
 TEST_F(StraightBatch, DependsOnNobodyElseNorOnThreads) {
   LegsCrowd all = crowd(101, 2.5, 0.1);
   const LegsCrowd before = all;
