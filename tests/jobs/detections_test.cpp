@@ -83,8 +83,25 @@ TEST_F(DetectionsTest, AutoIsForFilesAndForOneCameraThatSeesEnough) {
   EXPECT_TRUE(keypoints_wanted(scene(cameras), config));
 }
 
-// From two sides outlines distinguish left from right, unless the background has to be learned
-// while somebody stands in it.
+TEST_F(DetectionsTest, OneCameraThatSeesPeopleTooSmallSaysThatNamesRestOnOutlines) {
+  Config config;
+  Scene alone = scene("  - {name: a, video: a.mp4, calibration: a.yaml}\n");
+  alone.initial.emplace().position = {5, 0};
+  const auto note = [&](double focal_px) {
+    alone.cameras[0].camera = level_camera(focal_px);
+    return missing_network_note(alone, config);
+  };
+  EXPECT_THAT(note(120), HasSubstr("people are 42 px high in the video, the network needs 150 px"));
+  EXPECT_EQ(note(480).empty(), has_pose_net());
+  config.observation.keypoints.enabled = TermSetting::kOff;
+  EXPECT_EQ(note(120), "") << "known to whoever has set it";
+  config.observation.keypoints.enabled = TermSetting::kAuto;
+  alone.cameras.push_back(alone.cameras[0]);
+  EXPECT_EQ(note(120), "") << "two cameras tell";
+}
+
+// From two sides outlines tell left from right by themselves, unless the room behind has to be
+// learned while somebody stands in it.
 TEST_F(DetectionsTest, AutoIsForTwoCamerasWithoutPicturesOfTheEmptyScene) {
   Config config;
   const auto two = [&](const std::string& more) {

@@ -1,8 +1,10 @@
-// Extreme numbers and cameras. Each ends with a stated outcome that is correct: refused with an
-// error that names the cause, nobody found, tracked with a failed quality check that is named, or
-// tracked. Only the last one promises accuracy, which is tested: joints within kJoints of the truth
-// on average, legs rarely swapped, nearly all frames filled. The table prints with
-// --gtest_filter=*Extreme*; its last state is in tests/jobs/extremes.md.
+// Numbers and cameras at the extremes. Each ends in a verdict that is stated and correct: refused
+// with an error that names the cause, nobody found, tracked but below a quality check that is
+// named, or tracked. Only the last promises something, and it must be true: joints within kJoints
+// of the truth on average, legs rarely swapped, nearly all frames filled. A run that says that left
+// and right rest on outlines alone does not promise the names of the legs, but all else: it is held
+// to the better of both. The table prints with --gtest_filter=*Extreme*; its last state is in
+// tests/jobs/extremes.md.
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -20,6 +22,7 @@
 #include "jobs/render/render.h"
 #include "jobs/track/track.h"
 #include "metrics/joint_error.h"
+#include "tests/body/changed_motion.h"
 #include "tests/run_program.h"
 
 namespace walktrack {
@@ -36,8 +39,8 @@ struct Extreme {
   std::string render;            // options that differ from kUsual, key: value, one in each line
   std::string cameras;           // in place of the usual ones
   std::vector<std::string> set;  // of the configuration
-  bool must_be_tracked = false;  // if any other outcome would be a failure
-  const char* open = nullptr;    // why its outcome is known to be wrong; then it is skipped
+  bool must_be_tracked = false;  // where anything else would be a failure, too
+  uint64_t seeds = 1;            // that are tracked, each with a verdict
 };
 
 constexpr const char* kSide =
@@ -122,7 +125,7 @@ std::vector<Extreme> extremes() {
        .cameras = camera_at(
            "side", "azimuth_deg: -90, distance: 5, height: 1.2, focal_px: 240, size: [240, 180]"),
        .set = few,
-       .open = "one camera does not tell left from right, and no quality check sees it"},
+       .seeds = 3},  // some of them name the legs wrongly
       {"giant_of_250_cm", "subject: {height: 2.5, mass: 300}\n",
        camera_at("side",
                  "azimuth_deg: -90, distance: 5, height: 1.2, focal_px: 240, size: [240, 180]") +
@@ -153,7 +156,8 @@ std::string options_of(const Extreme& extreme) {
 
 struct Verdict {
   std::string word, why;
-  double joints = std::nan(""), swapped = std::nan(""), filled = std::nan("");
+  bool names_promised = true;
+  double joints = std::nan(""), swapped = std::nan("");
 };
 
 void film(const Extreme& extreme, const fs::path& folder) {
@@ -166,57 +170,75 @@ void film(const Extreme& extreme, const fs::path& folder) {
   render_scene(job, {});
 }
 
-TrackOutcome track(const Extreme& extreme, const fs::path& folder) {
+TrackOutcome track(const Extreme& extreme, uint64_t seed, const fs::path& folder) {
   TrackJob job;
   job.scene = read_scene(folder / "scene/scene.yaml");
   for (const std::string& set : extreme.set) apply_setting(job.config, set, "test");
+  job.config.values.seed = seed;
   job.output = folder / "tracked";
+  job.overwrite = true;
   job.overlay = false;
   return track_scene(job, {});
 }
 
-Verdict verdict_of(const Extreme& extreme, const fs::path& folder) {
+// What the run says of the names of the legs; empty: they are promised.
+std::string doubt_of_names(const TrackOutcome& outcome) {
+  for (const std::string& note : outcome.checks)
+    if (note.find("left and right then rest on outlines alone") != std::string::npos) return note;
+  return "";
+}
+
+JointErrors errors_of(const fs::path& folder, bool other_names) {
+  Motion tracked = read_motion(folder / "tracked/joints.csv");
+  if (other_names)
+    for (JointPositions& joints : tracked.joints) mirror_legs(joints);
+  return joint_errors(read_motion(folder / "scene/truth.csv"), tracked);
+}
+
+Verdict verdict_of(const Extreme& extreme, uint64_t seed, const fs::path& folder) {
   Verdict out;
   try {
-    film(extreme, folder);
-    const TrackOutcome outcome = track(extreme, folder);
+    if (!fs::exists(folder / "scene")) film(extreme, folder);
+    const TrackOutcome outcome = track(extreme, seed, folder);
+    const std::string doubt = doubt_of_names(outcome);
     out.word = status_word(outcome.status);
-    out.why = outcome.failed_checks.empty() ? outcome.message : outcome.failed_checks.front().what;
+    out.why = outcome.failed_checks.empty() ? outcome.message + doubt
+                                            : outcome.failed_checks.front().what;
+    out.names_promised = doubt.empty();
     if (outcome.tracked == 0) return out;
   } catch (const InputError& error) {
     return {"refused", error.what()};
   } catch (const UsageError& error) {
     return {"refused", error.what()};
   }
-  const JointErrors errors = joint_errors(read_motion(folder / "scene/truth.csv"),
-                                          read_motion(folder / "tracked/joints.csv"));
+  const JointErrors errors = errors_of(folder, false);
   out.joints = errors.absolute.mean;
   out.swapped = errors.swapped_share;
-  out.filled = errors.filled_share;
   return out;
+}
+
+bool is_kept(const JointErrors& errors) {
+  return errors.absolute.mean < kJoints && errors.swapped_share < kSwapped &&
+         errors.filled_share > kLeastFilled;
 }
 
 class ExtremeNumbers : public testing::TestWithParam<Extreme> {};
 
 TEST_P(ExtremeNumbers, EndInAVerdictThatIsTrue) {
   const TemporaryFolder folder;
-  const Verdict verdict = verdict_of(GetParam(), folder.path());
-  fmt::print("| {} | {} | {:.0f} mm | {:.0f} % | {} |\n", GetParam().name, verdict.word,
-             1000 * verdict.joints, 100 * verdict.swapped,
-             verdict.why.substr(0, verdict.why.find('\n')));
-  EXPECT_FALSE(verdict.word.empty());
-  if (verdict.word != "tracked") {
-    EXPECT_FALSE(GetParam().must_be_tracked) << verdict.why;
-    return;
+  for (uint64_t seed = 1; seed <= GetParam().seeds; ++seed) {
+    const Verdict verdict = verdict_of(GetParam(), seed, folder.path());
+    fmt::print("| {} | {} | {:.0f} mm | {:.0f} % | {} |\n", GetParam().name, verdict.word,
+               1000 * verdict.joints, 100 * verdict.swapped,
+               verdict.why.substr(0, verdict.why.find('\n')));
+    EXPECT_FALSE(verdict.word.empty());
+    if (verdict.word != "tracked") {
+      EXPECT_FALSE(GetParam().must_be_tracked) << verdict.why;
+      continue;
+    }
+    const bool other_names = !verdict.names_promised && verdict.swapped > 0.5;
+    EXPECT_TRUE(is_kept(errors_of(folder.path(), other_names))) << "seed " << seed;
   }
-  const bool right =
-      verdict.joints < kJoints && verdict.swapped < kSwapped && verdict.filled > kLeastFilled;
-  if (!GetParam().open) {
-    EXPECT_TRUE(right);
-    return;
-  }
-  ASSERT_FALSE(right) << "no longer open: " << GetParam().open;
-  GTEST_SKIP() << "open: " << GetParam().open;
 }
 
 std::string name_of(const testing::TestParamInfo<Extreme>& extreme) { return extreme.param.name; }

@@ -51,6 +51,20 @@ bool network_would_tell(const Scene& scene, const Config& config) {
          });
 }
 
+std::string without_network(const KeypointConfig& keypoints) {
+  return has_pose_net() ? "the network '" + keypoints.model + "' is not beside the program"
+                        : "the program was built without a pose detector";
+}
+
+// "" if that is not what keeps the network from a single camera.
+std::string too_small_for_network(const Scene& scene, const Config& config) {
+  if (scene.cameras.size() != 1 || !wants_network(scene.cameras[0])) return "";
+  const double person_px = working_scale(scene, scene.cameras[0].camera, config).person_px;
+  if (person_px >= kLeastPerson_px) return "";
+  return fmt::format("people are {:.0f} px high in the video, the network needs {:g} px", person_px,
+                     kLeastPerson_px);
+}
+
 }  // namespace
 
 size_t cameras_in_doubt(const Scene& scene) {
@@ -65,13 +79,12 @@ bool keypoints_wanted(const Scene& scene, const Config& config) {
 
 std::string missing_network_note(const Scene& scene, const Config& config) {
   const KeypointConfig& keypoints = config.observation.keypoints;
-  if (keypoints.enabled != TermSetting::kAuto || all_have_files(scene) || has_network(keypoints) ||
-      !network_would_tell(scene, config))
-    return "";
+  if (keypoints.enabled != TermSetting::kAuto || keypoints_wanted(scene, config)) return "";
+  const std::string why = network_would_tell(scene, config) ? without_network(keypoints)
+                                                            : too_small_for_network(scene, config);
+  if (why.empty()) return "";
   return fmt::format(
-      "without keypoints: {}; with one camera left and right then rest on outlines alone",
-      has_pose_net() ? "the network '" + keypoints.model + "' is not beside the program"
-                     : "the program was built without a pose detector");
+      "without keypoints: {}; with one camera left and right then rest on outlines alone", why);
 }
 
 bool flow_wanted(const Config& config) {

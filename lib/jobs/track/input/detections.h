@@ -34,7 +34,8 @@ struct WorkingScale {
 // Whether keypoints are used: as configured. `auto` means yes if every camera has a file, or if
 // there is one camera with a video that shows people large enough and the program has the network.
 bool keypoints_wanted(const Scene& scene, const Config& config);
-// States that `auto` would have used the network if the program had it; "" otherwise.
+// Why `auto` does not ask the network though one camera leaves left and right in doubt: it is not
+// there, or people are too small for it. "" otherwise.
 std::string missing_network_note(const Scene& scene, const Config& config);
 // Whether optical flow is used: as configured. `auto` means no, because no improvement was measured
 // (observation/reports/flow.md).
