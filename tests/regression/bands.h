@@ -57,7 +57,7 @@ inline constexpr size_t kComparedSeeds = 3;  // the first of them, that are comp
 
 // Bands of all scenes and watched figures, best as now, in order of scenes, then of
 // watched_figures(), from kBandSeeds runs of each scene. A figure that any of them lacks has no
-// band.
+// band, nor has one whose band would hold all that is possible.
 std::vector<Band> bands_from(const SuiteValues& values);
 
 // scene,figure,low,median,high,best; an open end is an empty cell.

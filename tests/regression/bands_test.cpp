@@ -56,7 +56,14 @@ TEST(Bands, HoldNothingThatHasDoubledHoweverMuchSeedsDiffer) {
   EXPECT_NEAR(bands.front().high, 1.9 * 20, 1e-9);
 }
 
-// One seed in nine does not represent the others.
+TEST(Bands, ThatNothingCanLeaveAreNone) {
+  const auto now_and_then = runs_of("swapped_percent", {0, 100, 0, 100, 50, 100, 0, 100, 0});
+  EXPECT_THAT(bands_from({{"scene", now_and_then}}), IsEmpty());
+  const auto nearly_never = runs_of("swapped_percent", {0, 2, 0, 1, 0, 0, 0, 0, 0});
+  EXPECT_THAT(bands_from({{"scene", nearly_never}}), SizeIs(1));
+}
+
+// One seed in nine says nothing of the others.
 TEST(Bands, AreNoWiderForOneOddSeed) {
   const auto runs = runs_of("joint_error_mean_mm", {300, 72, 70, 71, 72, 73, 70, 71, 72});
   const std::vector<Band> bands = bands_from({{"scene", runs}});
@@ -97,10 +104,10 @@ TEST(Bands, CoverageWidthsAndEvidenceAreHeldFromBothSides) {
 }
 
 TEST(Bands, EndWhereAFigureCannotBe) {
-  const auto swapped = runs_of("swapped_percent", {60, 90, 70, 30, 95, 80, 99, 20, 85});
-  const Band found = band(bands_from({{"scene", swapped}}), "swapped_percent");
-  EXPECT_EQ(found.low, 0);
-  EXPECT_EQ(found.high, 100);
+  const auto swapped = runs_of("swapped_percent", {6, 9, 7, 3, 9, 8, 9, 2, 8});
+  EXPECT_EQ(band(bands_from({{"scene", swapped}}), "swapped_percent").low, 0);
+  const auto inside = runs_of("coverage90_percent", {96, 99, 97, 93, 99, 98, 99, 92, 98});
+  EXPECT_EQ(band(bands_from({{"scene", inside}}), "coverage90_percent").high, 100);
 }
 
 TEST(Bands, SharesOfTheMedianStaySmall) {

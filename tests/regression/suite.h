@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,14 +15,14 @@
 #include "jobs/track/track.h"
 #include "metrics/statistics/coverage.h"
 #include "tests/regression/bands.h"
+#include "tests/regression/clip.h"
 
 namespace walktrack {
 
 struct SuiteScene {
   std::string_view name;  // scenes/<name>.yaml, and <name>.track.yaml if it is tracked differently
-  bool fast;              // part of the subset in every test run
-  // For a real clip, below ../shared/data: its scene and its reference, which may be missing.
-  std::string_view clip = {}, truth = {};
+  bool fast;              // in the subset that every test run does
+  std::optional<Clip> clip = {};  // a real one, not rendered
 };
 
 bool is_there(const SuiteScene& scene);
@@ -34,20 +35,21 @@ std::filesystem::path excuses_file();  // worse.csv
 // The scene file of a clip; of a made scene, which is rendered below `folder` unless it is there.
 std::filesystem::path rendered_scene(std::string_view name, const std::filesystem::path& folder);
 
-// The job that tracks a rendered scene into `output` the suite's way.
+// The job that tracks a scene into `output` the suite's way.
 TrackJob suite_job(std::string_view name, const std::filesystem::path& scene, uint64_t seed,
                    const std::filesystem::path& output);
 
 // A result and its reference.
 struct SuiteResult {
-  Truth truth;
+  std::optional<Truth> truth;  // that `evaluate` knows
   Motion estimate;
   JointUncertainty uncertainty;
   double log_evidence = 0;  // nats, median over tracked frames
   std::string digest;
+  std::optional<ClipFacts> clip = {};
 };
 
-SuiteResult tracked(const TrackJob& job);
+SuiteResult tracked(const TrackJob& job, const std::optional<Clip>& clip = {});
 
 // Seeds 1 to `seeds` of a scene.
 std::vector<SuiteResult> suite_results(std::string_view name, size_t seeds,
