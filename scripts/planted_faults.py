@@ -2,10 +2,10 @@
 """Would a test notice? Plants the faults of tests/faults/faults.toml into copies of single sources,
 one at a time, links the test programs that are named for each and runs them until one fails. Writes
 tests/faults/caught.csv: which test caught which fault, at which commit. The working tree stays as it
-is. The test programs are built first, in a folder of their own, file by file: a source that is compiled
-together with others cannot be replaced alone.
+is. The test programs are built first, as for every other test; sources that are compiled together with
+the faulty one are compiled with it again.
 
-  scripts/planted_faults.py [--build build/faults] [--jobs 1] [--only WORD] [--new]
+  scripts/planted_faults.py [--build build/ci] [--jobs 1] [--only WORD] [--new]
 
 --only: faults whose area or description holds the word; --new: only those without a row. Exit code 1
 if a fault was not caught."""
@@ -34,19 +34,30 @@ def program_of(test):
 class Build:
     def __init__(self, folder, programs):
         self.folder = folder
-        subprocess.run(["cmake", "--preset", "ci", "-B", folder, "-DCMAKE_UNITY_BUILD=OFF"], cwd=ROOT,
-                       check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["cmake", "--preset", "ci", "-B", folder], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
         subprocess.run(["ninja", "-C", folder, *programs], check=True, stdout=subprocess.DEVNULL)
         self.commands = {
             program: subprocess.run(["ninja", "-C", folder, "-t", "commands", program], check=True,
                                     capture_output=True, text=True).stdout.splitlines()
             for program in programs}
 
+    # The command that compiles a source, by itself or within a file that includes it and others.
+    def command_for(self, source):
+        for line in {line for lines in self.commands.values() for line in lines}:
+            compiled = re.search(r" -c (\S+)$", line)
+            if not compiled:
+                continue
+            unit = pathlib.Path(self.folder, compiled[1])
+            if unit == ROOT / source or (unit.parent.name == "Unity" and f'"{ROOT / source}"' in unit.read_text()):
+                return shlex.split(line), unit
+        raise RuntimeError(f"no command compiles {source}")
+
     def compile(self, source, faulty, obj):
-        lines = {line for lines in self.commands.values() for line in lines
-                 if re.search(rf" -c \S*{re.escape(source)}$", line)}
-        line = lines.pop()
-        words = shlex.split(line)
+        words, unit = self.command_for(source)
+        if unit != ROOT / source:
+            together = obj.with_suffix(".cxx")
+            together.write_text(unit.read_text().replace(f'"{ROOT / source}"', f'"{faulty}"'))
+            faulty = together
         words[words.index("-c") + 1] = str(faulty)
         words[words.index("-o") + 1] = str(obj)
         words[words.index("-MF") + 1] = str(obj) + ".d"
@@ -114,7 +125,7 @@ def write_table(faults, rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--build", default="build/faults")
+    parser.add_argument("--build", default="build/ci")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--only", default="", metavar="WORD")
     parser.add_argument("--new", action="store_true")

@@ -150,5 +150,18 @@ TEST(ReportedTrack, WhoStandsHasBothFeetOnTheGround) {
   }
 }
 
+// Whoever is said to stand and gets on has no foot that could be held in place.
+TEST(ReportedTrack, WhoGetsOnStandsNowhere) {
+  const TemporaryFolder folder;
+  const March walk = march();
+  TrackedFrames frames{walk.rate, FrameFile(folder / "frames.bin")};
+  for (size_t i = 0; i < 60; ++i) {
+    FrameRecord record = walk.record(i);
+    record.modes.standing = i < 30 ? 0.9 : 0.1;
+    frames.records.append(record);
+  }
+  for (const FlatFoot& each : standing_feet(frames)) EXPECT_GE(each.first, 30u);
+}
+
 }  // namespace
 }  // namespace walktrack
