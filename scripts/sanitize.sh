@@ -22,8 +22,9 @@ jobs=${SANITIZE_JOBS:-2}
 
 record() {  # sanitizer, program, tests, seconds, result
   local commit; commit=$(git rev-parse --short HEAD)
-  { echo "sanitizer,program,tests,cpu_s,result,commit,date"
-    { grep -v "^sanitizer,\|^$1,$2," "$table" 2>/dev/null || true
+  { grep '^#' "$table" 2>/dev/null || true
+    echo "sanitizer,program,tests,cpu_s,result,commit,date"
+    { grep -v "^#\|^sanitizer,\|^$1,$2," "$table" 2>/dev/null || true
       echo "$1,$2,$3,$4,$5,$commit,$(date -u +%F)"; } | sort; } >"$table.new"
   mv "$table.new" "$table"
 }
