@@ -148,14 +148,14 @@ struct Contradiction {
 };
 
 class AtFrameRate : public testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(MostProbablePoses, AtFrameRate, testing::Values(15, 30, 60));
+INSTANTIATE_TEST_SUITE_P(MostProbableTrajectory, AtFrameRate, testing::Values(15, 30, 60));
 
 // By an independent route: nowhere near it is the header's sum less, whichever number of whichever
 // frame changes,
 TEST_P(AtFrameRate, NoFrameElsewhereHasLessOfTheHeadersSum) {
   const Contradiction walk;
   const double dt = 1 / GetParam();
-  std::vector<Pose> poses = most_probable_poses(walk.model, dt, walk.records, walk.flat);
+  Poses poses = most_probable_trajectory(walk.model, {dt, walk.records, walk.flat}).poses;
   const double least = walk.sum(dt, poses);
   for (size_t t = 0; t < poses.size(); ++t) {
     const Pose here = poses[t];
@@ -174,7 +174,7 @@ TEST_P(AtFrameRate, NoFrameElsewhereHasLessOfTheHeadersSum) {
 TEST_P(AtFrameRate, NorDoAllFramesTogether) {
   const Contradiction walk;
   const double dt = 1 / GetParam();
-  const std::vector<Pose> poses = most_probable_poses(walk.model, dt, walk.records, walk.flat);
+  const Poses poses = most_probable_trajectory(walk.model, {dt, walk.records, walk.flat}).poses;
   const double least = walk.sum(dt, poses);
   for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(walk.free.size()); ++k) {
     for (const double by : {-0.01, 0.01}) {
@@ -186,7 +186,7 @@ TEST_P(AtFrameRate, NorDoAllFramesTogether) {
   }
 }
 
-TEST(MostProbablePoses, AFlatSoleStaysAndNoToeIsInTheGround) {
+TEST(MostProbableTrajectory, AFlatSoleStaysAndNoToeIsInTheGround) {
   const BodyModel model = test_model();
   Rng rng(4, Purpose::kTest);
   std::vector<FrameRecord> records;
