@@ -86,7 +86,7 @@ TEST(Posterior, TheModelsErrorIsInBandsAndSamples) {
 }
 
 // Where left and right may be swapped, the band of one foot reaches to the other foot, as many
-// samples have their legs swapped, and what is not a leg stays as it is.
+// samples have their legs swapped, and what is not a leg does not change.
 TEST(Posterior, SwappedLegsAreInBandsAndSamples) {
   Frame certain, doubtful;
   doubtful.record.samples.resize(200);

@@ -150,15 +150,10 @@ std::pair<TrackJob, Elapsed> checked_job(const TrackJob& given, const JobControl
                                          TrackOutcome& outcome) {
   const TimePoint start;
   TrackJob job = given;
-  const std::string no_network = missing_network_note(job.scene, job.config.values);
   job.config.values.observation = decided_terms(job.scene, job.config.values);
   require_a_term(job.config.values.observation);
   LookedAt looked = looked_at(job, control);
   outcome.checks = std::move(looked.notes);
-  if (!no_network.empty()) {
-    control.say(no_network);
-    outcome.checks.push_back(no_network);
-  }
   outcome.lag = looked.lag;
   if (looked.lag) job.scene.cameras[looked.lag->camera].start_frame = looked.lag->frames;
   return {std::move(job), elapsed_since(start)};
@@ -212,6 +207,15 @@ std::string_view status_word(TrackStatus status) {
   return "";
 }
 
+// What is missing if left and right rest on outlines alone; said before the video is tracked.
+void report_missing_network(const TrackJob& given, const JobControl& control,
+                            TrackOutcome& outcome) {
+  const std::string note = missing_network_note(given.scene, given.config.values);
+  if (note.empty()) return;
+  control.say(note);
+  outcome.checks.push_back(note);
+}
+
 TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const TimePoint start;
   TrackOutcome outcome;
@@ -228,6 +232,7 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
                             checkpoint ? kFilesOfWork : std::span<const std::string_view>{});
   TrackRun run(job, video, folder, origin, std::move(checkpoint), control);
   run.watch().add("checks", checking);
+  report_missing_network(given, control, outcome);
   const bool interrupted = follow_video(run, video, control, outcome);
   const TimePoint writing;
   const ReportedTrack track(run.frames(), run.model(), job.config.values.smoothing, band_scene(job),

@@ -17,8 +17,9 @@ struct JointUncertainty {
   std::vector<JointPositions> sd, p05, p95;
 };
 
-// Levels of central intervals: how often the interval that is stated to hold 10, 20, ... 90 % of
-// the truth holds it. Intervals are those of the normal distribution with these percentiles.
+// Levels of central intervals: how often an interval that is stated to contain the truth in 10, 20,
+// ... 90 % of the cases contains it. Intervals are those of the normal distribution with these
+// percentiles.
 inline constexpr std::array kIntervalLevels{.1, .2, .3, .4, .5, .6, .7, .8, .9};
 
 struct Coverage {
@@ -29,8 +30,8 @@ struct Coverage {
 };
 
 // Expected calibration error: mean over the levels of |share - level| (Kuleshov, Fenner & Ermon,
-// ICML 2018, with absolute differences). 0 is calibrated; intervals that always hold the truth, or
-// never do, have 0.5.
+// ICML 2018, with absolute differences). 0 is calibrated; intervals that always contain the
+// truth, or never do, have 0.5.
 double calibration_error(const Coverage& coverage);
 
 enum class Direction { kLevel, kUp };  // over the ground, upwards
