@@ -244,6 +244,26 @@ FilmedWalker read_other(const YamlValue& value, const fs::path& folder, double d
   return walker;
 }
 
+// Reads the subject and its walk, which is generated for `duration` (s).
+void read_subject(const YamlValue& file, double duration, RenderFile& out) {
+  Subject who;
+  if (file.has("subject")) {
+    file.at("subject").only_keys(
+        {"height", "mass", "clothes", "arms", "turn_deg", "delay", "shift", "shape", "lengths"});
+    read_looks(file.at("subject"), out.subject);
+    who = walking_subject(file.at("subject"), out.subject);
+  }
+  if (file.has("walk")) {
+    out.subject.motion = read_walk(file.at("walk"), who, duration, out.options.seed);
+    out.options.duration = duration;
+  }
+  if (file.has("gait")) {
+    if (file.has("walk")) file.at("gait").fail("both 'walk' and 'gait'", "one of them");
+    out.gait = read_gait(file.at("gait"));
+    out.options.duration = duration;
+  }
+}
+
 }  // namespace
 
 RenderFile read_render_file(const fs::path& path) {
@@ -269,23 +289,8 @@ RenderFile read_render_file(const fs::path& path) {
   take(file, "images", options.images);
   take_degrees(file, "slope_deg", 45, options.slope);
   take(file, "initial", options.state_initial);
-  Subject who;
-  if (file.has("subject")) {
-    file.at("subject").only_keys(
-        {"height", "mass", "clothes", "arms", "turn_deg", "delay", "shift", "shape", "lengths"});
-    read_looks(file.at("subject"), out.subject);
-    who = walking_subject(file.at("subject"), out.subject);
-  }
   const double duration = options.duration.value_or(kDefaultWalkDuration);
-  if (file.has("walk")) {
-    out.subject.motion = read_walk(file.at("walk"), who, duration, options.seed);
-    options.duration = duration;
-  }
-  if (file.has("gait")) {
-    if (file.has("walk")) file.at("gait").fail("both 'walk' and 'gait'", "one of them");
-    out.gait = read_gait(file.at("gait"));
-    options.duration = duration;
-  }
+  read_subject(file, duration, out);
   if (file.has("cameras")) {
     for (const YamlValue& item : file.at("cameras").items())
       options.cameras.push_back(read_camera(item, folder));

@@ -1,4 +1,4 @@
-// angles.csv: the joint angles of body/joint_angles.h in degrees, one row a frame.
+// angles.csv: the joint angles of body/joint_angles.h in degrees, one row for each frame.
 //
 // t,<angle>_deg,<angle>_deg_p05,<angle>_deg_p95,… Cells are empty in a frame without a pose, and
 // for unknown bands. Zero positions and signs are described in tables.json.

@@ -1,4 +1,4 @@
-// kinetics.csv: the forces behind a motion (kinetics/kinetics.h), one row a frame.
+// kinetics.csv: the forces of a motion (kinetics/kinetics.h), one row for each frame.
 //
 //   t, com_{x,y,z}_m,
 //   for the left (l_) and the right foot (r_): grf_{x,y,z}_n of the ground on the foot,
@@ -6,10 +6,11 @@
 //   for the left and the right leg: moments hip_flexion_nm, hip_abduction_nm, knee_flexion_nm,
 //     ankle_dorsiflexion_nm, powers hip_w, knee_w, ankle_w,
 //   kinetic_energy_j, potential_energy_j, unexplained_force_n, unexplained_moment_nm,
-// each but t followed by its 5-95 % band, <column>_p05 and _p95: the value -/+ 1.645 standard
-// deviations over the members, empty without members; of a loaded foot's vertical force together
-// with the model's error, if one is given. Vectors are in the calibration's world axes.
-// Rows without a known body are empty but for t. Subject, smoothing and totals are in tables.json.
+// Each column except t is followed by its 5-95 % band, <column>_p05 and _p95: the value -/+ 1.645
+// standard deviations over the members, empty without members; the band of a loaded foot's vertical
+// force includes the model's error, if one is given. Vectors are in the calibration's world axes.
+// Rows without a known body are empty except for t. Subject, smoothing and totals are in
+// tables.json.
 #pragma once
 
 #include <filesystem>

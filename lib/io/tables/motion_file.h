@@ -1,8 +1,8 @@
 // joints.csv: joint centres over time, and uncertainty.csv beside it.
 //
 //   t,pelvis_x,pelvis_y,pelvis_z,neck_x,…   seconds and metres in the calibration's world axes, one
-//   row a frame; an empty cell is unknown (NaN in a Motion). Columns may come in any order, joints
-//   may be missing, triples of other names (lheel_x, lheel_y, lheel_z) are passed over.
+//   row for each frame; an empty cell is unknown (NaN in a Motion). Columns may have any order,
+//   joints may be missing, other groups of three columns (lheel_x, lheel_y, lheel_z) are ignored.
 //   t,<joint>_<axis>_sd,<joint>_<axis>_p05,<joint>_<axis>_p95,…
 // Arms are written where any of their joints is known.
 #pragma once

@@ -26,7 +26,7 @@ inline namespace io {
 struct SceneFrames {
   int number = 0;               // scene frame
   double time = 0;              // s since first_frame
-  std::vector<cv::Mat> images;  // one a camera, 8-bit BGR; overwritten by the next read
+  std::vector<cv::Mat> images;  // by camera, 8-bit BGR; overwritten by the next read
   std::vector<char> fresh;      // whether the camera has a new frame since the last step
   std::vector<int> source;      // number of that frame in its video (FrameSource::number)
 };

@@ -1,25 +1,26 @@
 // The expected cost of a frame of tracking: the counts of the operations times the cost of each.
 //
 //   decoding     a d                      a: pixels of a camera's frame as it was recorded
-//   pose network i                        for every cut-out that it looks at
+//   pose network i                        for every cut-out on which it is run
 //   each likelihood term that is on, see Term::cost (observation/terms.h), such as
 //     background   b r                    r: pixels of the shrunk image around the walker
-//     appearance   c k                    k: appearances told apart
-//     flow         e r + f n m            n: poses weighed, m: parts of the body
+//     appearance   c k                    k: appearance classes
+//     flow         e r + f n m            n: evaluated poses, m: parts of the body
 //     silhouettes  h n y                  y: rows of the shrunk image that the walker covers
 //   projection   g n m                    parts and their outlines in the image
-// these for every camera, n being the particles and those moves that the first camera has let
-// through for all cameras but the first; and once for all
+// These are for every camera, where for all cameras except the first n is the number of particles
+// and of the moves that the first camera has accepted. Once for all cameras there are
 //   walker       w p                      p: particles
 //   poses        q n m + s
 //
 // The coefficients are CPU times of all threads together, fitted by scripts/measure_costs.py to
 // frames after the start hypotheses of the first half second. They are those of one machine: ratios
-// carry over to others, times only roughly. Over the fifteen settings of the fit the sum was off by
-// 9 % (median), by 24 % at worst (arms), given the poses that were in fact weighed; their number
-// varies by a third between scenes, so that of ten videos, balanced and fast, the plan was off by
-// 12 % (median), by 31 % at worst. Not in it: searching and the start hypotheses of the first half
-// second, learning the background before the first frame, writing results.
+// carry over to others, times only roughly. Over the fifteen settings of the fit the sum had an
+// error of 9 % (median), and 24 % at worst (arms), given the poses that were really evaluated;
+// their number varies by a third between scenes, so that for ten videos, balanced and fast, the
+// plan had an error of 12 % (median), and 31 % at worst. It does not include searching and the
+// start hypotheses of the first half second, learning the background before the first frame, and
+// writing results.
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@ namespace walktrack {
 inline namespace jobs {
 namespace {
 
-constexpr const char* kStance = "#0072b2";  // Okabe & Ito 2008, told apart by colour-blind people
+constexpr const char* kStance = "#0072b2";  // Okabe & Ito 2008, for colour-blind people
 constexpr const char* kSwing = "#d55e00";
 constexpr const char* kInk = "#333333";
 
