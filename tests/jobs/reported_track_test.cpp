@@ -150,7 +150,7 @@ TEST(ReportedTrack, WhoStandsHasBothFeetOnTheGround) {
   }
 }
 
-// Whoever is said to stand and gets on has no foot that could be held in place.
+// A subject who is said to stand but moves on has no foot that could be held in place.
 TEST(ReportedTrack, WhoGetsOnStandsNowhere) {
   const TemporaryFolder folder;
   const March walk = march();

@@ -63,7 +63,7 @@ TEST(Bands, ThatNothingCanLeaveAreNone) {
   EXPECT_THAT(bands_from({{"scene", nearly_never}}), SizeIs(1));
 }
 
-// One seed in nine says nothing of the others.
+// One seed in nine gives no evidence of the others.
 TEST(Bands, AreNoWiderForOneOddSeed) {
   const auto runs = runs_of("joint_error_mean_mm", {300, 72, 70, 71, 72, 73, 70, 71, 72});
   const std::vector<Band> bands = bands_from({{"scene", runs}});
