@@ -1,40 +1,61 @@
 #!/usr/bin/env bash
 # Which lines and branches the fast tests run through, by module: builds without optimisation across
-# functions, runs fast tests, and puts a table into tests/coverage.md. Needs Debian's gcovr.
-# Some forty minutes of CPU for all modules.
-#   scripts/coverage.sh                      builds, runs, measures
-#   scripts/coverage.sh --of core io ...     these modules alone, by their own test programs
-#   scripts/coverage.sh --measure [--of ...] measures what the last run left
+# functions, runs the test programs of the modules named (none: all), and puts what all programs that
+# have run since lib/ or apps/ changed run through into tests/coverage.csv and tests/coverage.md. Rows
+# of modules whose programs have not run stay. Needs Debian's gcovr. An hour or two of CPU for all
+# modules; what is done already is not done again after an interruption, nor if it failed.
+#   scripts/coverage.sh                  all programs
+#   scripts/coverage.sh --of core io ... these alone
+#   scripts/coverage.sh --measure        none: measures what has run so far
+# `apps` is the program itself; `regression` has no module, it adds to what others' rows hold.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=build/coverage
-command="scripts/coverage.sh${*:+ $*}"
+done_file=$folder/programs_run
+all=(core camera mechanics filter body metrics walker gait kinetics observation synth io tracker jobs apps regression)
+programs=("${all[@]}")
+if [ "${1:-}" = --of ]; then shift; programs=("$@"); fi
+if [ "${1:-}" = --measure ]; then programs=(); fi
 command -v gcovr >/dev/null || { echo "gcovr is missing: apt-get install gcovr" >&2; exit 1; }
 
-run=true
-if [ "${1:-}" = --measure ]; then run=false; shift; fi
-programs=(core camera mechanics filter body metrics walker gait kinetics observation synth io tracker jobs apps regression)
-searched=("$folder")
-filters=(--filter lib/ --filter apps/)
-if [ "${1:-}" = --of ]; then
-  shift
-  programs=("$@")
-  searched=()
-  filters=()
-  for module in "$@"; do
-    searched+=("$folder/lib/CMakeFiles/walktrack_$module.dir" "$folder/tests/CMakeFiles/${module}_tests.dir")
-    filters+=(--filter "lib/$module/")
-  done
-fi
-
-if $run; then
+build() {
   cmake --preset ci -B "$folder" -DCMAKE_BUILD_TYPE=None \
     -DCMAKE_CXX_FLAGS="--coverage -fprofile-update=atomic -O1 -DNDEBUG" >/dev/null
   cmake --build "$folder" -j 2 --target walktrack "${programs[@]/%/_tests}"
+}
+
+# Counts of other sources are worth nothing.
+begin_anew_if_sources_changed() {
+  local sources; sources=$(cat $(git ls-files lib apps | grep '\.\(h\|cpp\)$') | sha256sum | cut -c1-16)
+  [ "$(head -1 "$done_file" 2>/dev/null)" != "$sources" ] || return 0
   find "$folder" -name '*.gcda' -delete
-  # A test that fails is not this script's matter: ctest --preset ci says so.
-  ctest --test-dir "$folder" -LE 'slow|instructions' -R "^($(IFS='|'; echo "${programs[*]}"))_tests\$" -j 2 >"$folder/ctest.log" || true
+  echo "$sources" >"$done_file"
+}
+
+# A process writes its counts when it ends: a long program is run in parts. A test that fails is not
+# this script's matter: ctest --preset ci says so.
+run_program() {
+  local program=$1 parts=1
+  case $program in jobs | apps) parts=8 ;; esac
+  for ((part = 0; part < parts; ++part)); do
+    grep -qx "$program $part of $parts" "$done_file" && continue
+    RC_PARAMS=seed=1 GTEST_TOTAL_SHARDS=$parts GTEST_SHARD_INDEX=$part \
+      "$folder/${program}_tests" --gtest_filter='-*FullRegression*:*clip_*:RealClips*' >"$folder/$program.$part.log" 2>&1 || true
+    echo "$program $part of $parts" >>"$done_file"
+  done
+}
+
+# Each program that has run, once; of one that has not run all its parts, how many.
+programs_run() {
+  awk 'NR > 1 { seen[$1]++; parts[$1] = $4 }
+       END { for (name in seen) print name (seen[name] < parts[name] ? ":" seen[name] "/" parts[name] : "") }' "$done_file" | sort
+}
+
+if [ ${#programs[@]} -gt 0 ]; then
+  build
+  begin_anew_if_sources_changed
+  for program in "${programs[@]}"; do run_program "$program"; done
 fi
-gcovr -r . "${searched[@]}" "${filters[@]}" --exclude-throw-branches --exclude-unreachable-branches \
+gcovr -r . "$folder" --filter lib/ --filter apps/ --exclude-throw-branches --exclude-unreachable-branches \
   --gcov-ignore-parse-errors --json-summary "$folder/coverage.json" -j 2
-scripts/coverage_table.py "$folder/coverage.json" tests/coverage.md "$command"
+scripts/coverage_table.py "$folder/coverage.json" --by $(programs_run)
