@@ -21,8 +21,6 @@ ALLOWED_OUTSIDE = {
 }
 # A job passes images along as observation/image.h calls them; it neither looks into them nor draws.
 NAMES_NO_OPENCV = {"jobs"}
-# Folders in which this is still to be done.
-STILL_NAME_OPENCV = {"jobs/track/results"}
 
 
 def declared_graph():
@@ -57,11 +55,10 @@ def violations(graph):
             if path.suffix not in (".h", ".cpp"):
                 continue
             for number, line in enumerate(path.read_text().splitlines(), 1):
-                exempt = str(path.parent.relative_to(ROOT / "lib")) in STILL_NAME_OPENCV
-                if module in NAMES_NO_OPENCV and not exempt and re.search(r"\bcv::", line.split("//")[0]):
+                if module in NAMES_NO_OPENCV and re.search(r"\bcv::", line.split("//")[0]):
                     yield f"{path.relative_to(ROOT)}:{number}: {module} may not name OpenCV, see observation/image.h"
                 found = re.match(r'\s*#\s*include\s*[<"]([^/>"]+)/', line)
-                if not found or (exempt and found.group(1) == "opencv2"):
+                if not found:
                     continue
                 first = found.group(1)
                 if first in graph and first not in allowed:

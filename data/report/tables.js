@@ -68,7 +68,7 @@ function gaitTables() {
     table(['foot', 'strike, s', 'toe-off, s', 'step length, m', 'step width, m', 'step time, s', 'stance, %'],
       contacts.map((c) => [c.side, banded(c.foot_strike_s, 3), banded(c.toe_off_s, 3), banded(c.step_length_m, 3),
         banded(c.step_width_m, 3), banded(c.step_time_s, 3), banded(c.stance_percent, 1)]), 'contacts'),
-    element('p', {className: 'note'}, (analysed ? '' : 'Small figures: 5–95 % of the filter’s particles. ') + data.gait.notes.join(' ')));
+    element('p', {className: 'note'}, (analysed ? '' : 'Small figures: 5–95 %. ') + data.gait.notes.join(' ')));
 }
 
 function quality() {

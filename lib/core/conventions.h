@@ -28,6 +28,10 @@ inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kStandardGravity = 9.80665;  // m/s^2
 inline constexpr double kMetresPerMillimetre = 1e-3;
 
+// Bands reach from 5 to 95 %: for a normal distribution, so many standard deviations to either
+// side.
+inline constexpr double kBandQuantile = 1.645;
+
 // Stands for an unknown number: an empty cell of a table, a joint that was not tracked.
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/conventions.h"
+
 namespace walktrack {
 inline namespace metrics {
 
 namespace {
-
-constexpr double kQuantile = 1.645;  // of the normal distribution, at 95 %
 
 // Standard deviations, fitted by scripts/fit_gait_error.py (lib/tracker/reports/bands.md).
 constexpr double kStrikeError = 0.002, kToeOffError = 0.020;  // s
@@ -22,8 +22,8 @@ double stance_error(double stride_time) {
 }
 
 void widen(double sd, Banded& band) {
-  band.p05 = band.value - std::hypot(band.value - band.p05, kQuantile * sd);
-  band.p95 = band.value + std::hypot(band.p95 - band.value, kQuantile * sd);
+  band.p05 = band.value - std::hypot(band.value - band.p05, kBandQuantile * sd);
+  band.p95 = band.value + std::hypot(band.p95 - band.value, kBandQuantile * sd);
 }
 
 // Of what cannot be negative.

@@ -6,13 +6,12 @@
 // next strike of the same foot). If an end of the motion cuts a contact, the numbers that cannot be
 // computed are NaN.
 //
-// Bands come from an ensemble of motions that are as likely for the tracker (a few particles of
-// every frame). The same numbers are computed for each of them. The band of a contact contains the
-// value and the 5 and 95 % quantiles of the members that have the same contact; the band of a
-// summary comes from the differences between the members and the motion over the contacts that both
-// have. It is NaN if fewer than half of the members, or fewer than five, have the number. The band
-// is the uncertainty of the tracker, without the difference between its model and the person;
-// metrics/gait_error.h adds that.
+// Bands come from an ensemble of motions that are as likely for the tracker (samples of its
+// posterior distribution). The same numbers are computed for each of them. The band of a contact
+// contains the value and the 5 and 95 % quantiles of the members that have the same contact; the
+// band of a summary comes from the differences between the members and the motion over the contacts
+// that both have. It is NaN if fewer than half of the members, or fewer than five, have the number.
+// metrics/gait_error.h adds the errors that all members share.
 //
 // Numbers that need more steps are NaN, too: a symmetry needs two contacts of each side, a spread
 // from step to step needs three steps.

@@ -125,7 +125,7 @@ std::string reliability(const std::vector<ErrorSeries>& all, double top) {
   std::string out = error_grid(held, "truth inside the interval, %");
   for (int percent = 0; percent <= 100; percent += 20)
     out += svg_text(stated(percent), top + kPanel + 16, "middle", fmt::format("{}", percent));
-  out += svg_text(stated(100) + 16, top + kPanel + 16, "start", "% that the interval should hold");
+  out += svg_text(stated(50), top + kPanel + 34, "middle", "stated, %");
   const auto line = [&](double to, double height, const std::string& path,
                         std::string_view stroke) {
     return fmt::format(

@@ -74,10 +74,10 @@ constexpr std::array kNotes{
     "toe is furthest behind the pelvis (after Zeni et al. 2008).",
     "support_transfer: when the walker model's weight changed onto this foot. The model has no "
     "double support, so it comes between the strike and the other foot's toe-off.",
-    "p05, p95: between these lie 90 % of the tracker's particles at the same contacts, and the "
-    "value. They say how certain the tracker is, given its model. Empty: too few particles or "
-    "steps "
-    "know.",
+    "p05, p95: the interval that should contain the truth in 90 % of the cases, from sample "
+    "motions "
+    "of the tracker and errors that all samples share. Empty: too few samples or steps have the "
+    "number.",
     "step: from the other foot's contact to this one, along and across the direction of walking, "
     "where both heel strikes were seen; stride: to the next contact of the same foot. symmetry: "
     "100 (left - right) / mean of both.",

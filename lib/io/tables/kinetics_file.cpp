@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/conventions.h"
 #include "io/tables/csv.h"
 
 namespace walktrack {
@@ -19,7 +20,6 @@ using Eigen::Vector3d;
 using Json = nlohmann::ordered_json;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kBandSd = 1.6449;  // standard deviations from the mean to the 95th percentile
 
 std::vector<std::string> column_names() {
   std::vector<std::string> out;
@@ -131,7 +131,8 @@ double KineticsBands::half_width(size_t row, size_t column, const KineticsFrame&
   if (row >= rows_.size() || rows_[row].members == 0) return kNone;
   const Sum& sum = rows_[row].columns[column];
   if (sum.count < 2 || 2 * sum.count < rows_[row].members) return kNone;
-  return kBandSd * std::hypot(std::sqrt(sum.squares / (sum.count - 1)), model_error(column, frame));
+  return kBandQuantile *
+         std::hypot(std::sqrt(sum.squares / (sum.count - 1)), model_error(column, frame));
 }
 
 std::string kinetics_csv(const Kinetics& kinetics, const KineticsBands& bands,

@@ -1,5 +1,5 @@
-// What a weighted set of particles says about one frame: joints with their spread, the mean pose,
-// and which foot stands. Positions in metres in world axes.
+// The estimate of one frame by weighted particles: joints with their spread, the mean pose, and the
+// supporting foot. Positions in metres in world axes.
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@ struct FrameEstimate {
 FrameEstimate estimate_frame(const BodyModel& model, std::span<const WalkerParticle> particles,
                              std::span<const double> weights, double dt, int threads);
 
-// Bands go with what they are about: moves those of `to`, which are still those of `from`, by what
-// joints and pose have been moved.
+// Moves the bands of `to`, which are still those of `from`, by the displacement of its joints and
+// its pose.
 void shift_bands(const FrameEstimate& from, FrameEstimate& to);
 
 // Mean, standard deviation and weighted 5 % and 95 % quantiles of `values`.

@@ -1,6 +1,6 @@
-// What a frame's images say of a pose by themselves, as a normal distribution near the most
-// probable pose (tracker/smooth/refinement.h): the trajectory of a whole video is made of it
-// (tracker/smooth/trajectory.h).
+// The information that the images of one frame have about the pose, as a normal distribution near
+// the most probable pose (tracker/smooth/refinement.h). The trajectory of the whole video is
+// estimated from it (tracker/smooth/trajectory.h).
 #pragma once
 
 #include <vector>
@@ -13,13 +13,13 @@ namespace walktrack {
 inline namespace tracker {
 
 struct ImageInformation {
-  Pose walker;  // the particles' mean: what the walker says
-  // The most probable pose of the frame: there the slope of the images' log-likelihood is that
-  // which the walker's word takes away, (pose - walker) / spread^2 for every free number.
+  Pose walker;  // the particles' mean, which is the walker's prior
+  // The most probable pose of the frame. There the gradient of the images' log-likelihood and that
+  // of the walker's prior cancel: it is (pose - walker) / spread^2 for every free number.
   Pose pose;
   // Minus the second derivatives of that log-likelihood, without its convex part, over all of
-  // kPoseNumbers, zero for those that are not free: the lower triangle, row by row. Empty: the
-  // frame's images were not asked, or say nothing.
+  // kPoseNumbers, zero for those that are not free: the lower triangle, row by row. Empty if the
+  // frame's images were not evaluated or give no evidence.
   std::vector<double> information;
 };
 

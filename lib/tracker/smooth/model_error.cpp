@@ -79,7 +79,7 @@ double angle_error(size_t angle) {
 }
 
 void widen(double sd, Spread& spread) {
-  // A few strays may have pulled the mean out of its own band.
+  // A few outliers may have pulled the mean out of its own band.
   const double low = std::max(0.0, spread.mean - spread.p05);
   const double high = std::max(0.0, spread.p95 - spread.mean);
   spread.sd = std::hypot(spread.sd, sd);

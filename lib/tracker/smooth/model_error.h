@@ -1,11 +1,11 @@
-// What images, walker and ground leave out: no pose of our body is quite the subject's.
+// The error of the model: no pose of the tracker's body is exactly the subject's.
 //
-// All draws of a trajectory agree on the pose of our body that explains the images best. Clothes,
-// proportions and the parts' shapes move that best pose off the truth, and no number of particles
-// shows it. It is added here, as independent normal errors: of the figure as a whole, and of each
-// joint and angle by itself. A share of every variance lasts for the whole video (a thigh is too
-// long, a definition differs), the rest passes, as a process with the correlation (1 + r) exp(-r),
-// r = time / kPassingTime (Matern, smoothness 3/2).
+// All draws of a trajectory agree on the pose of this body that explains the images best. Clothes,
+// proportions and shapes of the subject displace that pose from the truth, which no number of
+// particles shows. This error is added here, as independent normal errors: of the figure as a
+// whole, and of each joint and angle by itself. A share of every variance lasts for the whole video
+// (a thigh is too long, a definition differs), the rest passes, as a process with the correlation
+// (1 + r) exp(-r), r = time / kPassingTime (Matern, smoothness 3/2).
 //
 // The figure as a whole: its upper and lower end k are each displaced by an error e_k of standard
 // deviation e = kFigureError in every direction, in the body and thus for all cameras c alike. The
@@ -13,9 +13,10 @@
 //   M^-1 sum over k of M_k e_k,   M_k = sum over c of J_ck' J_ck,   M = sum over k of M_k,
 // with J_ck = d pixel / d point of that end, in metres, has the covariance e^2 M^-1 (sum M_k^2)
 // M^-1. One camera at distance D knows the distance to about e D / (height / sqrt(2)) and the rest
-// to e / sqrt(2): all comes from where the cameras stand. Several cameras know everything to the
-// latter. The sizes were measured on people with truth that are no part of any reported figure;
-// tracker/reports/bands.md says how, and what share of the truth bands hold.
+// to e / sqrt(2): all of it follows from the places of the cameras. With several cameras all
+// directions are known to e / sqrt(2). The sizes were measured on people with truth that are no
+// part of any reported figure; tracker/reports/bands.md says how, and what share of the truth bands
+// hold.
 #pragma once
 
 #include <array>
@@ -28,9 +29,6 @@
 
 namespace walktrack {
 inline namespace tracker {
-
-// Bands reach from 5 to 95 %: so many standard deviations of the normal distribution to each side.
-inline constexpr double kBandQuantile = 1.645;
 
 // Covariance of the figure's place, m^2, for a person whose ends are at `head` and `feet`.
 Eigen::Matrix3d figure_covariance(std::span<const Camera> cameras, const Eigen::Vector3d& head,

@@ -1,11 +1,11 @@
-// What is reported of a frame, from draws of its trajectory (trajectory.h): pose and joints, their
-// bands, and sample motions from which the bands of gait and forces come.
+// The reported values of a frame from draws of its trajectory (trajectory.h): pose and joints,
+// their bands, and samples, from which the bands of gait and forces come.
 //
 // The distribution of a joint or an angle is normal: about the reported value, with the variance
-// of the draws, which is what images, walker and ground leave open, and with that of the model's
-// error (model_error.h). If left and right may be swapped with a probability, the distribution is a
-// mixture of two: that of this leg, and that of the other one. A sample is a draw of the trajectory
-// with a draw of the model's error, and has its legs swapped as often as they may be.
+// of the draws, which is the uncertainty after images, walker and ground, plus that of the model's
+// error (model_error.h). If left and right are swapped with some probability, the distribution is a
+// mixture of two: that of this leg and that of the other one. A sample is a draw of the trajectory
+// with a draw of the model's error; its legs are swapped with that probability.
 //
 // Metres, radians, world axes.
 #pragma once

@@ -1,11 +1,11 @@
-// A frame's pose in its own right: the most probable one near what the particles say.
+// The most probable pose of a frame, near the particles' mean.
 //
-// Particles are walkers, and people's poses stray from walkers' further than some hundred particles
-// can follow in sixteen numbers at once. So the pose that is reported is let free of the walker:
-// every number of it is normal about the particles' mean, as far as people may stray (sizes in
-// refinement.cpp, set by hand), and the frame's silhouettes decide (filter/map_estimate.h). Where
-// they say nothing, as while legs are hidden, the walker's word stands. The particles themselves
-// are left alone: what tells left from right, and what comes next, is theirs.
+// Particles are walkers, and the poses of people differ from those of walkers in sixteen numbers at
+// once, by more than some hundred particles can follow. The reported pose is therefore not bound to
+// the walker: every number of it has a normal prior about the particles' mean, with the deviations
+// of people (PoseNumber::spread), and the silhouettes of the frame decide (filter/map_estimate.h).
+// Where they give no evidence, as while legs are hidden, the prior remains. The particles are not
+// changed: they distinguish left from right and predict the next frame.
 //
 // tracker/reports/reported_pose.md says what it gains, and what else was tried.
 #pragma once

@@ -182,7 +182,7 @@ class Trajectory {
     for (Index k = 0; k < numbers(); ++k) sum.add(at(t) + k, at(t) + k, kFixed);
   }
 
-  // A frame whose images say nothing counts as known to what people stray from walkers by.
+  // A frame whose images give no evidence counts as known to the deviations of people from walkers.
   void add_images(size_t t, NormalEquations& sum) const {
     const ImageInformation& images = records_[t].images;
     const bool asked = !images.information.empty();

@@ -1,15 +1,17 @@
-// The poses of a whole track, most probable together: what is reported of it.
+// The most probable trajectory: the poses of all frames of a track, estimated together.
 //
-// Over poses x_t, and a place p on the ground for each stretch in which a sole lies flat, least is
-//   sum_t     k [ 1/2 d' H_t d - d' (x*_t - m_t) / s^2 ],  d = x_t - x*_t      what images say
+// Over poses x_t, and a place p on the ground for each period in which a sole lies flat, it
+// minimises
+//   sum_t     k [ 1/2 d' H_t d - d' (x*_t - m_t) / s^2 ],  d = x_t - x*_t      the images
 //   (image_information.h)
-//   + 1/2 sum_t    w_t |(x_t - m_t) / s|^2                                     what the walker says
-//   + 1/2 sum_t    |x_(t-1) - 2 x_t + x_(t+1)|^2 / v                           how people
-//   accelerate
-//   + 1/2 sum_flat |(f(x_t) - p) / c|^2 + h_t |(heights(x_t) - flat) / b|^2    a flat sole stays
+//   + 1/2 sum_t    w_t |(x_t - m_t) / s|^2                                     the walker
+//   + 1/2 sum_t    |x_(t-1) - 2 x_t + x_(t+1)|^2 / v                           people's
+//   accelerations
+//   + 1/2 sum_flat |(f(x_t) - p) / c|^2 + h_t |(heights(x_t) - flat) / b|^2    flat soles do not
+//   move
 //   + 1/2 sum_t    max(0, -toe height)^2 / c^2                                 no toe in the ground
 // k = 1, or less where frames follow each other in less than 1/30 s; m_t the particles' mean, s
-// what people's poses stray from a walker's by, v = 4/3 a^2 tau dt^3 of accelerations of a,
+// the deviations of people's poses from a walker's, v = 4/3 a^2 tau dt^3 of accelerations of a,
 // correlated for tau; f the middle of the foot over the ground. Gauss and Newton's steps, by one
 // sparse factorisation each: the trajectory of space-time constraints (Witkin & Kass, SIGGRAPH
 // 1988), with images in place of an objective, and as a Kalman smoother the linear part of it
@@ -32,17 +34,17 @@ namespace walktrack {
 inline namespace tracker {
 
 struct SmoothingConfig {
-  bool enabled = true;  // frames are seen together
-  bool plant = true;    // feet that stand, stay where they stand
+  bool enabled = true;  // all frames are estimated together
+  bool plant = true;    // supporting feet do not move
 };
 
-// A foot that travels further than this in a stretch does not stand: it was taken for the other
-// one, or follows nothing. Such stretches are to be left out. By hand.
+// A foot that moves further than this in a period does not stand: the legs were swapped or lost
+// there. Such periods have to be left out. By hand.
 inline constexpr double kTooFarToStand = 0.4;  // m
 
 using Poses = std::vector<Pose>;
 
-// Frames that are all tracked, `dt` s apart, and the stretches of flat soles among them. The poses
+// Frames that are all tracked, `dt` s apart, and the periods of flat soles among them. The poses
 // of the first `settled` frames are taken as they are reported, as are those of their draws.
 struct TrajectoryFrames {
   double dt;

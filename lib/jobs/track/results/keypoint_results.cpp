@@ -20,7 +20,7 @@ Eigen::Vector2d picture_px(const Eigen::Vector2d& shrunk_px, int shrink) {
   return (shrunk_px.array() + 0.5) * shrink - 0.5;
 }
 
-cv::Scalar colour_of(size_t point) {
+ImageColour colour_of(size_t point) {
   if (point == 0) return trunk_colour();
   return point < mirrored(point) ? left_colour() : right_colour();
 }
@@ -90,7 +90,7 @@ std::vector<std::pair<std::string, double>> keypoint_numbers(
 }
 
 void draw_keypoints(const KeypointEvidence& seen, int shrink, const OverlayView& view,
-                    cv::Mat& image) {
+                    Image& image) {
   const double arm_px = 3.0 * line_thickness(image);
   for (const KeypointEvidence::Person& person : seen.people)
     for (size_t i = 0; i < kBodyPoints; ++i)

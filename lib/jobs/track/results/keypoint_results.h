@@ -1,13 +1,11 @@
-// What a track says of the keypoints that were used: how far they lie from the reported poses, how
-// often their legs' names were swapped, and where they are in the pictures.
+// Results about the keypoints that were used: their distances from the reported poses, how often
+// their labels of the legs were swapped, and crosses where they are in the images.
 #pragma once
 
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <opencv2/core/mat.hpp>
 
 #include "body/body.h"
 #include "io/config/config.h"
@@ -20,7 +18,7 @@ namespace walktrack {
 inline namespace jobs {
 
 // The median distance of a frame's points from a pose, px of the picture as recorded: of the person
-// whom the pose fits best, by names as they were given; NaN where nobody was seen.
+// whom the pose fits best, with the labels as given; NaN if nobody was detected.
 double keypoint_residual(const KeypointEvidence& seen, const Camera& camera, int shrink,
                          const Body& body, const Pose& pose);
 
@@ -34,14 +32,14 @@ KeypointUse total_use(std::span<const KeypointTerm::State> cameras);
 // For run.json: keypoint_frames (frames and cameras with people in them), keypoint_used_share (in
 // which one was the subject), keypoint_flip_share (of those, with the legs' names swapped),
 // keypoint_scale (what was learnt of a hip's, knee's or ankle's error: share of the person's
-// height). Nothing where no keypoints were used.
+// height). Empty if no keypoints were used.
 std::vector<std::pair<std::string, double>> keypoint_numbers(
     std::span<const KeypointTerm::State> cameras);
 
 // Thin crosses where points were seen, of all people, in a view of the camera's picture; `seen` is
 // of that picture shrunk by `shrink`.
 void draw_keypoints(const KeypointEvidence& seen, int shrink, const OverlayView& view,
-                    cv::Mat& image);
+                    Image& image);
 
 }  // namespace jobs
 }  // namespace walktrack

@@ -26,7 +26,7 @@ struct AnalysedMotion {
   Subject subject;
   Eigen::Vector3d gravity{0, 0, -9.80665};  // m/s^2
   WorldFrame world;                         // of the tables
-  FigureError figure_error;  // with model_error: what gait's bands hold beyond the members
+  FigureError figure_error;  // with model_error: the errors of gait beyond the members
   double model_error = 0;
 };
 

@@ -21,7 +21,8 @@ TrackedFrames named(const TrackedFrames& frames, const Body& body,
     seen.push_back({record.tracked, record.names, record.modes.p_legs_swapped});
   const std::vector<double> swapped = swapped_probabilities(seen, 1 / frames.frame_rate);
   TrackedFrames out{frames.frame_rate, FrameFile(file)};
-  std::filesystem::remove(file);  // what is open can still be read, and leaves nothing behind
+  std::filesystem::remove(
+      file);  // an open file can still be read, and is deleted when it is closed
   auto probability = swapped.begin();
   for (FrameRecord record : frames.records) {
     const double p = *probability++;

@@ -1,4 +1,4 @@
-// The legs' names of a track, judged by its whole video (tracker/smooth/leg_labels.h).
+// The labels of the legs of a track, decided by its whole video (tracker/smooth/leg_labels.h).
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@
 namespace walktrack {
 inline namespace jobs {
 
-// Whether any frame says anything of the names.
+// Whether any frame has evidence about the labels.
 bool says_names(const TrackedFrames& frames);
 
 // The frames with the legs swapped where that is likelier than not, and with the probability that
-// they are swapped all the same; in a file that leaves nothing behind.
+// they are swapped nevertheless; in a file that is deleted when it is closed.
 TrackedFrames named(const TrackedFrames& frames, const Body& body,
                     const std::filesystem::path& file);
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <opencv2/core/mat.hpp>
 
 #include "core/parallel_for.h"
 #include "io/drawing/overlay.h"
@@ -25,9 +24,9 @@ constexpr double kSpreadOpacity = 0.35;
 struct CameraVideo {
   const Camera& camera;
   int shrink;                      // of the images that detections are of
-  std::vector<OverlayView> views;  // one, or one a frame
+  std::vector<OverlayView> views;  // one, or one for each frame
   VideoWriter writer;
-  cv::Mat now, next;  // pictures of the view: drawn into, and read meanwhile
+  Image now, next;  // pictures of the view: drawn into, and read meanwhile
 
   const OverlayView& view(size_t frame) const { return views[std::min(frame, views.size() - 1)]; }
 };
@@ -59,7 +58,7 @@ std::vector<CameraVideo> opened(const TrackJob& job, const TrackedFrames& frames
 // this very picture.
 void draw_record(const FrameRecord& record, size_t camera, const OverlayView& view, bool arms,
                  double time, bool fresh, CameraVideo& video) {
-  cv::Mat& image = video.now;
+  Image& image = video.now;
   const Camera seen = camera_of(view, video.camera);
   if (fresh && !record.keypoints.empty())
     draw_keypoints(record.keypoints[camera], video.shrink, view, image);

@@ -15,8 +15,9 @@ inline namespace jobs {
 
 namespace {
 
-// Frames that are settled at a time, those after them that have a word in it, and those before them
-// that it begins with: a contact lasts for less, and accelerations forget sooner. By hand.
+// Frames that are settled at a time, frames after them that are estimated with them, and settled
+// frames before them with which a piece begins: contacts and the correlation of accelerations are
+// shorter. By hand.
 constexpr size_t kSettled = 512, kAhead = 64, kBefore = 64;
 
 struct Piece {
@@ -140,7 +141,8 @@ TrackedFrames seen_together(const TrackedFrames& frames, const BodyModel& model,
                             std::span<const FlatFoot> flat, const BandScene* bands,
                             const std::filesystem::path& file) {
   TrackedFrames out{frames.frame_rate, FrameFile(file)};
-  std::filesystem::remove(file);  // what is open can still be read, and leaves nothing behind
+  std::filesystem::remove(
+      file);  // an open file can still be read, and is deleted when it is closed
   const size_t count = frames.records.size();
   std::vector<char> tracked;
   for (const FrameRecord& record : frames.records) tracked.push_back(record.tracked);

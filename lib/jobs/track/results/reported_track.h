@@ -1,6 +1,6 @@
-// What was tracked as it is reported: the legs named by the whole video, frames seen together, feet
-// that stand in place. Each is a file of the result folder, which the folder does not show, until
-// the result is complete.
+// The track as it is reported: with the labels of the legs decided by the whole video, all frames
+// estimated together, and supporting feet that do not move. Each of these is a hidden file of the
+// result folder until the result is complete.
 #pragma once
 
 #include <optional>
@@ -15,14 +15,14 @@ inline namespace jobs {
 // The frames with their most probable poses together (tracker/smooth/trajectory.h), `flat` soles
 // in place, and with bands and samples of a scene, if one is given (tracker/smooth/posterior.h).
 // Long tracks are taken in pieces that begin with what has been settled, so that memory does not
-// grow with the video. The records lie in a file of that name, which the folder does not show any
-// more.
+// grow with the video. The records lie in a file of that name, which is deleted
+// when it is closed.
 TrackedFrames seen_together(const TrackedFrames& frames, const BodyModel& model,
                             std::span<const FlatFoot> flat, const BandScene* bands,
                             const std::filesystem::path& file);
 
-// Where soles lie flat: by the track's own gait, if the feet do not travel, and both of somebody
-// who stands.
+// The periods in which soles lie flat: by the gait of the track, if the feet do not move, and both
+// soles of a subject who stands.
 std::vector<FlatFoot> standing_feet(const TrackedFrames& frames);
 
 class ReportedTrack {

@@ -66,7 +66,7 @@ FigureError figure_error_of(const Motion& motion, const Scene& scene) {
   return out;
 }
 
-// Whether the walker's support says anything: who stands does so on both feet.
+// Whether the walker's supporting side has a meaning: a subject who stands does so on both feet.
 bool walks(const FrameRecord& record) { return record.tracked && record.modes.standing < 0.5; }
 
 }  // namespace

@@ -22,9 +22,7 @@ struct TrackedFrames {
 
 Motion motion_of(const TrackedFrames& frames);
 JointUncertainty uncertainty_of(const TrackedFrames& frames);
-// Motions that the particles hold for possible: one of each place in the order in which resampling
-// keeps families of particles together, so that a member is mostly one family's history.
-// Members are read from the frames when they are asked for.
+// The sample motions of the track. Members are read from the frames when they are requested.
 Ensemble ensemble_of(const TrackedFrames& frames);
 // When the walkers' weight changed onto a foot.
 std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames);
@@ -32,8 +30,8 @@ std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames);
 // The result folder of a track: what is read, and every file that may be written.
 Outputs track_outputs(const TrackJob& job);
 
-// The scene with what was found out about its subject; weights that it does not give go with the
-// square of the height.
+// The scene with the estimated height of its subject; a mass that it does not state is in
+// proportion to the square of the height.
 Scene with_stature(const Scene& scene, const std::optional<Stature>& stature);
 
 struct WrittenTables {
@@ -41,12 +39,12 @@ struct WrittenTables {
   KineticsTotals totals;
   WalkSummary walk;
 };
-// `model_error` multiplies what gait's bands hold beyond the particles' spread.
+// `model_error`: factor on the errors that gait's bands have beyond the samples.
 AnalysedMotion analysed_motion(const TrackedFrames& frames, const Scene& scene, double model_error);
 WrittenTables write_tables(const AnalysedMotion& analysed, const JointUncertainty& uncertainty,
                            const KineticsConfig& config, const ResultFolder& folder);
 
-// Feet that took over from each other: how often the likelier stance side changed while walking.
+// How often the likelier supporting side changed while walking.
 int foot_changes(const TrackedFrames& frames);
 
 }  // namespace jobs
