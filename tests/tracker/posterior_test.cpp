@@ -90,7 +90,7 @@ TEST(Posterior, TheModelsErrorIsInBandsAndSamples) {
 TEST(Posterior, SwappedLegsAreInBandsAndSamples) {
   Frame certain, doubtful;
   doubtful.record.samples.resize(200);
-  doubtful.record.modes.p_legs_swapped = 0.3;
+  doubtful.record.modes.p_legs_swapped = 0.5625;  // a third of its odds are those of 0.3
   const FrameEstimate& sure = certain.report(0);
   const FrameEstimate& unsure = doubtful.report(0);
   const auto left = static_cast<size_t>(Joint::kLeftAnkle);

@@ -43,7 +43,8 @@ class Posterior {
               FrameRecord& record);
 
  private:
-  void report_samples(std::span<const JointPositions> draws, double dt, FrameRecord& record);
+  void report_samples(std::span<const JointPositions> draws, double swapped, double dt,
+                      FrameRecord& record);
 
   BodyModel model_;
   BandScene scene_;
