@@ -1,6 +1,7 @@
 #include "tracker/smooth/posterior.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -30,6 +31,33 @@ double calibrated(double p_swapped) {
 Spread normal_spread(double mean, double sd) {
   return {mean, sd, mean - kBandQuantile * sd, mean + kBandQuantile * sd};
 }
+
+// Sums of the squared differences of draws from what is reported.
+struct Squares {
+  std::array<Eigen::Vector3d, kJointCount> joints;
+  JointAngles angles{};
+
+  Squares() { joints.fill(Eigen::Vector3d::Zero()); }
+  void add(const JointPositions& reported, const JointPositions& drawn) {
+    for (size_t j = 0; j < kJointCount; ++j)
+      joints[j] += (drawn.at[j] - reported.at[j]).cwiseAbs2();
+  }
+  void add(const JointAngles& reported, const JointAngles& drawn) {
+    for (size_t k = 0; k < kJointAngleCount; ++k)
+      angles[k] += std::pow(std::remainder(drawn[k] - reported[k], 2 * kPi), 2);
+  }
+  // The normal distributions about the joints and the pose of `estimate`.
+  void spread(size_t draws, FrameEstimate& estimate) const {
+    const double count = static_cast<double>(draws);
+    for (size_t j = 0; j < estimate.joint_count; ++j)
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        estimate.spread[j][static_cast<size_t>(axis)] =
+            normal_spread(estimate.joints.at[j][axis], std::sqrt(joints[j][axis] / count));
+    const JointAngles middle = joint_angles(estimate.pose);
+    for (size_t k = 0; k < kJointAngleCount; ++k)
+      estimate.angles[k] = normal_spread(middle[k], std::sqrt(angles[k] / count));
+  }
+};
 
 double cumulative(const Normal& normal, double x) {
   if (normal.sd == 0) return x < normal.mean ? 0 : 1;
@@ -85,31 +113,15 @@ void Posterior::report(const Pose& pose, std::span<const Pose> draws, double vel
   estimate.pose = pose;
   estimate.speed = velocity;
   const JointPositions joints = forward_kinematics(model_.body, pose).joints;
-  const JointAngles angles = joint_angles(pose);
-  std::array<Eigen::Vector3d, kJointCount> joint_squares;
-  joint_squares.fill(Eigen::Vector3d::Zero());
-  JointAngles angle_squares{};
+  for (size_t j = 0; j < estimate.joint_count; ++j) estimate.joints.at[j] = joints.at[j];
+  Squares squares;
   std::vector<JointPositions> drawn;
   for (const Pose& draw : draws) {
     drawn.push_back(forward_kinematics(model_.body, draw).joints);
-    for (size_t j = 0; j < estimate.joint_count; ++j)
-      joint_squares[j] += (drawn.back().at[j] - joints.at[j]).cwiseAbs2();
-    const JointAngles now = joint_angles(draw);
-    for (size_t k = 0; k < kJointAngleCount; ++k)
-      angle_squares[k] += std::pow(std::remainder(now[k] - angles[k], 2 * kPi), 2);
+    squares.add(joints, drawn.back());
+    squares.add(joint_angles(pose), joint_angles(draw));
   }
-  const auto deviation = [&](double squares) {
-    return std::sqrt(squares / static_cast<double>(draws.size()));
-  };
-  for (size_t j = 0; j < estimate.joint_count; ++j) {
-    estimate.joints.at[j] = joints.at[j];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<Eigen::Index>(axis);
-      estimate.spread[j][axis] = normal_spread(joints.at[j][a], deviation(joint_squares[j][a]));
-    }
-  }
-  for (size_t k = 0; k < kJointAngleCount; ++k)
-    estimate.angles[k] = normal_spread(angles[k], deviation(angle_squares[k]));
+  squares.spread(draws.size(), estimate);
   add_model_error(scene_.cameras, scene_.model_error, estimate);
   const double swapped = calibrated(record.modes.p_legs_swapped);
   report_samples(drawn, swapped, dt, record);
