@@ -233,7 +233,7 @@ TEST_F(MotionTables, BandsHoldTheModelsErrorOfLoads) {
     return 0.5 * (table.number(row, table.column(name + "_p95")) -
                   table.number(row, table.column(name + "_p05")));
   };
-  const double expected = 1.6449 * kTrackedLoadError * demo.subject.mass * 9.80665;
+  const double expected = 1.645 * kTrackedLoadError * demo.subject.mass * 9.80665;
   size_t loaded = 0, swinging = 0;
   for (const CsvTable::Row& row : table.rows) {
     const bool stands = table.number(row, table.column("l_grf_z_n")) > 0;
