@@ -14,6 +14,7 @@ int run_config(const Arguments& arguments);
 int run_cycle(const Arguments& arguments);
 int run_evaluate(const Arguments& arguments);
 int run_init(const Arguments& arguments);
+int run_optimise(const Arguments& arguments);
 int run_plan(const Arguments& arguments);
 int run_prior(const Arguments& arguments);
 int run_render(const Arguments& arguments);

@@ -31,6 +31,8 @@ constexpr std::array kCommands{
     Command{"cycle", "find a limit cycle of a walker and compute its properties", run_cycle},
     Command{"evaluate", "measure estimates against a truth", run_evaluate},
     Command{"init", "make a scene from a video and the subject's height", run_init},
+    Command{"optimise", "make another tool's track fit the video, the floor and physics",
+            run_optimise},
     Command{"plan", "say what tracking would model, why, and what it costs", run_plan},
     Command{"prior", "build or show the table of gaits", run_prior},
     Command{"render", "render a motion as a synthetic video with its truth", run_render},

@@ -9,7 +9,7 @@
 #include "core/errors.h"
 #include "io/archive/files.h"
 #include "io/video/scene_video.h"
-#include "jobs/check/check.h"
+#include "jobs/track/checked_job.h"
 #include "jobs/track/report/quality_words.h"
 #include "jobs/track/report/report.h"
 #include "jobs/track/report/track_quality.h"
@@ -41,19 +41,6 @@ TrackStatus judge(TrackRun& run, const Quality& quality, const SceneVideo& video
   return trouble.empty() ? TrackStatus::kTracked : TrackStatus::kQualityFailed;
 }
 
-// Without any term the result would only show the gait prior.
-void require_a_term(const ObservationConfig& observation) {
-  const std::vector<TermSwitch> switches = term_switches();
-  std::vector<std::string_view> names;
-  for (const TermSwitch& each : switches) {
-    if (each.on(observation)) return;
-    names.push_back(each.key);
-  }
-  throw UsageError(
-      describe({"", 0, "observation"}, "no term that is enabled",
-               fmt::format("one or more of {} with enabled: true", fmt::join(names, ", "))));
-}
-
 // The reason why a valid checkpoint cannot be used for this job; "" if it can.
 std::string trouble_with(const Checkpoint& checkpoint, const TrackJob& job) {
   const fs::path file = job.output / kCheckpointFile;
@@ -76,34 +63,6 @@ void see_to_earlier_result(const TrackJob& job, const Origin& origin, const JobC
     control.say(
         fmt::format("{}: made again, because it was made with other settings or inputs ({})",
                     job.output.string(), changed));
-}
-
-struct LookedAt {
-  std::vector<std::string> notes;
-  std::optional<FoundLag> lag;
-};
-
-// Reports and returns the findings of the scene's checks. Throws InputError for the first failure,
-// with advice, unless failures are ignored.
-LookedAt looked_at(const TrackJob& job, const JobControl& control) {
-  const CheckReport report = look_at_scene(job.scene, control);
-  LookedAt out{{}, report.lag};
-  std::vector<std::string>& notes = out.notes;
-  std::string failure;
-  int more = -1;
-  for (const Finding& finding : report.findings) {
-    if (finding.failure && failure.empty()) failure = finding_line(finding);
-    if (finding.failure) ++more;
-    notes.push_back((finding.failure ? "a failed check was ignored: " : "") +
-                    finding_line(finding));
-  }
-  if (!failure.empty() && !job.ignore_checks) {
-    throw InputError(fmt::format(
-        "{}: {}{} (--ignore-checks tracks it as it is)", job.scene.file.string(), failure,
-        more > 0 ? fmt::format("; and {} more, see walktrack check", more) : std::string()));
-  }
-  for (const std::string& note : notes) control.say(note);
-  return out;
 }
 
 // The checkpoint to resume from, if that is wanted and there is a valid one.
@@ -142,21 +101,6 @@ bool follow_video(TrackRun& run, const SceneVideo& video, const JobControl& cont
   outcome.frames = run.frames_read();
   outcome.stride_frames_per_second = run.stride_frames_per_second();
   return stopped;
-}
-
-// The job after the decisions that precede tracking: terms that are `auto`, and the lags of the
-// cameras. Returns the time that this took as well; the findings are stored in the outcome.
-std::pair<TrackJob, Elapsed> checked_job(const TrackJob& given, const JobControl& control,
-                                         TrackOutcome& outcome) {
-  const TimePoint start;
-  TrackJob job = given;
-  job.config.values.observation = decided_terms(job.scene, job.config.values);
-  require_a_term(job.config.values.observation);
-  LookedAt looked = looked_at(job, control);
-  outcome.checks = std::move(looked.notes);
-  outcome.lag = looked.lag;
-  if (looked.lag) job.scene.cameras[looked.lag->camera].start_frame = looked.lag->frames;
-  return {std::move(job), elapsed_since(start)};
 }
 
 Quality measured_quality(const TrackJob& job, const Scene& scene, const TrackRun& run,
@@ -219,7 +163,10 @@ void report_missing_network(const TrackJob& given, const JobControl& control,
 TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const TimePoint start;
   TrackOutcome outcome;
-  const auto [job, checking] = checked_job(given, control, outcome);
+  const auto [job, findings, lag] = checked_job(given, control);
+  outcome.checks = findings;
+  outcome.lag = lag;
+  const Elapsed checking = elapsed_since(start);
   SceneVideo video(job.scene);
   require_room_for_search(job.scene, job.config.values, video.frame_rate());
   const Outputs outputs = track_outputs(job);

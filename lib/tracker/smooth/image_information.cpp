@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include <Eigen/Cholesky>
+
 namespace walktrack {
 inline namespace tracker {
 
@@ -53,6 +55,25 @@ Eigen::MatrixXd unpacked(const FreeNumbers& free, const ImageInformation& images
       out(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
           images.information[place(free[a], free[b])];
   return out;
+}
+
+// The gradient of the sum and that of the walker's prior P cancel at the new pose: with images H
+// about x and the evidence G about y, (H + P + G) d = G (y - x) from x.
+void add_information(const FreeNumbers& free, const Pose& pose, const Eigen::MatrixXd& information,
+                     ImageInformation& images) {
+  if (images.information.empty()) {
+    images.pose = pose;
+    images.walker = pose;
+    images.information = packed(free, information);
+    return;
+  }
+  const Eigen::MatrixXd sum = unpacked(free, images) + information;
+  const Eigen::VectorXd precision = spreads_of(free).cwiseInverse().cwiseAbs2();
+  const Eigen::MatrixXd posterior = sum + Eigen::MatrixXd(precision.asDiagonal());
+  const Eigen::VectorXd step =
+      posterior.llt().solve(information * difference(free, images.pose, pose));
+  images.pose = with_values(free, images.pose, values_of(free, images.pose) + step);
+  images.information = packed(free, sum);
 }
 
 void mirror_information(ImageInformation& images) {

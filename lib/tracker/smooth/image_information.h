@@ -28,6 +28,10 @@ std::vector<double> packed(const FreeNumbers& free, const Eigen::MatrixXd& infor
 // Its inverse.
 Eigen::MatrixXd unpacked(const FreeNumbers& free, const ImageInformation& images);
 
+// Adds other evidence about the pose: a normal distribution about `pose` with that information.
+void add_information(const FreeNumbers& free, const Pose& pose, const Eigen::MatrixXd& information,
+                     ImageInformation& images);
+
 // The same of the pose with its legs swapped (tracker/moves/mirror_legs.h); the poses are mirrored
 // already.
 void mirror_information(ImageInformation& images);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "io/archive/run_record.h"
+#include "jobs/track/report/track_quality.h"
 #include "jobs/track/results/track_results.h"
 #include "jobs/track/stopwatch.h"
 #include "jobs/track/track.h"

@@ -12,6 +12,7 @@
 #include "io/drawing/overlay_view.h"
 #include "io/scene/scene.h"
 #include "jobs/track/results/track_results.h"
+#include "observation/image.h"
 #include "observation/keypoints/keypoint_term.h"
 
 namespace walktrack {

@@ -1,0 +1,75 @@
+// walktrack optimise: makes another tool's track fit the video, the floor and physics.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "core/errors.h"
+#include "io/scene/scene.h"
+#include "jobs/optimise/optimise.h"
+#include "terminal.h"
+
+namespace walktrack {
+
+namespace po = boost::program_options;
+
+int run_optimise(const Arguments& arguments) {
+  std::string motion, scene;
+  double height = 0, mass = 0, joint_sd_mm = 20;
+  bool no_overlay = false, ignore_checks = false;
+  CommandLine line(
+      {.name = "optimise",
+       .operands = "MOTION [SCENE.yaml]",
+       .about = "Makes the track of another tool plausible: MOTION (joints.csv, .trc, .c3d, or a "
+                "result folder)\nbecomes the motion of a body of constant lengths whose standing "
+                "feet do not slide and do not\nsink in, and, with SCENE.yaml, that fits the videos "
+                "of the scene, which begin at the motion's\ntime 0. Writes the files of 'track' "
+                "into the folder --output, and prints what has changed.",
+       .example = "walktrack optimise data/demo/truth.csv data/demo/scene.yaml -o out/optimised"});
+  auto add = line.options().add_options();
+  add("height", po::value(&height)->value_name("M"),
+      "stature of the subject; default: that of the scene, otherwise estimated from the lengths of "
+      "thighs and shanks");
+  add("mass", po::value(&mass)->value_name("KG"),
+      "mass of the subject; default: that of the scene, otherwise 70");
+  add("joint-sd-mm", po::value(&joint_sd_mm)->value_name("N"),
+      "standard deviation of the given joints; default: 20");
+  add("no-overlay", po::bool_switch(&no_overlay), "write no overlay videos");
+  add("ignore-checks", po::bool_switch(&ignore_checks),
+      "continue even if checks of the scene fail (see walktrack check)");
+  line.operand("MOTION", &motion);
+  line.operand("SCENE.yaml", &scene, true);
+  if (!line.parse(arguments)) return kDone;
+  if (height < 0 || mass < 0) throw UsageError("--height, --mass: allowed are numbers above 0");
+  if (!(joint_sd_mm >= 0.1 && joint_sd_mm <= 1000))
+    throw UsageError(describe({"", 0, "--joint-sd-mm"}, fmt::format("{}", joint_sd_mm),
+                              "a number from 0.1 to 1000"));
+  OptimiseJob job;
+  job.motion = motion;
+  if (!scene.empty()) job.scene = read_scene(scene);
+  if (height > 0) job.height = height;
+  if (mass > 0) job.mass = mass;
+  job.joint_sd = joint_sd_mm / 1000;
+  job.output = line.required_output();
+  job.config = line.config();
+  job.overwrite = line.common().overwrite;
+  job.overlay = !no_overlay;
+  job.ignore_checks = ignore_checks;
+  job.command_line = {"walktrack", "optimise"};
+  job.command_line.insert(job.command_line.end(), arguments.begin(), arguments.end());
+  Terminal terminal(line.common());
+  const JobControl control = terminal.control();
+  const OptimiseOutcome outcome = optimise(job, control);
+  if (outcome.interrupted) return kInterrupted;
+  fmt::print("{}", changes_text(outcome.changes));
+  if (std::abs(outcome.floor_height) >= 0.01)
+    control.say(fmt::format(
+        "the given feet stood {:.0f} mm {} the floor: the motion was moved there",
+        1000 * std::abs(outcome.floor_height), outcome.floor_height > 0 ? "above" : "below"));
+  control.say(fmt::format("{} of {} frames, joints moved by {:.0f} mm on average; open {}",
+                          outcome.used, outcome.frames, 1000 * outcome.moved,
+                          outcome.open_first.string()));
+  return kDone;
+}
+
+}  // namespace walktrack
