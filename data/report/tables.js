@@ -10,10 +10,11 @@ function banded(band, digits, factor = 1) {
 }
 
 function verdict() {
-  const good = run.status === 'tracked' || analysed;
+  const good = ['tracked', 'optimised'].includes(run.status) || analysed;
   const words = {'tracked': 'Tracked; every quality check passed', 'not found': 'Nobody was found walking',
     'below gates': 'Tracked, but a quality check failed: do not use these numbers before you have looked at the video', 'interrupted': 'Interrupted; what was done is shown',
     'cut short': 'Cut short by a broken video; what came before is shown',
+    'optimised': 'Optimised: the track of another tool, on the floor and with constant bones',
     'analysed': 'Analysed: gait, angles and forces of a motion that was there already'}[run.status] ?? run.status;
   byId('title').textContent = data.title;
   byId('verdict').className = 'verdict ' + (good ? 'good' : 'bad');
@@ -36,8 +37,8 @@ function keyFigures() {
     mean('cadence_steps_per_min', 0, '/min', 'cadence'),
     mean('step_width_m', 2, 'm', 'step width'),
     mean('stance_percent', 0, '%', 'stance of the stride'),
-    figure(`${run.numbers.tracked_frames}`, `of ${run.numbers.frames}`, analysed ? 'frames with both legs' : 'frames tracked'));
-  if (!analysed) {
+    figure(`${run.numbers.tracked_frames}`, `of ${run.numbers.frames}`, run.command === 'track' ? 'frames tracked' : 'frames with both legs'));
+  if (run.command === 'track') {
     const speed = figure(fixed(run.timing.frames_per_second, 1), '/s', `frames, ${plural(run.timing.threads, 'thread')}`);
     const stride = run.timing.stride_frames_per_second;
     if (stride !== null) speed.append(element('span', {}, `${fixed(stride, 1)} in the stride`));
