@@ -96,6 +96,7 @@ TEST_F(Optimised, ComplainsOfMotionsThatItCannotUse) {
   for (JointPositions& joints : without.joints) joints[Joint::kLeftHip].setConstant(std::nan(""));
   write_file_atomically(folder / "given.csv", motion_csv(without));
   EXPECT_NE(message_of([&] { optimise(job, {}); }).find("no frame with hips"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(job.output / "frames.bin"));
   job.motion = folder / "none.csv";
   EXPECT_THROW(optimise(job, {}), InputError);
 }

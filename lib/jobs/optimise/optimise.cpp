@@ -120,8 +120,10 @@ double mean_displacement(const Motion& before, const Motion& after) {
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
-void require_frames(const OptimiseJob& job, const TrackedFrames& frames) {
+void require_frames(const OptimiseJob& job, const TrackedFrames& frames,
+                    const ResultFolder& folder) {
   if (frame_counts(frames).tracked > 0) return;
+  folder.remove(kFilesOfWork);
   throw InputError(describe(
       {file_of(job).string(), 0, ""}, "no frame with hips, knees and ankles",
       job.scene ? "such frames during the videos of the scene" : "one such frame at least"));
@@ -213,7 +215,7 @@ OptimiseOutcome optimise(const OptimiseJob& job, const JobControl& control) {
     const ResultFolder folder(outputs, job.overwrite);
     const GivenTrack given = given_track(on_floor(motion, outcome.floor_height), subject, rate,
                                          job.joint_sd, job.config.values, folder);
-    require_frames(job, given.frames);
+    require_frames(job, given.frames, folder);
     write_result(job, track, motion, given, folder, start, control, outcome);
     return outcome;
   }
@@ -228,7 +230,7 @@ OptimiseOutcome optimise(const OptimiseJob& job, const JobControl& control) {
     outcome.interrupted = true;
     return outcome;
   }
-  require_frames(job, given.frames);
+  require_frames(job, given.frames, folder);
   write_result(job, track, at_times, given, folder, start, control, outcome);
   return outcome;
 }
