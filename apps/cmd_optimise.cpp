@@ -1,4 +1,4 @@
-// walktrack optimise: makes another tool's track fit the video, the floor and physics.
+// walktrack optimise: cleans the track of another tool.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -20,11 +20,11 @@ int run_optimise(const Arguments& arguments) {
   CommandLine line(
       {.name = "optimise",
        .operands = "MOTION [SCENE.yaml]",
-       .about = "Makes the track of another tool plausible: MOTION (joints.csv, .trc, .c3d, or a "
-                "result folder)\nbecomes the motion of a body of constant lengths whose standing "
-                "feet do not slide and do not\nsink in, and, with SCENE.yaml, that fits the videos "
-                "of the scene, which begin at the motion's\ntime 0. Writes the files of 'track' "
-                "into the folder --output, and prints what has changed.",
+       .about = "Cleans the track of another tool. MOTION (joints.csv, .trc, .c3d, or a result "
+                "folder) becomes the\nmotion of a body whose bones keep their lengths and whose "
+                "standing feet neither slide nor sink into\nthe floor. With SCENE.yaml it also "
+                "fits the videos of that scene, which begin at the motion's time 0.\nWrites the "
+                "files of 'track' into the folder --output, and prints what has changed.",
        .example = "walktrack optimise data/demo/truth.csv data/demo/scene.yaml -o out/optimised"});
   auto add = line.options().add_options();
   add("height", po::value(&height)->value_name("M"),
@@ -66,6 +66,9 @@ int run_optimise(const Arguments& arguments) {
     control.say(fmt::format(
         "the given feet stood {:.0f} mm {} the floor: the motion was moved there",
         1000 * std::abs(outcome.floor_height), outcome.floor_height > 0 ? "above" : "below"));
+  if (outcome.replaced > 0)
+    control.say(
+        fmt::format("{} joints were far off for a few frames and were replaced", outcome.replaced));
   control.say(fmt::format("{} of {} frames, joints moved by {:.0f} mm on average; open {}",
                           outcome.used, outcome.frames, 1000 * outcome.moved,
                           outcome.open_first.string()));

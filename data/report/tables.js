@@ -14,7 +14,7 @@ function verdict() {
   const words = {'tracked': 'Tracked; every quality check passed', 'not found': 'Nobody was found walking',
     'below gates': 'Tracked, but a quality check failed: do not use these numbers before you have looked at the video', 'interrupted': 'Interrupted; what was done is shown',
     'cut short': 'Cut short by a broken video; what came before is shown',
-    'optimised': 'Optimised: the track of another tool, on the floor and with constant bones',
+    'optimised': 'Optimised: the track of another tool, with bones that keep their lengths and feet on the floor',
     'analysed': 'Analysed: gait, angles and forces of a motion that was there already'}[run.status] ?? run.status;
   byId('title').textContent = data.title;
   byId('verdict').className = 'verdict ' + (good ? 'good' : 'bad');

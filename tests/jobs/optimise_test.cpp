@@ -1,6 +1,7 @@
 #include "jobs/optimise/optimise.h"
 
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -89,6 +90,77 @@ TEST_F(Optimised, ImagesBringItToItsPlace) {
   job.output = folder / "seen";
   optimise(job, {});
   EXPECT_LT(error_of(truth, read_motion(job.output / "joints.csv")), 0.6 * alone);
+}
+
+// The given joints are evidence, too: one camera, which sees distances badly, does not pull a
+// figure away that is in its place.
+TEST_F(Optimised, OneCameraLeavesItInItsPlace) {
+  optimise(job, {});
+  const double alone = error_of(truth, read_motion(job.output / "joints.csv"));
+  job.scene = read_scene(kDemo / "scene.yaml");
+  job.scene->cameras.resize(1);
+  job.output = folder / "seen";
+  optimise(job, {});
+  EXPECT_LT(error_of(truth, read_motion(job.output / "joints.csv")), 1.25 * alone);
+}
+
+JointPositions mirrored(const JointPositions& joints) {
+  JointPositions out = joints;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const Side other = side == Side::kLeft ? Side::kRight : Side::kLeft;
+    for (const auto joint : {hip, knee, ankle, toe}) out[joint(side)] = joints[joint(other)];
+  }
+  for (Eigen::Vector3d& joint : out.at) joint.y() = -joint.y();
+  return out;
+}
+
+// A law: a mirrored person moves as the mirrored motion, with left and right exchanged.
+TEST_F(Optimised, MirroredMotionsStayMirrored) {
+  optimise(job, {});
+  const Motion once = read_motion(job.output / "joints.csv");
+  Motion other = given;
+  for (JointPositions& joints : other.joints) joints = mirrored(joints);
+  write_file_atomically(folder / "given.csv", motion_csv(other));
+  job.output = folder / "mirrored";
+  optimise(job, {});
+  const Motion twice = read_motion(job.output / "joints.csv");
+  ASSERT_EQ(once.time.size(), twice.time.size());
+  for (size_t i = 0; i < once.time.size(); ++i)
+    for (const Joint joint : kScoredJoints)
+      EXPECT_LT((mirrored(twice.joints[i])[joint] - once.joints[i][joint]).norm(), 1e-3) << i;
+}
+
+TEST_F(Optimised, JointsThatAreFarOffForAMomentAreReplaced) {
+  optimise(job, {});
+  const double before = error_of(truth, read_motion(job.output / "joints.csv"));
+  for (size_t i = 40; i < 42; ++i)
+    given.joints[i][Joint::kRightAnkle] += Eigen::Vector3d(0, 0.3, -0.6);
+  write_file_atomically(folder / "given.csv", motion_csv(given));
+  job.output = folder / "again";
+  EXPECT_EQ(optimise(job, {}).replaced, 2u);
+  EXPECT_LT(error_of(truth, read_motion(job.output / "joints.csv")), before + 0.001);
+}
+
+// Nothing of arms, rows and times is lost, although times are rounded in the file.
+TEST_F(Optimised, KeepsArmsRowsAndTimes) {
+  for (size_t i = 0; i < given.time.size(); ++i) {
+    given.time[i] = 2 + std::round(1e4 * static_cast<double>(i) / 60) / 1e4;
+    JointPositions& joints = given.joints[i];
+    for (const auto& [shoulder, elbow, wrist, y] :
+         {std::tuple{Joint::kLeftShoulder, Joint::kLeftElbow, Joint::kLeftWrist, 0.2},
+          std::tuple{Joint::kRightShoulder, Joint::kRightElbow, Joint::kRightWrist, -0.2}}) {
+      joints[shoulder] = joints[Joint::kNeck] + Eigen::Vector3d(0, y, -0.05);
+      joints[elbow] = joints[shoulder] - Eigen::Vector3d(0, 0, 0.3);
+      joints[wrist] = joints[elbow] - Eigen::Vector3d(0, 0, 0.25);
+    }
+  }
+  write_file_atomically(folder / "given.csv", motion_csv(given));
+  EXPECT_EQ(optimise(job, {}).frames, given.time.size());
+  const Motion found = read_motion(job.output / "joints.csv");
+  EXPECT_NEAR(found.time.front(), given.time.front(), 1e-3);
+  EXPECT_NEAR(found.time.back(), given.time.back(), 1e-3);
+  EXPECT_TRUE(known(found.joints[30][Joint::kLeftWrist]));
+  EXPECT_LT(found.joints[30][Joint::kLeftWrist].z(), found.joints[30][Joint::kLeftElbow].z());
 }
 
 TEST_F(Optimised, ComplainsOfMotionsThatItCannotUse) {

@@ -91,7 +91,8 @@ class Follower {
     FrameRecord out = record_of(model(), fit, stands, job_.config.values.tracker.samples);
     refine(setup_.scene, evidence_, threads_, out);
     add_information(free_numbers(model()), fit.pose, fit.information, out.images);
-    learn(fit.pose);
+    if (setup_.observers.front().learns())
+      learn_appearance(model().body, fit.pose, evidence_, threads_, setup_);
     return out;
   }
 
@@ -100,15 +101,6 @@ class Follower {
     const double height = model().body.subject.height;
     if (!fit) return search_region(camera, height);
     return person_region(camera, fit->pose.root.head<2>(), height, kReach);
-  }
-
-  void learn(const Pose& pose) {
-    if (!setup_.observers.front().learns()) return;
-    const PosedBody found(model().body, pose);
-    parallel_for(setup_.observers.size(), threads_, [&](size_t c) {
-      setup_.observers[c].learn(evidence_[c], project_parts(setup_.scene.cameras[c], found.parts),
-                                &found);
-    });
   }
 
   const TrackJob& job_;

@@ -12,6 +12,7 @@
 #include "io/tables/motion_file.h"
 #include "io/video/scene_video.h"
 #include "jobs/optimise/given_track.h"
+#include "jobs/optimise/outliers.h"
 #include "jobs/track/checked_job.h"
 #include "jobs/track/report/report.h"
 #include "jobs/track/report/track_quality.h"
@@ -46,12 +47,36 @@ Motion given_motion(const OptimiseJob& job) {
   return motion;
 }
 
-// The motion at the times of frames, from 0 to its end.
-Motion at_frames(const Motion& motion, double rate) {
+// The motion at the times of frames, from `first` to its end. Files round their times, so that the
+// last row may be a little too early for its frame.
+Motion at_frames(const Motion& motion, double rate, double first) {
+  const double period = 1 / rate, end = motion.time.back();
   std::vector<double> times;
-  const auto last = static_cast<size_t>(std::max(0.0, std::floor(motion.time.back() * rate + 0.5)));
-  for (size_t i = 0; i <= last; ++i) times.push_back(static_cast<double>(i) / rate);
+  for (size_t i = 0; times.empty() || times.back() + 0.5 * period < end; ++i) {
+    const double time = first + static_cast<double>(i) * period;
+    times.push_back(time > end && time < end + 0.1 * period ? end : time);
+  }
   return resampled(motion, times, kLongestGap);
+}
+
+// Hz; the mean over rows without a gap between them, because files round their times.
+double rate_of(const Motion& motion) {
+  const double period = sample_period(motion);
+  double sum = 0;
+  size_t count = 0;
+  for (size_t i = 1; i < motion.time.size(); ++i) {
+    const double step = motion.time[i] - motion.time[i - 1];
+    if (step > 1.5 * period) continue;
+    sum += step;
+    ++count;
+  }
+  return static_cast<double>(count) / sum;
+}
+
+bool has_arms(const Motion& motion) {
+  return std::ranges::any_of(motion.joints, [](const JointPositions& joints) {
+    return known(joints[Joint::kLeftElbow]) && known(joints[Joint::kRightElbow]);
+  });
 }
 
 Subject subject_of(const OptimiseJob& job, const Motion& motion) {
@@ -129,6 +154,21 @@ void require_frames(const OptimiseJob& job, const TrackedFrames& frames,
       job.scene ? "such frames during the videos of the scene" : "one such frame at least"));
 }
 
+Motion later(Motion motion, double by) {
+  for (double& time : motion.time) time += by;
+  return motion;
+}
+
+// Frames begin at 0, but a motion without a scene keeps its times. Given tracks have no transfers.
+AnalysedMotion later(AnalysedMotion analysed, double by) {
+  analysed.motion = later(std::move(analysed.motion), by);
+  for (AngleRow& row : analysed.angles) row.time += by;
+  analysed.members.member = [by, member = analysed.members.member](size_t index) {
+    return later(member(index), by);
+  };
+  return analysed;
+}
+
 // Without cameras nothing is known about the model's error, so that bands only have the draws.
 BandScene bands_of(const OptimiseJob& job, const Scene& scene) {
   BandScene out{{}, job.scene ? job.config.values.tracker.model_error : 0, job.config.values.seed};
@@ -151,7 +191,8 @@ RunRecord record_of(const OptimiseJob& job, const TrackJob& track, const Analyse
                     {"height_m", analysed.subject.height},
                     {"mass_kg", analysed.subject.mass},
                     {"moved_mm", 1000 * outcome.moved},
-                    {"floor_height_mm", 1000 * outcome.floor_height}};
+                    {"floor_height_mm", 1000 * outcome.floor_height},
+                    {"replaced_joints", static_cast<double>(outcome.replaced)}};
   for (const Change& each : outcome.changes) {
     record.numbers.emplace_back(each.name + "_before", each.before);
     record.numbers.emplace_back(each.name + "_after", each.after);
@@ -169,70 +210,78 @@ KineticsConfig forces_of(const OptimiseJob& job) {
   return out;
 }
 
-// The rest, once the frames are there.
-void write_result(const OptimiseJob& job, const TrackJob& track_of, const Motion& given,
-                  const GivenTrack& track, const ResultFolder& folder, const TimePoint& start,
-                  const JobControl& control, OptimiseOutcome& outcome) {
-  const ReportedTrack reported(track.frames, track.model, {true, true},
-                               bands_of(job, track_of.scene), folder);
-  const AnalysedMotion analysed =
-      analysed_motion(reported.frames(), track_of.scene, bands_of(job, track_of.scene).model_error);
-  const Motion before = with_frames_of(given, track.frames);
-  outcome.frames = track.frames.records.size();
-  outcome.used = static_cast<size_t>(frame_counts(track.frames).tracked);
-  outcome.changes = changes_of(before, analysed.motion, track_of.scene.subject,
-                               track_of.scene.gravity, job.config.values.kinetics);
+// A motion at the times of the frames, and what became of it.
+struct Given {
+  const OptimiseJob& job;
+  const TrackJob& track;
+  const Motion& motion;
+  const GivenTrack& frames;
+};
+
+OptimiseOutcome written_result(const Given& given, OptimiseOutcome outcome,
+                               const ResultFolder& folder, const TimePoint& start,
+                               const JobControl& control) {
+  const auto& [job, track, motion, frames] = given;
+  const BandScene bands = bands_of(job, track.scene);
+  const ReportedTrack reported(frames.frames, frames.model, {true, true}, bands, folder);
+  const AnalysedMotion analysed = later(
+      analysed_motion(reported.frames(), track.scene, bands.model_error), motion.time.front());
+  const Motion before = with_frames_of(motion, frames.frames);
+  outcome.frames = frames.frames.records.size();
+  outcome.used = static_cast<size_t>(frame_counts(frames.frames).tracked);
+  outcome.changes = changes_of(before, analysed.motion, track.scene.subject, track.scene.gravity,
+                               job.config.values.kinetics);
   outcome.moved = mean_displacement(before, analysed.motion);
   const JointUncertainty uncertainty = uncertainty_of(reported.frames());
   const WrittenTables tables = write_tables(analysed, uncertainty, forces_of(job), folder);
+  const int threads = thread_count(job.config.values.threads);
   std::vector<ReportClip> clips;
-  if (track_of.overlay)
-    clips = write_overlays(track_of, reported.frames(), folder,
-                           thread_count(job.config.values.threads), control);
-  RunRecord record = record_of(job, track_of, analysed, outcome, tables.digest);
-  record.threads = thread_count(job.config.values.threads);
+  if (track.overlay) clips = write_overlays(track, reported.frames(), folder, threads, control);
+  RunRecord record = record_of(job, track, analysed, outcome, tables.digest);
+  record.threads = threads;
   record.seconds = elapsed_since(start).seconds;
   const std::string text = run_json(record);
-  outcome.open_first = write_report(
-      folder, {file_of(job), analysed, uncertainty, track_of.scene.cameras, text, clips});
+  outcome.open_first =
+      write_report(folder, {file_of(job), analysed, uncertainty, track.scene.cameras, text, clips});
   folder.remove(kFilesOfWork);
   folder.finish(text);
+  return outcome;
 }
 
 }  // namespace
 
-OptimiseOutcome optimise(const OptimiseJob& job, const JobControl& control) {
+OptimiseOutcome optimise(const OptimiseJob& given_job, const JobControl& control) {
   const TimePoint start;
+  OptimiseJob job = given_job;
   OptimiseOutcome outcome;
   const Motion motion = given_motion(job);
+  job.config.values.body.arms = has_arms(motion);
   const Subject subject = subject_of(job, motion);
-  outcome.floor_height = floor_height(motion, subject);
   TrackJob track = track_job(job, scene_of(job, subject));
   const Outputs outputs = outputs_of(job, track);
   refuse_what_is_not_ours(outputs);
-  if (!job.scene) {
-    const double rate = 1 / sample_period(motion);
-    const ResultFolder folder(outputs, job.overwrite);
-    const GivenTrack given = given_track(on_floor(motion, outcome.floor_height), subject, rate,
-                                         job.joint_sd, job.config.values, folder);
-    require_frames(job, given.frames, folder);
-    write_result(job, track, motion, given, folder, start, control, outcome);
-    return outcome;
+  std::optional<SceneVideo> video;
+  if (job.scene) {
+    track = checked_job(track, control).job;
+    video.emplace(track.scene);
   }
-  track = checked_job(track, control).job;
-  SceneVideo video(track.scene);
-  const Motion at_times = at_frames(motion, video.frame_rate());
+  const double rate = video ? video->frame_rate() : rate_of(motion);
+  const Motion at_times = at_frames(motion, rate, video ? 0 : motion.time.front());
+  Motion usable = at_times;
+  outcome.replaced = replace_outliers(usable);
+  outcome.floor_height = floor_height(usable, subject);
+  usable = on_floor(std::move(usable), outcome.floor_height);
   const ResultFolder folder(outputs, job.overwrite);
-  const GivenTrack given = given_track(on_floor(at_times, outcome.floor_height), track, video,
-                                       job.joint_sd, folder, control);
+  const GivenTrack frames =
+      video ? given_track(usable, track, *video, job.joint_sd, folder, control)
+            : given_track(usable, subject, rate, job.joint_sd, job.config.values, folder);
   if (control.stopping()) {
     folder.remove(kFilesOfWork);
     outcome.interrupted = true;
     return outcome;
   }
-  require_frames(job, given.frames, folder);
-  write_result(job, track, at_times, given, folder, start, control, outcome);
-  return outcome;
+  require_frames(job, frames.frames, folder);
+  return written_result({job, track, at_times, frames}, outcome, folder, start, control);
 }
 
 }  // namespace jobs

@@ -21,7 +21,8 @@ inline namespace jobs {
 
 struct OptimiseJob {
   std::filesystem::path motion;  // joints.csv, .trc, .c3d, or a folder with a joints.csv
-  std::optional<Scene> scene;    // its videos begin at the motion's time 0
+  // Its videos begin at the motion's time 0.
+  std::optional<Scene> scene;
   std::optional<double> height;  // m; otherwise the scene's, or estimated from thighs and shanks
   std::optional<double> mass;    // kg; otherwise the scene's or the default subject's
   double joint_sd = 0.02;        // m, of the given joints
@@ -37,6 +38,7 @@ struct OptimiseOutcome {
   std::vector<Change> changes;
   double moved = 0;         // mean displacement of the scored joints, m
   double floor_height = 0;  // of the given motion, m; it has been lowered by that
+  size_t replaced = 0;      // given joints that were far off (outliers.h)
   size_t frames = 0, used = 0;
   bool interrupted = false;          // then nothing is written
   std::filesystem::path open_first;  // the file to open first

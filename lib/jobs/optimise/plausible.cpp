@@ -74,9 +74,9 @@ std::vector<Change> changes_of(const Motion& before, const Motion& after, const 
                g = forces_of(after, gait_after, subject, gravity, config);
   constexpr double kMm = 1000;
   return {
-      {"foot_slide_mean_mm", "a standing foot slides, mean, mm", kMm * a.mean_foot_slide,
+      {"foot_slide_mean_mm", "slide of standing feet, mean, mm", kMm * a.mean_foot_slide,
        kMm * b.mean_foot_slide, 1},
-      {"foot_slide_worst_mm", "a standing foot slides, worst, mm", kMm * a.worst_foot_slide,
+      {"foot_slide_worst_mm", "slide of standing feet, worst, mm", kMm * a.worst_foot_slide,
        kMm * b.worst_foot_slide, 1},
       {"penetration_mm", "deepest foot below the floor, mm", kMm * a.penetration,
        kMm * b.penetration, 1},

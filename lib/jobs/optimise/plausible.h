@@ -10,7 +10,7 @@
 namespace walktrack {
 inline namespace jobs {
 
-// Coefficient of friction of shoes on a floor. By hand: level walking uses .2 to .3 of it.
+// Coefficient of friction of shoes on a floor. By hand: level walking needs .2 to .3.
 inline constexpr double kFriction = 0.5;
 
 struct Change {

@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "core/rng.h"
 #include "filter/particle_filter.h"
+#include "io/drawing/picture.h"
 #include "jobs/selftest/selftest.h"
 #include "jobs/selftest/selftest_video.h"
 #include "observation/image.h"

@@ -259,12 +259,7 @@ void TrackRun::pace(const TimePoint& since) {
 void TrackRun::learn() {
   if (!tracker_.tracking() || !setup_.observers.front().learns()) return;
   const TimePoint start;
-  const Body& body = tracker_.body();
-  const PosedBody found(body, tracker_.mean_pose());
-  parallel_for(setup_.observers.size(), threads_, [&](size_t c) {
-    setup_.observers[c].learn(evidence_[c], project_parts(setup_.scene.cameras[c], found.parts),
-                              &found);
-  });
+  learn_appearance(tracker_.body(), tracker_.mean_pose(), evidence_, threads_, setup_);
   watch_.add("appearance", elapsed_since(start));
 }
 

@@ -119,6 +119,15 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
   return setup;
 }
 
+void learn_appearance(const Body& body, const Pose& pose, const SceneEvidence& evidence,
+                      int threads, TrackSetup& setup) {
+  const PosedBody found(body, pose);
+  parallel_for(setup.observers.size(), threads, [&](size_t c) {
+    setup.observers[c].learn(evidence[c], project_parts(setup.scene.cameras[c], found.parts),
+                             &found);
+  });
+}
+
 double search_window_bytes(const Scene& scene, const Config& config, double frame_rate) {
   double pixels = 0;
   for (const SceneCamera& each : scene.cameras) {

@@ -27,6 +27,11 @@ struct TrackSetup {
 TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
                   std::span<const ObserverState> learned, const JobControl& control);
 
+// Updates the subject's appearance from the evidence of a frame, by camera, in which the subject
+// was found like this.
+void learn_appearance(const Body& body, const Pose& pose, const SceneEvidence& evidence,
+                      int threads, TrackSetup& setup);
+
 // Height in the image, px, of a person of this height who stands at a place on the ground; 0 if the
 // place is not in front of the camera.
 double height_px(const Camera& camera, const Eigen::Vector2d& place, double height);
