@@ -60,11 +60,22 @@ TEST(JointFit, TakesLengthsFromTheMotionUnlessStated) {
   other.lengths.thigh = 0.5;
   other.lengths.shank = 0.39;
   const Body body = make_body(other, {});
-  const Motion motion{{0}, {forward_kinematics(body, striding()).joints}};
+  Motion motion{{0}, {forward_kinematics(body, striding()).joints}};
+  for (const Joint joint : {Joint::kLeftShoulder, Joint::kRightShoulder})
+    motion.joints[0][joint].setConstant(std::nan(""));
   const Subject found = with_lengths_of(motion, subject);
   EXPECT_NEAR(*found.lengths.thigh, 0.5, 1e-9);
   EXPECT_EQ(*found.lengths.shank, 0.44);
   EXPECT_NEAR(*found.lengths.hip_width, body.lengths.hip_width, 1e-9);
+  EXPECT_FALSE(found.lengths.trunk);  // unknown, as the shoulders are
+  other.lengths.trunk = 0.55;
+  other.lengths.forearm = 0.21;
+  const Body armed = make_body(other, {.head = true, .arms = true});
+  const Subject whole =
+      with_lengths_of({{0}, {forward_kinematics(armed, striding()).joints}}, subject);
+  EXPECT_NEAR(*whole.lengths.trunk, 0.55, 1e-9);
+  EXPECT_NEAR(*whole.lengths.forearm, 0.21, 1e-9);
+  EXPECT_NEAR(*whole.lengths.shoulder_width, armed.lengths.shoulder_width, 1e-9);
 }
 
 // Two normal distributions and the walker's prior: what both together say has its maximum where the

@@ -1,6 +1,7 @@
 #include "tracker/smooth/joint_fit.h"
 
-#include <array>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -75,14 +76,31 @@ MatrixXd slopes(const BodyModel& model, const FreeNumbers& free, const std::vect
   return out;
 }
 
-double median_length(const Motion& motion, const std::array<std::pair<Joint, Joint>, 2>& bones,
-                     double otherwise) {
+using Points = std::pair<Vector3d, Vector3d>;
+
+// The median distance between two points of a row that are known, for each of the functions that
+// name such points; nullopt if they never are.
+std::optional<double> median_distance(const Motion& motion,
+                                      std::initializer_list<Points (*)(const JointPositions&)> of) {
   std::vector<double> lengths;
-  for (const JointPositions& joints : motion.joints)
-    for (const auto& [from, to] : bones)
-      if (known(joints[from]) && known(joints[to]))
-        lengths.push_back((joints[to] - joints[from]).norm());
-  return lengths.empty() ? otherwise : median_of(std::move(lengths));
+  for (const JointPositions& joints : motion.joints) {
+    for (const auto points : of) {
+      const auto [from, to] = points(joints);
+      if (known(from) && known(to)) lengths.push_back((to - from).norm());
+    }
+  }
+  return lengths.empty() ? std::nullopt : std::optional(median_of(std::move(lengths)));
+}
+
+template <Joint kFrom, Joint kTo>
+Points bone(const JointPositions& joints) {
+  return {joints[kFrom], joints[kTo]};
+}
+
+// From the hips' axis to the height of the shoulders.
+Points trunk(const JointPositions& joints) {
+  return {joints[Joint::kPelvis],
+          0.5 * (joints[Joint::kLeftShoulder] + joints[Joint::kRightShoulder])};
 }
 
 }  // namespace
@@ -115,17 +133,19 @@ std::optional<JointFit> fit_joints(const BodyModel& model, const JointPositions&
 }
 
 Subject with_lengths_of(const Motion& motion, Subject subject) {
-  const BodyLengths usual = body_lengths(subject);
-  const auto set = [&](std::optional<double>& length, double otherwise, Joint a, Joint b, Joint c,
-                       Joint d) {
-    if (!length) length = median_length(motion, {{{a, b}, {c, d}}}, otherwise);
+  using enum Joint;
+  SubjectLengths& lengths = subject.lengths;
+  const auto set = [&](std::optional<double>& length,
+                       std::initializer_list<Points (*)(const JointPositions&)> of) {
+    if (!length) length = median_distance(motion, of);
   };
-  set(subject.lengths.thigh, usual.thigh, Joint::kLeftHip, Joint::kLeftKnee, Joint::kRightHip,
-      Joint::kRightKnee);
-  set(subject.lengths.shank, usual.shank, Joint::kLeftKnee, Joint::kLeftAnkle, Joint::kRightKnee,
-      Joint::kRightAnkle);
-  set(subject.lengths.hip_width, usual.hip_width, Joint::kLeftHip, Joint::kRightHip,
-      Joint::kLeftHip, Joint::kRightHip);
+  set(lengths.thigh, {bone<kLeftHip, kLeftKnee>, bone<kRightHip, kRightKnee>});
+  set(lengths.shank, {bone<kLeftKnee, kLeftAnkle>, bone<kRightKnee, kRightAnkle>});
+  set(lengths.hip_width, {bone<kLeftHip, kRightHip>});
+  set(lengths.trunk, {trunk});
+  set(lengths.shoulder_width, {bone<kLeftShoulder, kRightShoulder>});
+  set(lengths.upper_arm, {bone<kLeftShoulder, kLeftElbow>, bone<kRightShoulder, kRightElbow>});
+  set(lengths.forearm, {bone<kLeftElbow, kLeftWrist>, bone<kRightElbow, kRightWrist>});
   return subject;
 }
 

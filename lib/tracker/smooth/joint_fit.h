@@ -30,7 +30,8 @@ struct JointFit {
 std::optional<JointFit> fit_joints(const BodyModel& model, const JointPositions& measured,
                                    double sd);
 
-// The subject, whose thighs, shanks and hip width are the motion's medians, unless they are stated.
+// The subject, whose thighs, shanks and hip width, and with known arms also trunk, shoulder width,
+// upper arms and forearms, have the motion's median lengths, unless they are stated.
 Subject with_lengths_of(const Motion& motion, Subject subject);
 
 }  // namespace tracker
