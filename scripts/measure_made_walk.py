@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures how the walks of lib/synth/made_walk.h walk: hip, knee and ankle over the stride, stance, clearance.
+"""Measures how the walks of lib/synth/walk/made_walk.h walk: hip, knee and ankle over the stride, stance, clearance.
 
     scripts/measure_made_walk.py WALKTRACK OUT [--speeds 0.7 1.3 ...] [--walk 'lean_deg: 18, ...'] [--norms FILE]
     scripts/measure_made_walk.py WALKTRACK OUT --motion JOINTS.csv ... [--norms FILE]

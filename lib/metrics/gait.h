@@ -5,13 +5,12 @@
 // Posture 27, 2008, with the ankle instead of the heel): from that turning point on the foot moves
 // back with the pelvis until it is on the ground. This takes 4.5 % of a stride: force plates
 // measure it 3.1 to 5.2 % later (four strikes of two trials); heels of generated walks
-// (lib/synth/made_walk.h) touch the ground 2.8 % later at 0.6 m/s, 3.8 % at 1.8. The deceleration
-// of the foot would be a more direct sign, but a tracked foot lands more slowly than the person's
-// (README.md).
-// Rows in which the pelvis moves by less than 15 cm per second are standing: they belong to no
-// walk, neither to its events nor to its speed. Turning points count if the foot has swung by at
-// least kLeastSwing, so that a person who stands or sways has no gait. Times are interpolated
-// between rows. Metres, seconds; the ground is z = 0.
+// (lib/synth/walk/made_walk.h) touch the ground 2.8 % later at 0.6 m/s, 3.8 % at 1.8. The
+// deceleration of the foot would be a more direct sign, but a tracked foot lands more slowly than
+// the person's (README.md). Rows in which the pelvis moves by less than 15 cm per second are
+// standing: they belong to no walk, neither to its events nor to its speed. Turning points count if
+// the foot has swung by at least kLeastSwing, so that a person who stands or sways has no gait.
+// Times are interpolated between rows. Metres, seconds; the ground is z = 0.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,7 @@
 #include "tracker/subject_model.h"
 
+#include "tracker/motion/models/make_motion_model.h"
+
 namespace walktrack {
 inline namespace tracker {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tracker/motion/kneed_motion.h"
+#include "tracker/motion/models/kneed_motion.h"
 
 namespace walktrack {
 inline namespace tracker {

@@ -6,7 +6,8 @@
 #include "body/kinematics.h"
 #include "core/conventions.h"
 #include "tests/camera/made_camera.h"
-#include "tracker/motion/planar_body.h"
+#include "tracker/motion/models/make_motion_model.h"
+#include "tracker/motion/models/planar_body.h"
 #include "tracker/start/start.h"
 
 namespace walktrack {

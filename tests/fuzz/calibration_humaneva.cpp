@@ -1,6 +1,7 @@
 #include <string>
 
 #include "io/calibration/calibration.h"
+#include "io/calibration/formats/humaneva.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {

@@ -1,6 +1,6 @@
 #include <string>
 
-#include "io/calibration/calibration.h"
+#include "io/calibration/formats/toml.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {

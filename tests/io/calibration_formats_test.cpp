@@ -8,6 +8,8 @@
 
 #include "core/errors.h"
 #include "io/calibration/calibration.h"
+#include "io/calibration/formats/toml.h"
+#include "io/calibration/formats/tsai.h"
 #include "tests/camera/sample_cameras.h"
 #include "tests/io/sample_files.h"
 #include "tests/message_of.h"

@@ -10,6 +10,8 @@
 #include "core/errors.h"
 #include "io/archive/files.h"
 #include "io/calibration/calibration.h"
+#include "io/calibration/formats/opencap.h"
+#include "io/calibration/formats/qualisys.h"
 #include "io/calibration/pickle.h"
 #include "io/scene/scene.h"
 #include "tests/io/sample_files.h"

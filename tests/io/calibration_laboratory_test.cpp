@@ -9,6 +9,8 @@
 #include "core/errors.h"
 #include "io/archive/files.h"
 #include "io/calibration/calibration.h"
+#include "io/calibration/formats/humaneva.h"
+#include "io/calibration/formats/vicon.h"
 #include "io/scene/scene.h"
 #include "tests/io/sample_files.h"
 #include "tests/message_of.h"

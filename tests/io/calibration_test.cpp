@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/errors.h"
+#include "io/calibration/formats/opencv.h"
 #include "tests/camera/sample_cameras.h"
 #include "tests/io/sample_files.h"
 

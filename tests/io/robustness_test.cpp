@@ -4,7 +4,9 @@
 
 #include "core/errors.h"
 #include "core/rng.h"
-#include "io/calibration/calibration.h"
+#include "io/calibration/formats/opencv.h"
+#include "io/calibration/formats/toml.h"
+#include "io/calibration/formats/tsai.h"
 #include "io/config/config.h"
 #include "io/config/yaml.h"
 #include "io/scene/scene.h"

@@ -15,6 +15,7 @@
 #include "core/errors.h"
 #include "io/archive/files.h"
 #include "io/calibration/calibration.h"
+#include "io/calibration/formats/opencv.h"
 #include "tests/camera/made_camera.h"
 #include "tests/observation/board_video.h"
 #include "tests/run_program.h"

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/errors.h"
+#include "io/calibration/formats/opencv.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
 

@@ -12,7 +12,7 @@
 #include "jobs/render/render_keypoints.h"
 #include "jobs/track/track.h"
 #include "metrics/joint_error.h"
-#include "synth/stage.h"
+#include "synth/recording/stage.h"
 #include "tests/run_program.h"
 
 namespace walktrack {

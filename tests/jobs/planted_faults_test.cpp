@@ -14,7 +14,7 @@
 #include "core/conventions.h"
 #include "core/rng.h"
 #include "jobs/evaluate/evaluate.h"
-#include "synth/made_walk.h"
+#include "synth/walk/made_walk.h"
 #include "tests/body/changed_motion.h"
 
 namespace walktrack {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "io/keypoints/keypoint_file.h"
-#include "synth/made_walk.h"
+#include "synth/walk/made_walk.h"
 #include "tests/run_program.h"
 
 namespace walktrack {

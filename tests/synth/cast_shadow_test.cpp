@@ -10,9 +10,9 @@
 #include "core/conventions.h"
 #include "observation/background/background_sampler.h"
 #include "observation/observer.h"
-#include "synth/made_walk.h"
-#include "synth/sensor.h"
-#include "synth/stage.h"
+#include "synth/recording/sensor.h"
+#include "synth/recording/stage.h"
+#include "synth/walk/made_walk.h"
 
 namespace walktrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "synth/figure.h"
+#include "synth/world/figure.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/conventions.h"
-#include "synth/sensor.h"
-#include "synth/stage.h"
+#include "synth/recording/sensor.h"
+#include "synth/recording/stage.h"
 
 namespace walktrack {
 

@@ -6,7 +6,8 @@
 
 #include "core/conventions.h"
 #include "core/rng.h"
-#include "synth/view.h"
+#include "synth/recording/view.h"
+#include "synth/world/settings.h"
 #include "tests/camera/made_camera.h"
 
 namespace walktrack {

@@ -17,8 +17,8 @@
 #include "observation/background/background_sampler.h"
 #include "observation/flow/flow.h"
 #include "observation/silhouette/capsules.h"
-#include "synth/made_walk.h"
-#include "synth/stage.h"
+#include "synth/recording/stage.h"
+#include "synth/walk/made_walk.h"
 #include "tests/synth/filmed.h"
 
 namespace walktrack {

@@ -1,4 +1,4 @@
-#include "synth/foot_path.h"
+#include "synth/walk/foot_path.h"
 
 #include <algorithm>
 #include <cmath>

@@ -16,8 +16,9 @@
 #include "core/conventions.h"
 #include "observation/background/background_sampler.h"
 #include "observation/silhouette/capsules.h"
-#include "synth/sensor.h"
-#include "synth/view.h"
+#include "synth/recording/sensor.h"
+#include "synth/recording/view.h"
+#include "synth/world/settings.h"
 #include "tests/observation/picture_terms.h"
 #include "tests/observation/scenes.h"
 

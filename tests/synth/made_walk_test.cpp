@@ -1,4 +1,4 @@
-#include "synth/made_walk.h"
+#include "synth/walk/made_walk.h"
 
 #include <algorithm>
 #include <cmath>

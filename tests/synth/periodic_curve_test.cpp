@@ -1,4 +1,4 @@
-#include "synth/periodic_curve.h"
+#include "synth/walk/periodic_curve.h"
 
 #include <algorithm>
 

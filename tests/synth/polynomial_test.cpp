@@ -1,4 +1,4 @@
-#include "synth/polynomial.h"
+#include "synth/world/polynomial.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "synth/shape.h"
+#include "synth/world/shape.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "synth/figure.h"
+#include "synth/world/figure.h"
 
 namespace walktrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "synth/solid.h"
+#include "synth/world/solid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The effect of each option of a recording on the images.
-#include "synth/stage.h"
+#include "synth/recording/stage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/conventions.h"
-#include "synth/made_walk.h"
+#include "synth/walk/made_walk.h"
 
 namespace walktrack {
 namespace {

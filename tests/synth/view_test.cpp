@@ -1,4 +1,4 @@
-#include "synth/view.h"
+#include "synth/recording/view.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,8 @@
 
 #include "body/kinematics.h"
 #include "core/conventions.h"
-#include "synth/sensor.h"
+#include "synth/recording/sensor.h"
+#include "synth/world/settings.h"
 #include "tests/camera/made_camera.h"
 
 namespace walktrack {

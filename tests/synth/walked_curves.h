@@ -7,7 +7,7 @@
 
 #include "body/pose_from_joints.h"
 #include "core/conventions.h"
-#include "synth/made_walk.h"
+#include "synth/walk/made_walk.h"
 
 namespace walktrack {
 

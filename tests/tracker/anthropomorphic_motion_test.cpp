@@ -1,4 +1,4 @@
-#include "tracker/motion/anthropomorphic_motion.h"
+#include "tracker/motion/models/anthropomorphic_motion.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include "body/kinematics.h"
 #include "fixture.h"
 #include "tests/tracker/frame_time.h"
-#include "tracker/motion/markov_motion.h"
+#include "tracker/motion/models/markov_motion.h"
 
 namespace walktrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "tracker/motion/markov_motion.h"
+#include "tracker/motion/models/markov_motion.h"
 
 #include <cmath>
 

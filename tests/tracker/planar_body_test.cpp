@@ -1,4 +1,4 @@
-#include "tracker/motion/planar_body.h"
+#include "tracker/motion/models/planar_body.h"
 
 #include <gtest/gtest.h>
 

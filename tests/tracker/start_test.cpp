@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fixture.h"
-#include "tracker/motion/markov_motion.h"
+#include "tracker/motion/models/markov_motion.h"
 
 namespace walktrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "tracker/motion/walk_on.h"
+#include "tracker/motion/models/walk_on.h"
 
 #include <cmath>
 

@@ -5,6 +5,14 @@
 
 #include "core/errors.h"
 #include "io/archive/files.h"
+#include "io/calibration/formats/easymocap.h"
+#include "io/calibration/formats/humaneva.h"
+#include "io/calibration/formats/opencap.h"
+#include "io/calibration/formats/opencv.h"
+#include "io/calibration/formats/qualisys.h"
+#include "io/calibration/formats/toml.h"
+#include "io/calibration/formats/tsai.h"
+#include "io/calibration/formats/vicon.h"
 
 namespace walktrack {
 inline namespace io {

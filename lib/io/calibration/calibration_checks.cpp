@@ -4,8 +4,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
-#include "io/calibration/calibration.h"
-
 namespace walktrack {
 inline namespace io {
 

@@ -10,7 +10,7 @@
 #include "io/scene/scene.h"
 #include "io/tables/motion_file.h"
 #include "io/video/video.h"
-#include "synth/made_walk.h"
+#include "synth/walk/made_walk.h"
 
 namespace walktrack {
 inline namespace io {

@@ -1,5 +1,5 @@
 // The YAML file of `walktrack render --options`: strict, as scene.yaml is. Keys mirror
-// synth/render_options.h, angles are in degrees there:
+// synth/recording/render_options.h, angles are in degrees there:
 //   frame_rate: 30
 //   duration: 4
 //   setting: room                # room, field, studio
@@ -9,15 +9,16 @@
 //   sensor: {exposure: 1, noise: 0.01, flicker: 0, blur_samples: 1, shutter: 0.5, jpeg_quality: 0}
 //   walk: {speed: 1.25, step_length: 0.7, start: [0, 0], heading_deg: 0, turn_deg_s: 0, phase: 0,
 //          arm_swing: 1, limp: 0, step_width: 0.09, lean_deg: 4, straightest: 0.999, person: 7}
-//                                # where there is no MOTION.csv (synth/made_walk.h); steps, knees,
-//                                # trunk, ... are those of a person, by default of the seed's
-//                                # number; 0 is the average one
+//                                # where there is no MOTION.csv (synth/walk/made_walk.h); steps,
+//                                knees, # trunk, ... are those of a person, by default of the
+//                                seed's # number; 0 is the average one
 //   gait: {speed: 1.3, step_length: 0.7, start: [0, 0], heading_deg: 0, speed_at: [[2, 1.6]]}
 //                                # or this: the kneed walker by the table of gaits, truth with
 //                                forces
 //   subject: {height: 1.75, mass: 70, clothes: 0, arms: true}   # height: else as the legs have it
 //             lengths: {thigh: 0.45, shank: 0.45, hip_width: 0.18, trunk: 0.5}  # m, of a `walk`
-//             shape: {girth: 1, head: 1, belly: 0, trousers: 0, skirt: 0, pack: 0}  # synth/shape.h
+//             shape: {girth: 1, head: 1, belly: 0, trousers: 0, skirt: 0, pack: 0}  #
+//             synth/world/shape.h
 //   cameras:
 //     - {name: side, azimuth_deg: -90, distance: 5, height: 1.2, size: [640, 480], focal_px: 600,
 //        distortion: [-0.1, 0.02]}
@@ -36,7 +37,7 @@
 #include <vector>
 
 #include "gait/walk_plan.h"
-#include "synth/render_options.h"
+#include "synth/recording/render_options.h"
 
 namespace walktrack {
 inline namespace io {

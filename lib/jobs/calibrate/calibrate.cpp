@@ -13,6 +13,8 @@
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
 #include "io/calibration/calibration.h"
+#include "io/calibration/formats/opencv.h"
+#include "io/calibration/formats/toml.h"
 #include "io/drawing/picture.h"
 #include "io/video/video.h"
 #include "jobs/calibrate/calibrate_parts.h"

@@ -9,6 +9,8 @@
 #include "core/version.h"
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
+#include "io/calibration/formats/opencv.h"
+#include "io/calibration/formats/toml.h"
 
 namespace walktrack {
 inline namespace jobs {

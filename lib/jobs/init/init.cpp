@@ -10,7 +10,7 @@
 #include "core/errors.h"
 #include "core/version.h"
 #include "io/archive/result_folder.h"
-#include "io/calibration/calibration.h"
+#include "io/calibration/formats/opencv.h"
 #include "io/drawing/overlay.h"
 #include "io/drawing/picture.h"
 #include "io/tables/table_notes.h"

@@ -10,7 +10,7 @@
 #include "core/conventions.h"
 #include "core/errors.h"
 #include "jobs/prior/prior_walk.h"
-#include "tracker/motion/planar_body.h"
+#include "tracker/motion/models/planar_body.h"
 #include "tracker/state/particle.h"
 
 namespace walktrack {

@@ -11,6 +11,7 @@
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
 #include "io/calibration/calibration.h"
+#include "io/calibration/formats/opencv.h"
 #include "io/drawing/picture.h"
 #include "io/tables/angles_file.h"
 #include "io/tables/kinetics_file.h"
@@ -20,8 +21,8 @@
 #include "jobs/render/render_keypoints.h"
 #include "jobs/render/render_truth.h"
 #include "observation/image.h"
-#include "synth/sensor.h"
-#include "synth/stage.h"
+#include "synth/recording/sensor.h"
+#include "synth/recording/stage.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -13,7 +13,7 @@
 
 #include "core/job_control.h"
 #include "io/scene/render_file.h"
-#include "synth/render_options.h"
+#include "synth/recording/render_options.h"
 
 namespace walktrack {
 inline namespace jobs {

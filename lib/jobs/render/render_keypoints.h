@@ -11,7 +11,7 @@
 #include <string>
 
 #include "observation/keypoints/keypoints.h"
-#include "synth/stage.h"
+#include "synth/recording/stage.h"
 
 namespace walktrack {
 inline namespace jobs {

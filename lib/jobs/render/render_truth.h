@@ -5,7 +5,7 @@
 #include <string>
 
 #include "body/motion.h"
-#include "synth/view.h"
+#include "synth/recording/view.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -9,14 +9,14 @@
 #include "body/kinematics.h"
 #include "core/errors.h"
 #include "io/archive/files.h"
-#include "io/calibration/calibration.h"
+#include "io/calibration/formats/opencv.h"
 #include "io/drawing/picture.h"
 #include "io/tables/motion_file.h"
 #include "jobs/track/track.h"
 #include "metrics/joint_error.h"
 #include "observation/image.h"
-#include "synth/sensor.h"
-#include "synth/stage.h"
+#include "synth/recording/sensor.h"
+#include "synth/recording/stage.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -10,8 +10,8 @@
 #include "body/motion.h"
 #include "jobs/selftest/selftest.h"
 #include "observation/image.h"
-#include "synth/made_walk.h"
-#include "synth/render_options.h"
+#include "synth/recording/render_options.h"
+#include "synth/walk/made_walk.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tracker/motion/planar_body.h"
+#include "tracker/motion/models/planar_body.h"
 
 namespace walktrack {
 inline namespace tracker {

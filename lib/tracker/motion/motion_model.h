@@ -1,18 +1,16 @@
 // The dynamics that move particles from frame to frame, chosen by the configuration:
 //   kneed            the kneed walker, and Markov processes for what it does not drive
-//                    (tracker/motion/kneed_motion.h)
+//                    (tracker/motion/models/kneed_motion.h)
 //   anthropomorphic  two straight legs; knees and trunk are Markov processes as well
-//                    (tracker/motion/anthropomorphic_motion.h)
+//                    (tracker/motion/models/anthropomorphic_motion.h)
 //   markov           no walker: every coordinate is a Markov process
-//   (tracker/motion/markov_motion.h)
+//   (tracker/motion/models/markov_motion.h)
 // The other two exist to measure the contribution of physics: reports/physics.md.
 #pragma once
 
-#include <memory>
 #include <span>
 
 #include "core/rng.h"
-#include "gait/prior/gait_prior.h"
 #include "tracker/state/particle.h"
 
 namespace walktrack {
@@ -39,7 +37,9 @@ class MotionModel {
 
   // How far a residual angle may be from the gait that a particle enters with: the standard
   // deviation with which the first frame draws it, in the coordinate's own unit.
-  virtual double start_spread(const MotionConfig& config, ResidualAngle residual) const;
+  virtual double start_spread(const MotionConfig&, ResidualAngle residual) const {
+    return row_of(residual).process.spread;
+  }
 
   // Particles whose aim, stance foot, heading and rest angles are set start at `phases` of their
   // steps, as shares of a step.
@@ -64,10 +64,6 @@ class MotionModel {
   // Groups of noise that move one part of the body; the two groups of the arms come last.
   virtual std::span<const NoiseGroup> noise_groups(Path path) const = 0;
 };
-
-// The model of that body, with the prior's gaits if the model uses them.
-std::unique_ptr<const MotionModel> make_motion_model(MotionKind kind, const BodyModel& model,
-                                                     const GaitPrior& prior);
 
 }  // namespace tracker
 }  // namespace walktrack
