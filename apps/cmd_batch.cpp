@@ -10,6 +10,8 @@
 #include "core/parallel_for.h"
 #include "jobs/batch/batch.h"
 #include "jobs/batch/batch_changes.h"
+#include "jobs/batch/batch_report.h"
+#include "jobs/batch/batch_sequences.h"
 #include "jobs/batch/sequence_list.h"
 #include "jobs/batch/workers/shard.h"
 #include "terminal.h"

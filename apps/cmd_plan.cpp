@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "jobs/plan/plan.h"
+#include "jobs/plan/plan_text.h"
 
 namespace walktrack {
 

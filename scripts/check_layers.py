@@ -3,7 +3,8 @@
 
 A module may include its own headers and those of the modules that it names in DEPS, directly or
 through them. It also keeps OpenCV, yaml-cpp and Boost inside the modules meant for them, every source of
-a module in the module's inline namespace, and headers' names apart from each other.
+a module in the module's inline namespace, headers' names apart from each other, every source beside
+a header of its name, and folders small.
 """
 import itertools
 import pathlib
@@ -21,6 +22,14 @@ ALLOWED_OUTSIDE = {
 }
 # A job passes images along as observation/image.h calls them; it neither looks into them nor draws.
 NAMES_NO_OPENCV = {"jobs"}
+
+# Sources without a header of their name: what they implement is declared in these.
+SHARED_HEADERS = {
+    "gait/prior/shipped_prior.cpp.in": "prior_file.h",  # a table
+    "observation/pose_net/no_pose_net.cpp": "pose_net.h",  # builds without OpenCV's networks
+    "walker/linkage/linkage_events.cpp": "linkage_walker.h",  # the events of that class
+}
+MOST_FILES = 24  # of a folder
 
 
 def declared_graph():
@@ -82,11 +91,39 @@ def strays(graph):
                 yield f"{where}: {first} has the same name"
 
 
+def unpaired(sources, headers):
+    """Sources that have no header of their name beside them, paths below lib/."""
+    for source in sources:
+        place, name = source.rsplit("/", 1)
+        header = SHARED_HEADERS.get(source, name.split(".")[0] + ".h")
+        if f"{place}/{header}" not in headers:
+            yield f"lib/{source}: {header} does not exist beside it"
+
+
+def crowded(files):
+    """Folders with too many files."""
+    folders = [file.rsplit("/", 1)[0] for file in files]
+    for folder in sorted(set(folders)):
+        if (count := folders.count(folder)) > MOST_FILES:
+            yield f"lib/{folder}: {count} files, {MOST_FILES} are allowed: split it by subject"
+
+
+def not_noticed():
+    """Planted faults that the checks of pairs and folders overlook."""
+    if len(list(unpaired(["a/b/c.cpp", "a/b/d.cpp"], {"a/b/c.h", "a/d.h"}))) != 1:
+        yield "a source without a header is not noticed"
+    if len(list(crowded(["a/b/c.h"] * MOST_FILES + ["a/d/c.h"] * (MOST_FILES + 1)))) != 1:
+        yield "a crowded folder is not noticed"
+
+
 def main():
     graph = declared_graph()
     if "core" not in graph:
         sys.exit("no module found in lib/CMakeLists.txt")
-    found = [*violations(graph), *strays(graph)]
+    files = [str(path.relative_to(ROOT / "lib")) for path in sorted((ROOT / "lib").rglob("*"))
+             if path.suffix in (".h", ".cpp", ".in")]
+    sources = [file for file in files if not file.endswith(".h")]
+    found = [*violations(graph), *strays(graph), *unpaired(sources, set(files)), *crowded(files), *not_noticed()]
     print("\n".join(found) or f"{len(graph)} modules respect their layers")
     return 1 if found else 0
 

@@ -2,6 +2,7 @@
 // front of a camera, particles of the tracker. The same on every machine.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "camera/camera.h"

@@ -6,7 +6,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "io/video/video.h"
+#include "io/video/image_files.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {

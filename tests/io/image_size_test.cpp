@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "io/video/video.h"
+#include "io/video/image_files.h"
 #include "tests/run_program.h"
 
 namespace walktrack {

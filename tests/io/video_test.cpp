@@ -11,6 +11,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "core/errors.h"
+#include "io/video/image_files.h"
 #include "io/video/video_writer.h"
 #include "tests/io/sample_files.h"
 #include "tests/io/sample_video.h"

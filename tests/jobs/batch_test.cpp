@@ -15,6 +15,7 @@
 
 #include "core/errors.h"
 #include "jobs/batch/batch_changes.h"
+#include "jobs/batch/batch_sequences.h"
 #include "jobs/batch/sequence_list.h"
 #include "jobs/batch/workers/folder_lock.h"
 #include "jobs/batch/workers/sequence_claim.h"

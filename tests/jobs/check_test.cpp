@@ -16,7 +16,7 @@
 #include "io/calibration/formats/opencv.h"
 #include "io/video/video.h"
 #include "io/video/video_writer.h"
-#include "jobs/check/check_parts.h"
+#include "jobs/check/check_sync.h"
 #include "jobs/render/render.h"
 #include "observation/two_views/out_of_step.h"
 #include "observation/two_views/pair_lag.h"

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/conventions.h"
+#include "jobs/plan/plan_text.h"
 #include "tests/message_of.h"
 
 namespace walktrack {

@@ -14,7 +14,7 @@
 #include "core/errors.h"
 #include "io/archive/files.h"
 #include "io/tables/motion_file.h"
-#include "io/video/video.h"
+#include "io/video/image_files.h"
 #include "jobs/track/track_setup.h"
 #include "metrics/joint_error.h"
 #include "tests/data_folders.h"

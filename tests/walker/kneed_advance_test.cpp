@@ -7,6 +7,7 @@
 
 #include "core/rng.h"
 #include "tests/walker/kneed_files.h"
+#include "walker/kneed/kneed_stops.h"
 
 namespace walktrack {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "io/video/video.h"
+#include "io/video/image_files.h"
 #include "observation/terms.h"
 
 namespace walktrack {

@@ -1,5 +1,5 @@
-// DeepLabCut's tables have two or three rows of names above the columns, which are joined into one
-// row here.
+#include "io/keypoints/keypoint_csv.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "core/errors.h"
-#include "io/keypoints/keypoint_formats.h"
+#include "io/keypoints/skeleton.h"
 #include "io/tables/csv.h"
-#include "io/video/video.h"
+#include "io/video/image_files.h"
 
 namespace walktrack {
 inline namespace io {

@@ -7,7 +7,8 @@
 
 #include "core/errors.h"
 #include "io/archive/files.h"
-#include "io/keypoints/keypoint_formats.h"
+#include "io/keypoints/keypoint_csv.h"
+#include "io/keypoints/keypoint_json.h"
 
 namespace walktrack {
 inline namespace io {

@@ -1,3 +1,5 @@
+#include "io/keypoints/keypoint_json.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -6,9 +8,8 @@
 
 #include "core/errors.h"
 #include "io/archive/files.h"
-#include "io/keypoints/keypoint_formats.h"
 #include "io/keypoints/skeleton.h"
-#include "io/video/video.h"
+#include "io/video/image_files.h"
 
 namespace walktrack {
 inline namespace io {
@@ -17,7 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kFarthest_px = 1e6;  // limit of coordinates in any image
 constexpr size_t kMaxFrameBytes = size_t{16} << 20;
 
 bool is_json(const fs::path& path) { return path.extension() == ".json"; }
@@ -44,28 +44,8 @@ int frame_of_image(const JsonValue& id) {
   return *frame;
 }
 
-DetectedPeople openpose_people(const fs::path& file, int& points) {
-  const std::string name = file.string();
-  const nlohmann::json content = json_from_text(read_text_file(file, kMaxFrameBytes), name);
-  DetectedPeople people;
-  for (const JsonValue& person : JsonValue(content, name).at("people").items()) {
-    const JsonValue body = person.at("pose_keypoints_2d");
-    if (body.is_list() && body.size() == 0) continue;  // a face or a hand without a body
-    people.push_back(person_from(body.numbers(), points, body));
-  }
-  return people;
-}
-
-}  // namespace
-
-Keypoint keypoint_from(double x, double y, double confidence) {
-  const bool corner = x == 0 && y == 0;
-  const bool reachable = std::abs(x) <= kFarthest_px && std::abs(y) <= kFarthest_px;
-  if (!(confidence > 0) || !reachable || corner) return {};
-  return {static_cast<float>(x), static_cast<float>(y),
-          static_cast<float>(std::min(confidence, 1.0))};
-}
-
+// One person from x, y, confidence of each point of a skeleton. `points` is the number of points of
+// the earlier people in the file (0 = none yet), which must be the same.
 DetectedPerson person_from(const std::vector<double>& triples, int& points,
                            const JsonValue& place) {
   const size_t count = triples.size() / 3;
@@ -82,6 +62,20 @@ DetectedPerson person_from(const std::vector<double>& triples, int& points,
       person[*skeleton[i]] = keypoint_from(triples[3 * i], triples[3 * i + 1], triples[3 * i + 2]);
   return person;
 }
+
+DetectedPeople openpose_people(const fs::path& file, int& points) {
+  const std::string name = file.string();
+  const nlohmann::json content = json_from_text(read_text_file(file, kMaxFrameBytes), name);
+  DetectedPeople people;
+  for (const JsonValue& person : JsonValue(content, name).at("people").items()) {
+    const JsonValue body = person.at("pose_keypoints_2d");
+    if (body.is_list() && body.size() == 0) continue;  // a face or a hand without a body
+    people.push_back(person_from(body.numbers(), points, body));
+  }
+  return people;
+}
+
+}  // namespace
 
 std::map<int, fs::path> openpose_files(const fs::path& folder) {
   std::map<int, fs::path> out;

@@ -1,6 +1,8 @@
 #include "io/keypoints/skeleton.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace walktrack {
 inline namespace io {
@@ -9,6 +11,8 @@ namespace {
 
 using enum KeypointName;
 using Point = std::optional<KeypointName>;
+
+constexpr double kFarthest_px = 1e6;  // limit of coordinates in any image
 
 constexpr std::array<Point, 26> kHalpe26{
     kNose,          kLeftEye,   kRightEye,   kLeftEar,     kRightEar,     kLeftShoulder,
@@ -42,6 +46,14 @@ std::span<const Point> skeleton_of(size_t points) {
 }
 
 std::string skeletons_allowed() { return "17 (COCO), 18, 25 (BODY_25) or 26 (HALPE_26) points"; }
+
+Keypoint keypoint_from(double x, double y, double confidence) {
+  const bool corner = x == 0 && y == 0;
+  const bool reachable = std::abs(x) <= kFarthest_px && std::abs(y) <= kFarthest_px;
+  if (!(confidence > 0) || !reachable || corner) return {};
+  return {static_cast<float>(x), static_cast<float>(y),
+          static_cast<float>(std::min(confidence, 1.0))};
+}
 
 }  // namespace io
 }  // namespace walktrack

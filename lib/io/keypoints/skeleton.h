@@ -19,5 +19,9 @@ std::span<const std::optional<KeypointName>> skeleton_of(size_t points);
 // points".
 std::string skeletons_allowed();
 
+// A point as a file states it. It counts as missing if it has no confidence, is not finite, is
+// outside of any image, or is exactly at the corner (0, 0).
+Keypoint keypoint_from(double x, double y, double confidence);
+
 }  // namespace io
 }  // namespace walktrack

@@ -9,7 +9,7 @@
 #include "io/config/yaml.h"
 #include "io/scene/scene.h"
 #include "io/tables/motion_file.h"
-#include "io/video/video.h"
+#include "io/video/image_files.h"
 #include "synth/walk/made_walk.h"
 
 namespace walktrack {

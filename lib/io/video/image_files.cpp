@@ -1,3 +1,5 @@
+#include "io/video/image_files.h"
+
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -11,7 +13,6 @@
 #include "io/scene/scene.h"
 #include "io/video/image_size.h"
 #include "io/video/quiet.h"
-#include "io/video/video.h"
 
 namespace walktrack {
 inline namespace io {

@@ -10,7 +10,7 @@ extern "C" {
 
 #include "core/errors.h"
 #include "io/archive/files.h"
-#include "io/video/video.h"
+#include "io/video/image_files.h"
 
 namespace walktrack {
 inline namespace io {

@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "io/scene/scene.h"
+#include "io/video/image_files.h"
 
 namespace walktrack {
 inline namespace io {

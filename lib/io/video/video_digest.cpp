@@ -10,7 +10,7 @@
 #include "core/errors.h"
 #include "io/archive/sha256.h"
 #include "io/scene/scene.h"
-#include "io/video/video.h"
+#include "io/video/image_files.h"
 
 namespace walktrack {
 inline namespace io {

@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "io/archive/result_folder.h"
 #include "jobs/batch/batch_changes.h"
+#include "jobs/batch/batch_report.h"
 #include "jobs/batch/sequence_list.h"
 #include "jobs/batch/workers/batch_work.h"
 #include "jobs/batch/workers/sequence_claim.h"
@@ -187,18 +188,6 @@ void clear_dead_claims(const SequenceList& list) {
 }
 
 }  // namespace
-
-void add_result(const Sequence& sequence, const SequenceResult& result, BatchOutcome& out) {
-  out.complete += result.state == SequenceState::kComplete;
-  out.degraded += result.state == SequenceState::kDegraded;
-  out.failed += result.state == SequenceState::kFailed;
-  if (result.state == SequenceState::kWaiting) {
-    ++out.waiting;
-    out.elsewhere += is_claimed(sequence.output);
-  }
-  out.cpu_seconds += result.cpu_seconds;
-  out.video_seconds += result.video_seconds;
-}
 
 BatchOutcome run_batch(const BatchJob& job, const JobControl& control) {
   refuse_work_in_output(job);

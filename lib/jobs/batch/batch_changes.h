@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/batch/batch.h"
+#include "jobs/batch/batch_job.h"
 #include "jobs/batch/sequence_list.h"
 
 namespace walktrack {

@@ -1,3 +1,5 @@
+#include "jobs/batch/batch_report.h"
+
 #include <array>
 #include <chrono>
 #include <thread>
@@ -7,9 +9,7 @@
 #include "io/archive/files.h"
 #include "io/config/text.h"
 #include "io/drawing/report_page.h"
-#include "jobs/batch/batch.h"
 #include "jobs/batch/bids/bids_report.h"
-#include "jobs/batch/sequence_list.h"
 #include "jobs/batch/subject_table.h"
 #include "jobs/batch/workers/folder_lock.h"
 
@@ -121,6 +121,18 @@ FolderLock lock_of(const std::filesystem::path& folder) {
 constexpr std::array<std::string_view, 3> kReports{"summary.csv", "failures.txt", "batch.html"};
 
 }  // namespace
+
+void add_result(const Sequence& sequence, const SequenceResult& result, BatchOutcome& out) {
+  out.complete += result.state == SequenceState::kComplete;
+  out.degraded += result.state == SequenceState::kDegraded;
+  out.failed += result.state == SequenceState::kFailed;
+  if (result.state == SequenceState::kWaiting) {
+    ++out.waiting;
+    out.elsewhere += is_claimed(sequence.output);
+  }
+  out.cpu_seconds += result.cpu_seconds;
+  out.video_seconds += result.video_seconds;
+}
 
 Outputs batch_outputs(const BatchJob& job) {
   // Scenes are found below their folder, so that their folder cannot be the output folder as well.

@@ -1,3 +1,5 @@
+#include "jobs/batch/batch_sequences.h"
+
 #include <algorithm>
 #include <map>
 
@@ -7,8 +9,7 @@
 #include "io/archive/files.h"
 #include "io/archive/result_folder.h"
 #include "io/scene/scene_template.h"
-#include "io/video/video.h"
-#include "jobs/batch/batch.h"
+#include "io/video/image_files.h"
 
 namespace walktrack {
 inline namespace jobs {

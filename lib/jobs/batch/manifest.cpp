@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.h"
-#include "jobs/batch/batch.h"
+#include "jobs/batch/batch_sequences.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "jobs/batch/batch.h"
+#include "jobs/batch/batch_job.h"
+#include "jobs/batch/batch_sequences.h"
 #include "jobs/batch/manifest.h"
 
 namespace walktrack {

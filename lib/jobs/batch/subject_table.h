@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "jobs/batch/batch.h"
+#include "jobs/batch/batch_sequences.h"
 
 namespace walktrack {
 inline namespace jobs {

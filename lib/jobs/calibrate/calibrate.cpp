@@ -17,7 +17,9 @@
 #include "io/calibration/formats/toml.h"
 #include "io/drawing/picture.h"
 #include "io/video/video.h"
-#include "jobs/calibrate/calibrate_parts.h"
+#include "jobs/calibrate/calibrate_pictures.h"
+#include "jobs/calibrate/calibrate_place.h"
+#include "jobs/calibrate/calibrate_views.h"
 #include "observation/image.h"
 
 namespace walktrack {

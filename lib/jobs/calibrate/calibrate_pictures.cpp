@@ -1,10 +1,11 @@
+#include "jobs/calibrate/calibrate_pictures.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "io/drawing/overlay.h"
-#include "jobs/calibrate/calibrate_parts.h"
 #include "observation/image.h"
 
 namespace walktrack {

@@ -1,9 +1,10 @@
+#include "jobs/calibrate/calibrate_place.h"
+
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/errors.h"
-#include "jobs/calibrate/calibrate_parts.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -1,10 +1,11 @@
+#include "jobs/calibrate/calibrate_views.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "core/errors.h"
 #include "io/video/video.h"
-#include "jobs/calibrate/calibrate_parts.h"
 #include "observation/image.h"
 
 namespace walktrack {

@@ -13,14 +13,10 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include "camera/inspection.h"
 #include "core/job_control.h"
 #include "io/scene/scene.h"
-#include "io/video/video_facts.h"
+#include "jobs/check/check_report.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -30,45 +26,10 @@ struct CheckJob {
   std::filesystem::path pictures;  // folder for check_<camera>.png; empty = none
 };
 
-struct Finding {
-  std::string camera;  // empty = the scene
-  bool failure;        // otherwise a remark
-  std::string what, cure;
-  bool may_be_lag = false;  // cameras that began at different times would explain it
-};
-
-struct CheckedCamera {
-  std::string name;
-  CameraInspection view;
-  VideoFacts video;
-};
-
-// The lag between two cameras as estimated from the walk, if the scene does not state it.
-struct FoundLag {
-  size_t camera;     // the camera that lags: it starts at `frames`, the other one at 0
-  int frames;        // of the scene, > 0
-  double sd_frames;  // standard deviation
-};
-
-struct CheckReport {
-  std::vector<CheckedCamera> cameras;
-  std::vector<Finding> findings;
-  std::optional<FoundLag> lag;  // which `track` corrects
-  bool failed() const;
-};
-
 CheckReport check_scene(const CheckJob& job, const JobControl& control);
 
 // The checks with which `track` begins.
 CheckReport look_at_scene(const Scene& scene, const JobControl& control);
-
-// A finding as one line: "cam1: stands 3.20 m underground; cure: ...".
-std::string finding_line(const Finding& finding);
-
-// The report as text: one paragraph for each camera, then the findings.
-std::string check_text(const CheckReport& report);
-// The report as JSON.
-std::string check_json(const CheckReport& report);
 
 }  // namespace jobs
 }  // namespace walktrack

@@ -1,3 +1,5 @@
+#include "jobs/check/check_pictures.h"
+
 #include <fmt/format.h>
 
 #include "body/kinematics.h"
@@ -5,7 +7,6 @@
 #include "io/drawing/overlay.h"
 #include "io/drawing/picture.h"
 #include "io/video/scene_video.h"
-#include "jobs/check/check_parts.h"
 #include "observation/image.h"
 
 namespace walktrack {

@@ -1,11 +1,12 @@
-// Tests by the motion in the images whether the cameras of a scene are synchronous.
+#include "jobs/check/check_sync.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "io/video/video.h"
-#include "jobs/check/check_parts.h"
+#include "io/video/scene_video.h"
+#include "observation/image.h"
 #include "observation/two_views/out_of_step.h"
 #include "observation/two_views/pair_lag.h"
 
@@ -90,6 +91,20 @@ void say_pair_lag(const Scene& scene, const std::optional<PairLag>& lag, double 
 }
 
 }  // namespace
+
+SeenFigures figures_in(const Scene& scene, const JobControl& control) {
+  SceneVideo video(scene);
+  SeenFigures out{video.frame_rate(), {}};
+  std::vector<MovingFigures> cameras;
+  for (const SceneCamera& each : scene.cameras)
+    cameras.emplace_back(each.camera.width_px, each.camera.height_px);
+  SceneFrames images;
+  for (int n = 0; n < kMostSyncFrames && !control.stopping() && video.read(images); ++n)
+    for (size_t i = 0; i < cameras.size(); ++i)
+      cameras[i].add(images.fresh[i] ? images.images[i] : Image());
+  for (const MovingFigures& camera : cameras) out.paths.push_back(camera.path());
+  return out;
+}
 
 void check_steps(const Scene& scene, const JobControl& control, CheckReport& report) {
   if (scene.cameras.size() < 2) return;

@@ -1,3 +1,5 @@
+#include "jobs/check/check_videos.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +8,6 @@
 #include "io/video/frame_stamps.h"
 #include "io/video/scene_video.h"
 #include "io/video/video.h"
-#include "jobs/check/check_parts.h"
 
 namespace walktrack {
 inline namespace jobs {

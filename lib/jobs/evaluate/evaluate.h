@@ -5,45 +5,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <variant>
 #include <vector>
 
-#include "body/motion.h"
 #include "io/drawing/error_plot.h"
-#include "kinetics/force_error.h"
-#include "metrics/references.h"
-#include "metrics/statistics/coverage.h"
+#include "jobs/evaluate/figures.h"
 
 namespace walktrack {
 inline namespace jobs {
-
-// A truth is recognised by its header:
-//   t,pelvis_x,…                             joints (joints.csv)
-//   stance,side,on_frame,off_frame,x_m       foot plants; first and last frames, inclusive
-//   t,x,y                                    ground points
-//   frame,…,RHip_x,…                         key points of Pose2Sim; only joints of the body
-//                                            model are used
-using Truth = std::variant<Motion, std::vector<FootPlant>, GroundPoints>;
-
-// `frame_rate` converts frames to seconds; files with times do not need it. InputError for any
-// other header, naming it.
-Truth read_truth(const std::filesystem::path& path, std::optional<double> frame_rate);
-
-struct Figure {
-  std::string key;    // with its unit, e.g. "joint_error_mean_mm"
-  std::string label;  // its description
-  double value;       // NaN = unknown
-  int decimals;
-  bool detail = false;  // not in the text table
-};
-
-// All errors that this truth can tell about the estimate, in a fixed order of keys.
-std::vector<Figure> figures(const Truth& truth, const Motion& estimate,
-                            const std::optional<JointUncertainty>& uncertainty);
-
-// Errors of ground reactions (kinetics/force_error.h).
-std::vector<Figure> force_figures(const GroundForces& truth, const GroundForces& estimate);
 
 struct EvaluatedEstimate {
   std::string name;

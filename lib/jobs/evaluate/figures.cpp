@@ -1,3 +1,5 @@
+#include "jobs/evaluate/figures.h"
+
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -6,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/conventions.h"
-#include "jobs/evaluate/evaluate.h"
 #include "kinetics/kinetics.h"
 #include "metrics/angle_error.h"
 #include "metrics/gait.h"

@@ -1,3 +1,5 @@
+#include "jobs/evaluate/truth.h"
+
 #include <array>
 #include <limits>
 #include <utility>
@@ -8,7 +10,6 @@
 #include "io/tables/csv.h"
 #include "io/tables/marker_file.h"
 #include "io/tables/motion_file.h"
-#include "jobs/evaluate/evaluate.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -46,8 +46,5 @@ struct Plan {
 // Opens the scene's videos, but reads no frame. Throws an InputError whenever `track` would.
 Plan plan_scene(const Scene& scene, const ConfigWithOrigin& config);
 
-std::string plan_text(const Plan& plan);
-std::string plan_json(const Plan& plan);
-
 }  // namespace jobs
 }  // namespace walktrack

@@ -1,10 +1,10 @@
+#include "jobs/plan/plan_text.h"
+
 // The plan as text and as JSON.
 #include <algorithm>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include "jobs/plan/plan.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -1,3 +1,5 @@
+#include "jobs/selftest/selftest_trials.h"
+
 // The table of trials.
 #include <sys/resource.h>
 
@@ -12,7 +14,6 @@
 #include "core/rng.h"
 #include "filter/particle_filter.h"
 #include "io/drawing/picture.h"
-#include "jobs/selftest/selftest.h"
 #include "jobs/selftest/selftest_video.h"
 #include "observation/image.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "body/motion.h"
-#include "jobs/selftest/selftest.h"
+#include "jobs/selftest/selftest_trials.h"
 #include "observation/image.h"
 #include "synth/recording/render_options.h"
 #include "synth/walk/made_walk.h"

@@ -1,4 +1,5 @@
-// Files and messages of a sweep.
+#include "jobs/sweep/sweep_report.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -9,7 +10,6 @@
 #include "core/version.h"
 #include "io/config/text.h"
 #include "io/drawing/trade_plot.h"
-#include "jobs/sweep/sweep.h"
 
 namespace walktrack {
 inline namespace jobs {

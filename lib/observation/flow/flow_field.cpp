@@ -1,3 +1,5 @@
+#include "observation/flow/flow_field.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -5,7 +7,6 @@
 
 #include "core/conventions.h"
 #include "core/log_gamma.h"
-#include "observation/flow/flow.h"
 
 namespace walktrack {
 inline namespace observation {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "walker/kneed/kneed_incidents.h"
+#include "walker/kneed/kneed_stops.h"
 
 namespace walktrack {
 inline namespace walker {

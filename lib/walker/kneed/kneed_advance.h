@@ -47,15 +47,5 @@ KneedAdvance kneed_advance(const KneedModel& model, const KneedControls& control
                            const Vector5& noise, KneedState& state, double duration,
                            const KneedLimits& limits = {});
 
-// Makes a state consistent with its knee stops: negative flexion is set to zero, rates into a stop
-// are removed by the plastic impulse, and a stop is active only if it pushes. Returns the stops'
-// impulses (stance, swing), N m s, >= 0.
-std::array<double, 2> settle_knee_stops(const KneedModel& model, const KneedControls& controls,
-                                        const Vector5& noise, KneedState& state);
-
-// The sub-step of explicit RK4 at this state: small relative to the fastest spring and damper.
-double kneed_step_size(const KneedModel& model, const KneedControls& controls,
-                       const KneedState& state, double max_step);
-
 }  // namespace walker
 }  // namespace walktrack

@@ -9,6 +9,7 @@
 
 #include "walker/kneed/kneed_incidents.h"
 #include "walker/kneed/kneed_lane_walkers.h"
+#include "walker/kneed/kneed_stops.h"
 
 namespace walktrack {
 inline namespace walker {

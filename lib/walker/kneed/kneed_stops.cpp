@@ -1,13 +1,9 @@
-// Complementarity of the two knee stops, at the level of rates (impulse) and of accelerations
-// (reactive torque): with the positive definite 2 x 2 matrix W = a' M^-1 a find
-//   push >= 0,  gain = free + W push >= 0,  push . gain = 0
-// over the knees at their stops. The solution is unique, so that it is found by trying every set of
-// pushing stops, smallest sets first.
+#include "walker/kneed/kneed_stops.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "walker/kneed/kneed_advance.h"
 #include "walker/kneed/kneed_incidents.h"
 #include "walker/kneed/kneed_points.h"
 

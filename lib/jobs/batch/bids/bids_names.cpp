@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.h"
-#include "io/video/video.h"
+#include "io/video/image_files.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "jobs/batch/batch.h"
+#include "jobs/batch/batch_sequences.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -10,7 +10,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "jobs/batch/batch.h"
+#include "jobs/batch/batch_job.h"
+#include "jobs/batch/batch_sequences.h"
 #include "jobs/batch/workers/sequence_claim.h"
 
 namespace walktrack {

@@ -8,6 +8,7 @@
 #include "tracker/motion/models/kneed_motion.h"
 #include "tracker/motion/support.h"
 #include "walker/kneed/kneed_batch.h"
+#include "walker/kneed/kneed_stops.h"
 
 namespace walktrack {
 inline namespace tracker {

@@ -1,5 +1,5 @@
-// Implausible camera poses and the change of the file that would correct them: every common mistake
-// is undone on trial, and the change that makes the camera plausible is proposed.
+#include "jobs/check/check_poses.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/conventions.h"
-#include "jobs/check/check_parts.h"
 
 namespace walktrack {
 inline namespace jobs {

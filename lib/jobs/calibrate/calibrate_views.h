@@ -1,10 +1,13 @@
-// The parts of `walktrack calibrate`.
+// Views of a board for `walktrack calibrate`: those of the lens, and the one on the floor.
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <vector>
 
-#include "io/calibration/measured_points.h"
-#include "jobs/calibrate/calibrate.h"
+#include "core/job_control.h"
+#include "observation/calibration/board.h"
+#include "observation/calibration/camera_fit.h"
 #include "observation/image.h"
 
 namespace walktrack {
@@ -27,16 +30,6 @@ BoardViews collect_views(const std::filesystem::path& source, const Board& board
 
 // Finds the board in a frame of a source in which it does not move. InputError if there is none.
 BoardViews find_floor_board(const std::filesystem::path& source, const Board& board);
-
-// The camera's pose from points. Throws an InputError for mirrored axes, a camera below the ground,
-// and points that do not fit, naming the worst one. `file` and `lines` name the points in messages.
-PlaceFit checked_place(const Camera& lens, const MeasuredPoints& points, const std::string& file);
-
-// Draws the points of all views over the image, with enlarged residuals.
-Image lens_picture(const BoardViews& views, const LensFit& fit);
-
-// Draws the given points, their projections, the ground grid and the axes.
-Image place_picture(const Image& picture, const PlaceFit& fit, const MeasuredPoints& points);
 
 }  // namespace jobs
 }  // namespace walktrack
