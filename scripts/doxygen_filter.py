@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes a header's plain comments documentation for Doxygen, which reads the result: lines above a declaration become
-a block, those behind a member ///<, the first block is the file's, and indented lines, which are formulas and drawings,
-stay as they are.
+"""Turns a header's plain comments into documentation for Doxygen, which reads the result: lines above a declaration
+become a block, those behind a member ///<, the first block is the file's, and indented lines, which are formulas and
+drawings, do not change.
 
     doxygen_filter.py HEADER
 """

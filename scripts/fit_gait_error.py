@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Fits the sizes of lib/metrics/gait_error.cpp to people with truth, and says what bands hold with and without them.
+"""Fits the error sizes of lib/metrics/gait_error.cpp to people with truth, and prints the coverage of bands with and
+without them.
 
     scripts/measure_gait.py WALKTRACK OUT --scenes FOLDER ...
     scripts/fit_gait_error.py OUT --scenes FOLDER ... [--others FOLDER ...]
 
-Reads what measure_gait.py left: gait.json of rendered walks and of their tracks. The sizes of today are taken out of the
-bands first. Printed is, for what gait_error.cpp has a size of, the one that makes 90 % bands hold the truth of the
-FOLDERs 90 % of the time, all cameras and the side camera counting alike, and for every column what bands hold: of the
-FOLDERs, of the made walks and of other folders, without those sizes and with today's. Tracks that failed are left out.
+Reads the output of measure_gait.py: gait.json of rendered walks and of their tracks. The present sizes are removed from
+the bands first. For every size in gait_error.cpp the script prints the one with which 90 % bands contain the truth of the
+FOLDERs 90 % of the time, where all cameras and the side camera count alike; and for every column the coverage of the
+bands in the FOLDERs, the made walks and other folders, without sizes and with the present ones. Failed tracks are left out.
 Standard library only.
 """
 import argparse
@@ -67,7 +68,7 @@ def pairs(truth, estimate):
 
 
 def failed(folder, result):
-    """Nobody, or legs exchanged or half a metre off in more than one frame in twenty."""
+    """Whether nobody was found, or left and right are swapped or half a metre off in more than one frame of twenty."""
     truth, joints = table(folder / "truth.csv"), table(result / "joints.csv")
     whole = lambda row: all(point(row, joint) for joint in ("pelvis", *sum(LEGS, ())))
     pairs = [(truth[t], row) for t, row in joints.items() if t in truth and whole(row) and whole(truth[t])]

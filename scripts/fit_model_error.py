@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Fits the sizes of lib/tracker/smooth/model_error.cpp to walks with truth.
+"""Fits the error sizes of lib/tracker/smooth/model_error.cpp to walks with truth.
 
     scripts/measure_gait.py WALKTRACK OUT --walks 40 [--scenes FOLDER ...] -- --set track.model_error=0
     scripts/fit_model_error.py OUT [--scenes FOLDER ...] [--figure 0.02]
 
-Reads what measure_gait.py left: rendered scenes with truth, and tracks whose bands are those of the trajectory alone.
-For each joint, over the ground and upwards, and for each angle, prints the standard deviation that, added to that of the
-draws, makes 90 % bands hold the truth 90 % of the time: the mean over all cameras and the side camera alone, which count
-alike. Fitted are the FOLDERs, which are people; made walks, whose body is the tracker's, are shown beside them, and
-fitted only where people have no truth: angles, to be held in 94 %, for people stray further. Failures count. Standard
-library only.
+Reads the output of measure_gait.py: rendered scenes with truth, and tracks whose bands are those of the trajectory alone.
+For each joint, over the ground and upwards, and for each angle, prints the standard deviation with which, added to that
+of the draws, 90 % bands contain the truth 90 % of the time: the mean over all cameras and the side camera alone, which
+count alike. The sizes are fitted to the FOLDERs, which are of people. Made walks, whose body is the tracker's, are shown
+beside them and are fitted only where there is no truth of people: angles, for a coverage of 94 %, because people deviate
+more. Failed tracks count. Standard library only.
 """
 import argparse
 import csv

@@ -3,11 +3,11 @@
 
     scripts/measure_costs.py WALKTRACK OUT
 
-Renders one walk before three cameras, tracks it on one thread with one setting after the other, a short and a long
-piece of it, and explains by what the CPU seconds of each stage have grown, which leaves the contest of the first half
-second out: by the counts that `walktrack plan --json` gives of the same setting; poses are those that were in fact
-weighed. Least squares of relative errors, no coefficient below zero. The last line says how far off the fitted model
-is over the settings. What OUT holds is not done again. Standard library only.
+Renders one walk with three cameras and tracks a short and a long part of it on one thread with one setting after the
+other. The difference of the CPU seconds of each stage, which excludes the start, is explained by the counts of
+`walktrack plan --json` for the same setting, and by the number of poses that were in fact evaluated: least squares of
+relative errors, no coefficient below zero. The last line states the errors of the fitted model over the settings. What is
+in OUT already is not repeated. Standard library only.
 """
 import json
 import pathlib
@@ -79,7 +79,7 @@ def measured(walktrack, out, words):
 
 
 def features(before, record, plan):
-    """By stage: CPU ns a frame, and what it is made of."""
+    """For each stage the CPU ns of a frame and the counts that explain it."""
     config = record["config"]
     images, layers = config["observation"], [n for n in record["by_frame"]["layers"][SHORT:] if n]
     # The last layer is not followed by moves unless it is resampled, which it nearly always is.

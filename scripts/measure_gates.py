@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Measures whether green means right: tracks scenes whose truth is known, and lays each run's verdict and quality
-measures beside its error.
+"""Measures how often green results are right: tracks scenes whose truth is known, and compares each run's verdict and
+quality measures with its error.
 
     scripts/measure_gates.py WALKTRACK OUT FOLDER [FOLDER ...] [--render FILE ...] [--seeds N] [--columns NAME ...] [-- OPTIONS OF TRACK ...]
 
 Below each FOLDER every scene with a truth is taken, and every scene named scene*.yaml. The truth of x/scene*.yaml is
 x/truth.csv (joints), x/footplants.csv (plants along the walk; `walktrack evaluate` says of what form) or
 x/toe_plants.csv (side,on_frame,toe_x_m,toe_y_m: where toes land); that of x/NAME.yaml is x/NAME_ground.csv. A scene
-named scene*.yaml without any of them shows somebody who does not walk: whoever reports a walk there is wrong.
+named scene*.yaml without any of them shows somebody who does not walk: a run that reports a walk there is wrong.
 FILEs are options of `walktrack render`, whose scenes are rendered into OUT first.
 
 The error of a run is the mean joint error, the mean error of the plants or the median error on the ground. Above 100 mm,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Measures what the presets trade, over several scenes.
+"""Measures accuracy and speed of the presets over several scenes.
 
-    scripts/measure_presets.py WALKTRACK OUT [--walks N] [--scenes FOLDER ...] [--seeds N] [--over KNOBS]
+    scripts/measure_presets.py WALKTRACK OUT [--walks N] [--scenes FOLDER ...] [--seeds N] [--over PARAMETERS]
 
 Renders N walks (default 4; those of measure_gait.py, with one camera and with three) or takes FOLDERs of scenes
 (scene.yaml and, for one camera, scene_one_camera.yaml, with a truth), sweeps each (`walktrack sweep`) over the

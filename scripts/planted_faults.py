@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Would a test notice? Plants the faults of tests/faults/faults.toml into copies of single sources,
-one at a time, links the test programs that are named for each and runs them until one fails. Writes
-tests/faults/caught.csv: which test caught which fault, at which commit. The working tree stays as it
-is. The test programs are built first, as for every other test; sources that are compiled together with
+"""Measures whether tests notice faults. Plants the faults of tests/faults/faults.toml into copies of single
+sources, one at a time, links the test programs that are named for each and runs them until one fails. Writes
+tests/faults/caught.csv: which test caught which fault, at which commit. The working tree does not
+change. The test programs are built first, as for every other test; sources that are compiled together with
 the faulty one are compiled with it again.
 
   scripts/planted_faults.py [--build build/ci] [--jobs 1] [--only WORD] [--new]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Holds documents, help texts, the configuration's comments and those of the C++ sources to the project's words
-(tests/words.txt), and the links between documents to files that exist.
+"""Compares documents, help texts, the configuration's comments and those of sources and scripts with the project's
+words (tests/words.txt), and checks that links between documents lead to files that exist.
 
     words_test.py WALKTRACK SOURCE_FOLDER
 """
@@ -9,10 +9,12 @@ import re
 import subprocess
 import sys
 
-WORDS_LEFT_OUT = {"CHANGELOG.md"}  # tells of old names
+WORDS_LEFT_OUT = {"CHANGELOG.md", "tests/words_test.py"}  # they name old words
 GENERATED = {"build", "out", ".git"}
-SOURCES = ["apps", "lib", "tests"]
+SOURCES = ["apps", "lib", "tests", "scripts"]
+CPP, SCRIPTS = {".cpp", ".h", ".in"}, {".cmake", ".py", ".sh", ".txt"}
 PLANTED = ["int i = 0;  // whoever says nothing", "// the film\n// of the walker", 'f("//");  // legs exchanged']
+PLANTED_SCRIPTS = ["x = 1  # whoever says nothing", '"""Which legs\nare exchanged."""']
 
 
 def rules(source):
@@ -43,14 +45,29 @@ def comments(source):
     for folder in SOURCES:
         for file in sorted((source / folder).rglob("*")):
             place = file.relative_to(source)
-            if file.suffix in (".h", ".cpp"):
+            if str(place) in WORDS_LEFT_OUT:
+                continue
+            if file.suffix in CPP:
                 yield str(place), comments_of(file.read_text())
+            elif file.suffix in SCRIPTS and (file.suffix != ".txt" or file.name == "CMakeLists.txt"):
+                yield str(place), script_comments(file.read_text())
 
 
 def comments_of(text):
     found = (re.match(r"""(?:[^"'/]|"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])+'|'|/(?!/))*//(.*)""", line) for line in text.splitlines())
     joined = "\n".join(line.group(1).strip() if line else "" for line in found)
     return re.sub(r"`[^`\n]*`", "", joined)
+
+
+def script_comments(text):
+    """The comments and docstrings of Python, shell and CMake, in their lines."""
+    lines, docstring = [], False
+    for line in text.splitlines():
+        comment = re.search(r"(?<!\S)#(.*)", line)
+        quotes = line.count('"""')
+        lines.append(line if docstring or quotes else comment.group(1).strip() if comment else "")
+        docstring ^= quotes == 1
+    return re.sub(r"`[^`\n]*`", "", "\n".join(line.strip() for line in lines))
 
 
 def help_texts(walktrack):
@@ -103,7 +120,8 @@ def main():
     for place, text in comments(source):
         problems += unwanted(place, text, words)
         sources += 1
-    problems += [f"not noticed: {planted}" for planted in PLANTED if not list(unwanted("", comments_of(planted), words))]
+    for read, planted in [(comments_of, PLANTED), (script_comments, PLANTED_SCRIPTS)]:
+        problems += [f"not noticed: {text}" for text in planted if not list(unwanted("", read(text), words))]
     print("\n".join(problems))
     print(f"{looked_at} documents and help texts, {sources} sources, {len(words)} words, {len(problems)} problems")
     sys.exit(1 if problems or looked_at < 20 or sources < 500 else 0)

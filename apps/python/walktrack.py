@@ -3,7 +3,7 @@
     import walktrack
     result = walktrack.read("out/demo")
     result.passed                                # did every quality check pass?
-    result.joint("lknee")                        # metres, a row a frame, NaN where nobody was tracked
+    result.joint("lknee")                        # metres, one row for each frame, NaN where nobody was tracked
     result.table("angles")["knee_angle_l_deg"]   # a column of angles.csv
     result.parameters()                          # speed, cadence, ... with 5-95 % bands
     result.cycles("knee_angle_l_deg", "left")    # strides x 101 over the gait cycle
@@ -96,7 +96,7 @@ class Result:
 
     @property
     def quality(self):
-        """The quality checks, as run.json has them: a list of {name, value, gate, passed, ...}."""
+        """The quality checks, as run.json has them: a list of objects with `name`, `value`, `gate`, `passed` and others."""
         return self.run["quality"]
 
     @property
@@ -133,7 +133,7 @@ class Result:
         return [name[:-2] for name in self.table("joints") if name.endswith("_x")]
 
     def joint(self, name):
-        """Places of a joint: a row a frame, columns x, y, z, metres, in the calibration's axes."""
+        """Positions of a joint: one row for each frame, columns x, y, z, metres, in the calibration's axes."""
         if name not in self.joints:
             raise ResultError(f"found '{name}', allowed: {', '.join(self.joints)}")
         columns = [self.table("joints")[f"{name}_{axis}"] for axis in "xyz"]
@@ -168,8 +168,8 @@ class Result:
         raise ResultError(f"found '{column}', allowed: a column of angles.csv, kinetics.csv or joints.csv")
 
     def cycles(self, column, side):
-        """A column over the gait cycles of a foot, from strike to strike: a row a stride, 101 samples. Strides with an
-        unknown sample are left out."""
+        """A column over the gait cycles of a foot, from strike to strike: one row for each stride, 101 samples. Strides
+        with an unknown sample are left out."""
         table, strikes = self._series(column), self.strikes(side)
         out = []
         for start, end in zip(strikes, strikes[1:]):

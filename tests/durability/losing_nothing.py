@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Does the program lose or spoil anything, whatever happens to it? Kills it at random moments, fails each
-of its writes as a full disk does, takes rights and output folders away, lets the clock jump and
-renames take long, and compares with what an undisturbed run makes. Writes a Markdown table.
+"""Tests whether the program loses or damages files. It is killed at random moments, each of its writes
+fails as on a full disk, rights and output folders are taken away, the clock jumps and renames take
+long; the results are compared with those of an undisturbed run. Writes a Markdown table.
 
   tests/durability/losing_nothing.py BINARY [--kills 1000] [--out FILE.md] [--only WORD] [--seed 1]
 

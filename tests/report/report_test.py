@@ -75,7 +75,7 @@ class Report(unittest.TestCase):
         return self.browser.value(f"[...document.querySelectorAll({json.dumps(selector)})].map((e) => e.textContent)")
 
     def check_quiet(self, page):
-        """No complaint, and no request but for the page itself and what is inside it."""
+        """No complaint, and no request except for the page itself and what is inside it."""
         self.assertEqual(self.browser.problems, [])
         for url in self.browser.requests:
             self.assertTrue(url == page.as_uri() or url.startswith(("blob:", "data:")), url)
