@@ -10,6 +10,7 @@
 
 #include "core/rng.h"
 #include "tests/walker/kneed_files.h"
+#include "walker/lanes/lanes.h"
 
 namespace walktrack {
 namespace {
@@ -202,16 +203,16 @@ TEST_F(KneedBatch, InstructionSetsAgree) {
   const Crowd before = crowd(200, 0.4, 0.03);
   Crowd best = before;
   advance(best);
-  const std::string best_name = kneed_batch_target();
+  const std::string best_name = lane_target();
   int tried = 0;
   for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().Update(target);
-    SCOPED_TRACE(kneed_batch_target());
+    SCOPED_TRACE(lane_target());
     Crowd other = before;
     advance(other);
     expect_agreement(other, best, 1e-9);
-    const std::string name = kneed_batch_target();
+    const std::string name = lane_target();
     const bool fused = name.starts_with("AVX") && best_name.starts_with("AVX");
     for (size_t i = 0; i < other.size(); ++i)
       EXPECT_TRUE(!fused || same_bytes(other.states[i], best.states[i])) << i;
@@ -220,7 +221,7 @@ TEST_F(KneedBatch, InstructionSetsAgree) {
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().DeInit();
   EXPECT_GE(tried, 1);
-  EXPECT_EQ(kneed_batch_target(), best_name);
+  EXPECT_EQ(lane_target(), best_name);
 }
 
 }  // namespace

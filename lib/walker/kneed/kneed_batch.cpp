@@ -1,15 +1,13 @@
-// Between visits to a vector a walker's state is in its KneedState; during a visit it is a lane of
-// `Lanes`. LaneQueues decides the order.
 #include "walker/kneed/kneed_batch.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "walker/kneed/kneed_incidents.h"
 #include "walker/kneed/kneed_lane_walkers.h"
 #include "walker/kneed/kneed_stops.h"
+#include "walker/lanes/lane_batch.h"
 
 namespace walktrack {
 inline namespace walker {
@@ -25,63 +23,23 @@ struct BatchInput {
   const KneedLimits& limits;
 };
 
-struct Stepper {
-  const BatchInput& in;
-  const LaneModel model;
-  const LaneBounds bounds;
-  const size_t lane_limit = lane_count();
-  BatchScratch scratch;
-  std::pmr::vector<LaneProgress> progress;
-  LaneQueues queues;
-
+class Stepper : public LaneBatch<Stepper, BatchInput, Lanes> {
+ public:
   explicit Stepper(const BatchInput& input)
-      : in(input),
+      : LaneBatch(input),
         model(lane_model(input.model)),
         bounds{input.limits.min_hip_height * standing_hip_height(input.model.parameters),
-               input.limits.max_torso_lean},
-        progress(input.states.size(), scratch.memory()),
-        queues(input.states.size(), scratch.memory()) {
-    for (size_t i = progress.size(); i-- > 0;) {
-      in.results[i] = {};
-      if (0 < in.durations[i]) queues.ready.push_back(i);
-    }
-  }
+               input.limits.max_torso_lean} {}
 
-  void run() {
-    Lanes lanes;
-    const auto go_on = [&] {
-      take(queues.ready, lanes);
-      walk(lanes);
-    };
-    const auto meet = [&] {
-      take(queues.met, lanes);
-      resolve(lanes);
-    };
-    queues.serve(lane_limit, go_on, meet);
+  void load(size_t i, size_t lane, Lanes& lanes) const {
+    load_state(in.states[i], lane, lanes);
+    load_forces(in.controls[i], in.noise[i], lane, lanes);
   }
-
-  // Moves the last walkers of a queue into lanes and evaluates them.
-  void take(std::pmr::vector<size_t>& queue, Lanes& lanes) {
-    LaneQueues::seat(queue, lane_limit, lanes);
-    for (size_t lane = 0; lane < lane_limit; ++lane) {
-      const size_t i = lanes.index[lane];
-      lanes.duration[0][lane] = in.durations[i];
-      lanes.elapsed[0][lane] = progress[i].elapsed;
-      lanes.step[0][lane] = progress[i].step;
-      load_state(in.states[i], lane, lanes);
-      load_forces(in.controls[i], in.noise[i], lane, lanes);
-    }
-    evaluate_lanes(model, lanes);
+  void store(const Lanes& lanes, size_t lane) const {
+    store_state(lanes, lane, in.states[lanes.index[lane]]);
   }
-
-  void finish(Lanes& lanes, size_t lane, KneedEvent event) {
-    const size_t i = lanes.index[lane];
-    store_state(lanes, lane, in.states[i]);
-    in.results[i] = {.elapsed = lanes.elapsed[0][lane], .event = event};
-    lanes.live[0][lane] = 0;
-  }
-
-  void settle(size_t i) { settle_knee_stops(in.model, in.controls[i], in.noise[i], in.states[i]); }
+  void evaluate(Lanes& lanes) const { evaluate_lanes(model, lanes); }
+  LaneVerdict sub_step(Lanes& lanes) const { return sub_step_lanes(model, bounds, lanes); }
 
   // For the first visit in a call: makes stops consistent, chooses sub-steps, and removes invalid
   // states.
@@ -106,48 +64,21 @@ struct Stepper {
     }
   }
 
-  void walk(Lanes& lanes) {
-    bool fresh = false;
-    for (size_t lane = 0; lane < lanes.count; ++lane)
-      fresh = fresh || progress[lanes.index[lane]].step == 0;
-    if (fresh) begin(lanes);
-    bool any = false;
-    for (size_t lane = 0; lane < lanes.count; ++lane) any = any || lanes.live[0][lane] != 0;
-    while (any) {
-      const LaneVerdict verdict = sub_step_lanes(model, bounds, lanes);
-      if ((verdict.diverged | verdict.event | verdict.ended) == 0) continue;
-      any = false;
-      for (size_t lane = 0; lane < lanes.count; ++lane) {
-        leave(lanes, lane, verdict);
-        any = any || lanes.live[0][lane] != 0;
-      }
-    }
-  }
-
-  void leave(Lanes& lanes, size_t lane, const LaneVerdict& verdict) {
-    const uint64_t bit = uint64_t{1} << lane;
-    const size_t i = lanes.index[lane];
-    if ((verdict.diverged & bit) != 0) {
-      finish(lanes, lane, KneedEvent::kDiverged);
-    } else if ((verdict.event & bit) != 0) {
-      store_state(lanes, lane, in.states[i]);
-      progress[i].elapsed = lanes.elapsed[0][lane];
-      lanes.live[0][lane] = 0;
-      queues.met.push_back(i);
-    } else if ((verdict.ended & bit) != 0) {
-      finish(lanes, lane, has_fallen(lanes, lane) ? KneedEvent::kFallen : KneedEvent::kNone);
-    }
-  }
-
   bool has_fallen(const Lanes& lanes, size_t lane) const {
     return lanes.at.hip[0][lane] < bounds.least_hip ||
            std::abs(lanes.at.q[0][lane]) > bounds.max_lean;
   }
 
   void resolve(Lanes& lanes);
+
+ private:
+  void settle(size_t i) { settle_knee_stops(in.model, in.controls[i], in.noise[i], in.states[i]); }
   void locate(const Lanes& lanes, const LanePoint& end, const double* h,
               std::array<LaneIncident, kMaxLanes>& incidents) const;
   void apply(const LaneIncident& incident, Lanes& lanes, size_t lane);
+
+  const LaneModel model;
+  const LaneBounds bounds;
 };
 
 // Finds the first event of every lane; evaluations for all lanes' searches share vectors.
@@ -185,9 +116,7 @@ void Stepper::resolve(Lanes& lanes) {
       lanes.clearance[0][lane] =
           std::min(lanes.clearance[0][lane],
                    from.height[0][lane] - 0.5 * fall * fall * step / (rise - fall));
-    lanes.since[0][lane] += step;
-    const bool last = step == lanes.duration[0][lane] - lanes.elapsed[0][lane];
-    lanes.elapsed[0][lane] = last ? lanes.duration[0][lane] : lanes.elapsed[0][lane] + step;
+    pass(lanes, lane, step);
     apply(incidents[lane], lanes, lane);
   }
 }
@@ -210,7 +139,6 @@ void Stepper::apply(const LaneIncident& incident, Lanes& lanes, size_t lane) {
       return;
     }
   }
-  progress[i].elapsed = lanes.elapsed[0][lane];
   if (progress[i].elapsed < in.durations[i]) queues.ready.push_back(i);
 }
 
@@ -222,8 +150,6 @@ void kneed_advance_batch(const KneedModel& model, std::span<const KneedControls>
                          const KneedLimits& limits) {
   Stepper({model, controls, noise, durations, states, results, limits}).run();
 }
-
-const char* kneed_batch_target() { return lane_target(); }
 
 }  // namespace walker
 }  // namespace walktrack

@@ -23,8 +23,5 @@ void kneed_advance_batch(const KneedModel& model, std::span<const KneedControls>
                          std::span<KneedState> states, std::span<KneedAdvance> results,
                          const KneedLimits& limits = {});
 
-// Name of the instruction set in use.
-const char* kneed_batch_target();
-
 }  // namespace walker
 }  // namespace walktrack

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "walker/kneed/kneed_incidents.h"
+#include "walker/lanes/lane_batch.h"
 #include "walker/straight/straight_lanes.h"
 
 namespace walktrack {
@@ -31,69 +32,28 @@ double strike_guard(const StraightLanePoint& at, size_t lane) {
   return -(at.q[0][lane] + at.q[1][lane]);
 }
 
-struct StraightStepper {
-  const StraightInput& in;
-  const size_t lane_limit = lane_count();
-  BatchScratch scratch;
-  std::pmr::vector<LaneProgress> progress;
-  LaneQueues queues;
+class StraightStepper : public LaneBatch<StraightStepper, StraightInput, StraightLanes> {
+ public:
+  using LaneBatch::LaneBatch;
 
-  explicit StraightStepper(const StraightInput& input)
-      : in(input),
-        progress(input.states.size(), scratch.memory()),
-        queues(input.states.size(), scratch.memory()) {
-    for (size_t i = progress.size(); i-- > 0;) {
-      in.results[i] = {};
-      if (0 < in.durations[i]) queues.ready.push_back(i);
+  void load(size_t i, size_t lane, StraightLanes& lanes) const {
+    lanes.since[0][lane] = in.states[i].since_transfer;
+    lanes.stiffness[0][lane] = in.controls[i].stiffness;
+    for (size_t k = 0; k < 2; ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      lanes.at.q[k][lane] = in.states[i].q[row];
+      lanes.at.qd[k][lane] = in.states[i].qd[row];
+      lanes.noise[k][lane] = in.noise[i][row];
     }
   }
-
-  void run() {
-    StraightLanes lanes;
-    const auto go_on = [&] {
-      take(queues.ready, lanes);
-      walk(lanes);
-    };
-    const auto meet = [&] {
-      take(queues.met, lanes);
-      resolve(lanes);
-    };
-    queues.serve(lane_limit, go_on, meet);
-  }
-
-  // Moves the last walkers of a queue into lanes and evaluates them.
-  void take(std::pmr::vector<size_t>& queue, StraightLanes& lanes) {
-    LaneQueues::seat(queue, lane_limit, lanes);
-    for (size_t lane = 0; lane < lane_limit; ++lane) {
-      const size_t i = lanes.index[lane];
-      lanes.duration[0][lane] = in.durations[i];
-      lanes.elapsed[0][lane] = progress[i].elapsed;
-      lanes.step[0][lane] = progress[i].step;
-      lanes.since[0][lane] = in.states[i].since_transfer;
-      lanes.stiffness[0][lane] = in.controls[i].stiffness;
-      for (size_t k = 0; k < 2; ++k) {
-        const auto row = static_cast<Eigen::Index>(k);
-        lanes.at.q[k][lane] = in.states[i].q[row];
-        lanes.at.qd[k][lane] = in.states[i].qd[row];
-        lanes.noise[k][lane] = in.noise[i][row];
-      }
-    }
-    evaluate_lanes(in.model, lanes);
-  }
-
-  void store_state(const StraightLanes& lanes, size_t lane) {
+  void store(const StraightLanes& lanes, size_t lane) const {
     StraightState& state = in.states[lanes.index[lane]];
     state.q = {lanes.at.q[0][lane], lanes.at.q[1][lane]};
     state.qd = {lanes.at.qd[0][lane], lanes.at.qd[1][lane]};
     state.since_transfer = lanes.since[0][lane];
-    progress[lanes.index[lane]].elapsed = lanes.elapsed[0][lane];
   }
-
-  void finish(StraightLanes& lanes, size_t lane, KneedEvent event) {
-    store_state(lanes, lane);
-    in.results[lanes.index[lane]] = {.elapsed = lanes.elapsed[0][lane], .event = event};
-    lanes.live[0][lane] = 0;
-  }
+  void evaluate(StraightLanes& lanes) const { evaluate_lanes(in.model, lanes); }
+  LaneVerdict sub_step(StraightLanes& lanes) const { return sub_step_lanes(in.model, lanes); }
 
   // For the first visit in a call: chooses sub-steps and removes invalid states.
   void begin(StraightLanes& lanes) {
@@ -108,6 +68,13 @@ struct StraightStepper {
     }
   }
 
+  bool has_fallen(const StraightLanes& lanes, size_t lane) const {
+    return in.model.radius + in.model.leg * std::cos(lanes.at.q[0][lane]) < in.model.least_hip;
+  }
+
+  void resolve(StraightLanes& lanes);
+
+ private:
   static bool is_sound(const StraightLanes& lanes, size_t lane) {
     double sum = 0, fastest = 0;
     for (size_t k = 0; k < 2; ++k) {
@@ -118,39 +85,6 @@ struct StraightStepper {
     return std::isfinite(sum) && fastest < kMaxRate;
   }
 
-  bool has_fallen(const StraightLanes& lanes, size_t lane) const {
-    return in.model.radius + in.model.leg * std::cos(lanes.at.q[0][lane]) < in.model.least_hip;
-  }
-
-  void walk(StraightLanes& lanes) {
-    begin(lanes);
-    const auto alive = [&] {
-      return std::any_of(lanes.live[0], lanes.live[0] + lane_limit,
-                         [](double x) { return x != 0; });
-    };
-    while (alive()) {
-      LaneVerdict verdict;
-      do {
-        verdict = sub_step_lanes(in.model, lanes);
-      } while ((verdict.diverged | verdict.event | verdict.ended) == 0);
-      for (size_t lane = 0; lane < lanes.count; ++lane) leave(lanes, lane, verdict);
-    }
-  }
-
-  void leave(StraightLanes& lanes, size_t lane, const LaneVerdict& verdict) {
-    const uint64_t bit = uint64_t{1} << lane;
-    if ((verdict.diverged & bit) != 0) {
-      finish(lanes, lane, KneedEvent::kDiverged);
-    } else if ((verdict.event & bit) != 0) {
-      store_state(lanes, lane);
-      lanes.live[0][lane] = 0;
-      queues.met.push_back(lanes.index[lane]);
-    } else if ((verdict.ended & bit) != 0) {
-      finish(lanes, lane, has_fallen(lanes, lane) ? KneedEvent::kFallen : KneedEvent::kNone);
-    }
-  }
-
-  void resolve(StraightLanes& lanes);
   std::array<bool, kMaxLanes> locate(const StraightLanes& lanes, double* h) const;
   void arrive(StraightLanes& lanes, size_t lane, bool strikes);
 };
@@ -190,9 +124,7 @@ void StraightStepper::resolve(StraightLanes& lanes) {
   step_lanes_to(in.model, lanes, h[0], end);
   lanes.at = end;
   for (size_t lane = 0; lane < lanes.count; ++lane) {
-    const double left = lanes.duration[0][lane] - lanes.elapsed[0][lane], step = h[0][lane];
-    lanes.since[0][lane] += step;
-    lanes.elapsed[0][lane] = step == left ? lanes.duration[0][lane] : lanes.elapsed[0][lane] + step;
+    pass(lanes, lane, h[0][lane]);
     arrive(lanes, lane, strikes[lane]);
   }
 }
