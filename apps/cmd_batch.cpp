@@ -141,8 +141,8 @@ void add_options(CommandLine& line, BatchArguments& given) {
   add("scene", po::value(&given.scene_template)->value_name("FILE"),
       "track every video below FOLDER as if it were the video of this scene");
   add("manifest", po::value(&given.job.manifest)->value_name("FILE"),
-      "a list of scenes instead of FOLDER (with --scene, of videos): one path a line, and after a "
-      "tab the name of its result, if you like; - is standard input");
+      "a list of scenes instead of FOLDER (with --scene, of videos): one path in each line, "
+      "optionally followed by a tab and the name of its result; - is standard input");
   add("bids", po::bool_switch(&given.job.bids),
       "FOLDER is a BIDS data set: track its sub-<label>/..._video files with --scene and write "
       "Motion-BIDS tables; the default output is FOLDER/derivatives/walktrack");
@@ -152,7 +152,7 @@ void add_options(CommandLine& line, BatchArguments& given) {
       "track every n-th sequence, beginning with the i-th; auto: the numbers that Slurm or AWS "
       "Batch gives this worker; auto/n: the number that a Kubernetes Indexed Job of n gives it");
   add("steal", po::bool_switch(&given.job.steal),
-      "after the own share, track sequences of other shares that no worker has begun");
+      "after its own share, this worker tracks sequences of other shares that no worker has begun");
   add("work", po::value(&given.work)->value_name("DIR"),
       "track below this folder, on a disk of this machine; a result is moved to the output folder "
       "when it is complete");

@@ -12,7 +12,7 @@ void ModelOptions::declare(CommandLine& line) {
   namespace po = boost::program_options;
   line.options().add_options()(
       "model", po::value(&model_)->value_name("NAME"),
-      "monopode, rimless_wheel, anthropomorphic, kneed; simulate also articulated")(
+      "monopode, rimless_wheel, anthropomorphic, kneed; for simulate also articulated")(
       "step", po::value(&step_)->default_value(step_, "0.001")->value_name("S"),
       "largest time step, s, 1e-6 to 1")(
       "integrator", po::value(&integrator_)->default_value(integrator_)->value_name("NAME"),

@@ -141,7 +141,7 @@ TEST_F(KeypointScenes, OfNobodyWhoCanBeThere) {
   detect(*alone_, {.bias = 0.5});
   const Found found = track(false);
   EXPECT_EQ(found.outcome.tracked, 0);
-  EXPECT_THAT(found.outcome.message, testing::HasSubstr("nobody's keypoints lie"));
+  EXPECT_THAT(found.outcome.message, testing::HasSubstr("no keypoints are those of"));
 }
 
 }  // namespace

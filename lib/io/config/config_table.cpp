@@ -136,7 +136,7 @@ void add_search(ParameterTable& table) {
   s.number("least_score", &S::least_score, 0, kAnyPositive,
            "lowest score of the figure in any frame, nats");
   s.number("least_points_score", &S::least_points_score, 0, kAnyPositive,
-           "the same where keypoints are all there is, nats");
+           "the same for keypoints without video, nats");
   s.integer("candidates", &S::candidates, 1, 1000,
             "places of a frame through which straight walks are proposed");
   s.integer("grid_px", &S::grid_px, 1, 1000,
@@ -214,7 +214,8 @@ void add_track(ParameterTable& table) {
   g.number("leg_swaps", &G::leg_swaps, 0, 1e5,
            "most swaps of left and right between frames, per minute");
   g.number("steps_off_way", &G::steps_off_way, 0, 1000,
-           "largest difference of the steps' sum and the pelvis' path, as a share of the path");
+           "largest difference between the sum of the steps and the path of the pelvis, as a share "
+           "of the path");
   g.number("longest_step", &G::longest_step, 0, 1000, "longest step, leg lengths");
   g.number("shortest_step", &G::shortest_step, -1000, 1000,
            "shortest step along the walk, m; below 0 a foot ends behind the other one");

@@ -149,6 +149,18 @@ class ParameterGroup {
         });
   }
 
+  // auto, on or off; the words of a flag are allowed as well.
+  template <typename Enum>
+  void setting(const std::string& name, Enum Group::*member, std::string comment) {
+    choice(name, member,
+           {{"auto", Enum::kAuto},
+            {"on", Enum::kOn},
+            {"off", Enum::kOff},
+            {"true", Enum::kOn},
+            {"false", Enum::kOff}},
+           std::move(comment));
+  }
+
  private:
   template <typename Outer>
   static Outer& follow(Outer& outer) {

@@ -72,7 +72,6 @@ FrameSource::FrameSource(cv::Size size_px, int frames) : plain_(cv::Mat::zeros(s
 
 FrameSource::~FrameSource() = default;
 FrameSource::FrameSource(FrameSource&&) noexcept = default;
-FrameSource& FrameSource::operator=(FrameSource&&) noexcept = default;
 
 void FrameSource::open_video(std::optional<cv::Size> expected_px) {
   if (!fs::is_regular_file(path_)) fail(path_, "no file", "a video, images or a pattern");

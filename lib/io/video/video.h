@@ -37,7 +37,6 @@ class FrameSource {
   FrameSource(cv::Size size_px, int frames);
   ~FrameSource();
   FrameSource(FrameSource&&) noexcept;
-  FrameSource& operator=(FrameSource&&) noexcept;
 
   const VideoFacts& facts() const { return facts_; }
   int next_frame() const { return next_frame_; }

@@ -23,14 +23,12 @@ struct BatchJob {
                                  // work_folder.h
   // Program and options that track one sequence; "SCENE -o OUT/<sequence> --resume -y" is appended.
   std::vector<std::string> command;
-  int jobs = 1;  // processes at a time
-  int shard = 1,
-      shards = 1;          // this worker tracks every shards-th sequence, beginning with the shard-
-                           // th
-  bool steal = false;      // afterwards, sequences of other shares that nobody has begun
-  bool overwrite = false;  // track sequences again that have changed or failed
-  bool retry_failed = false;               // track only those that failed
-  ChildLimits limits;                      // of each sequence
+  int jobs = 1;               // processes at a time
+  int shard = 1, shards = 1;  // this worker tracks every shards-th sequence from the shard-th on
+  bool steal = false;         // afterwards, sequences of other shares that nobody has begun
+  bool overwrite = false;     // track sequences again that have changed or failed
+  bool retry_failed = false;  // track only those that failed
+  ChildLimits limits;         // of each sequence
   std::optional<ConfigWithOrigin> config;  // configuration of the command
 };
 

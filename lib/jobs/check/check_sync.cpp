@@ -52,16 +52,17 @@ void say_lost(const Scene& scene, const PairLag& lag, double frame_rate, CheckRe
       {camera.name, true,
        fmt::format("about {} frames are missing near frame {}: from there on it is ahead of {}",
                    std::abs(change), near, other.name),
-       fmt::format("give the file its time stamps back, or make it images whose numbers leave the "
-                   "lost ones out; last_frame: {} tracks what comes before",
+       fmt::format("restore the file's time stamps, or convert it to images whose numbers leave "
+                   "the lost frames out; last_frame: {} tracks only the part before them",
                    safe)});
 }
 
 void say_pair_lag(const Scene& scene, const std::optional<PairLag>& lag, double frame_rate,
                   CheckReport& report) {
   if (!lag) {
-    report.findings.push_back({"", false, "whether the cameras are in step could not be seen",
-                               "it takes somebody who walks through both pictures"});
+    report.findings.push_back({"", false,
+                               "the videos do not show whether the cameras are synchronous",
+                               "a person has to walk through both pictures"});
     return;
   }
   if (lag->before != lag->after) return say_lost(scene, *lag, frame_rate, report);
@@ -114,8 +115,8 @@ void check_steps(const Scene& scene, const JobControl& control, CheckReport& rep
     cameras.push_back(camera.camera);
     // A lag is measured in frames.
     if (!camera.frame_rate || camera.frame_rate == scene.frame_rate) continue;
-    report.findings.push_back({"", false, "whether the cameras are in step is not checked",
-                               "it takes cameras of one frame rate"});
+    report.findings.push_back({"", false, "whether the cameras are synchronous is not checked",
+                               "the cameras need the same frame rate"});
     return;
   }
   const SeenFigures seen = figures_in(scene, control);

@@ -11,7 +11,7 @@
 namespace walktrack {
 inline namespace jobs {
 
-inline constexpr double kCompareLevel = 0.95;
+inline constexpr double kCompareLevel = 0.95;  // of confidence intervals
 
 // The strides of some sides of a group: one column of the comparison.
 struct Sample {

@@ -146,7 +146,7 @@ std::string lag_text(const InitPairOutcome& out) {
 
 // States what the pair of cameras can be used for.
 std::string use_text(const TwoViews& views) {
-  constexpr double kUseful_percent = 20;
+  constexpr double kUseful_percent = 20;  // uncertainty of the cameras' distance; by hand
   const double percent = 200 * views.apart.sd / views.apart.value;
   if (percent > kUseful_percent)
     return fmt::format(

@@ -117,7 +117,7 @@ std::string strip(const GaitPrior& prior, const KneedParameters& walker, double 
 std::string cost_picture(const CostTable& prior, const WalkerUnits& units) {
   const Plot plot = speed_step_plot();
   const size_t level = nearest_index(prior.slopes, 0);
-  constexpr double kDearest = 0.2;
+  constexpr double kDearest = 0.2;  // cost of transport with the darkest colour
   std::string body;
   for (size_t i = 0; i < prior.speeds.size(); ++i)
     for (size_t j = 0; j < prior.ratios.size(); ++j) {

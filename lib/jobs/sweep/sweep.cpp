@@ -200,8 +200,9 @@ std::optional<Truth> reference_of(const SweepJob& job, Sweep& sweep, const Sweep
   Motion motion = sweep.joints(trial);
   const bool any = std::any_of(motion.joints.begin(), motion.joints.end(), scored_joints_known);
   if (!any)
-    throw InputError(fmt::format("{}: no truth, and {} found nobody: nothing to measure against",
-                                 job.scene.file.string(), report.reference));
+    throw InputError(
+        fmt::format("{}: errors cannot be measured: there is no truth, and {} found nobody",
+                    job.scene.file.string(), report.reference));
   return motion;
 }
 

@@ -63,13 +63,9 @@ template <typename Groups>
 void FlowTerm::describe(Groups& groups) {
   using W = FlowConfig;
   auto w = groups.group("flow", "optical flow", &ObservationConfig::flow);
-  w.choice("enabled", &W::enabled,
-           {{"auto", TermSetting::kAuto},
-            {"on", TermSetting::kOn},
-            {"off", TermSetting::kOff},
-            {"true", TermSetting::kOn},
-            {"false", TermSetting::kOff}},
-           "whether the motion between frames is compared; auto: off, no measurement shows a gain");
+  w.setting(
+      "enabled", &W::enabled,
+      "whether the motion between frames is compared; auto: off, no measurement shows a gain");
   w.number("error_px", &W::error_px, 0, 1000, "error of the flow of pixels at rest, px");
   w.number("error_share", &W::error_share, 0, 10,
            "additional error of moving pixels, as a share of their motion");

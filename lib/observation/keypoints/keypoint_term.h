@@ -119,21 +119,17 @@ template <typename Groups>
 void KeypointTerm::describe(Groups& groups) {
   using K = KeypointConfig;
   auto k = groups.group("keypoints", "points of a pose detector", &ObservationConfig::keypoints);
-  k.choice(
+  k.setting(
       "enabled", &K::enabled,
-      {{"auto", TermSetting::kAuto},
-       {"on", TermSetting::kOn},
-       {"off", TermSetting::kOff},
-       {"true", TermSetting::kOn},
-       {"false", TermSetting::kOff}},
       "on: from the scene's files, from the built-in network where a camera has none; auto: where "
       "every camera has a file, and the network for one camera alone");
-  k.integer("every", &K::every, 1, 1000, "the network is asked at every so many frames");
-  k.flag("in_doubt_only", &K::in_doubt_only,
-         "of a tracked subject the network is asked only while left and right are in doubt");
+  k.integer("every", &K::every, 1, 1000, "frames from one use of the network to the next");
+  k.flag(
+      "in_doubt_only", &K::in_doubt_only,
+      "whether the network is used for a tracked subject only while left and right are uncertain");
   k.text("model", &K::model, "the shipped network, or the ONNX file of one of the same family");
   k.number("weight", &K::weight, 0, 10,
-           "weight of a point; below 1 because points err together and for several frames");
+           "weight of a point; below 1 because the errors of points and of frames are correlated");
   k.choice("lead", &K::lead,
            {{"auto", TermSetting::kAuto}, {"on", TermSetting::kOn}, {"off", TermSetting::kOff}},
            "whether keypoints count for more than outlines; auto: with one camera, if the figure "

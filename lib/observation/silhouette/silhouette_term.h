@@ -90,13 +90,9 @@ void SilhouetteTerm::describe(Groups& groups) {
       groups.group("background", "the model of the empty scene", &ObservationConfig::background);
   b.flag("enabled", &B::enabled, "whether the background is modelled");
   b.integer("samples", &B::samples, 1, 10'000, "frames from which the model is made");
-  b.choice("without_people", &B::without_people,
-           {{"auto", TermSetting::kAuto},
-            {"on", TermSetting::kOn},
-            {"off", TermSetting::kOff},
-            {"true", TermSetting::kOn},
-            {"false", TermSetting::kOff}},
-           "leave people, found by the pose network, out of a model made of the video itself");
+  b.setting(
+      "without_people", &B::without_people,
+      "whether people found by the pose network are left out of a model learned from the video");
   b.number("noise", &B::noise, 0.1, 255,
            "smallest standard deviation of a channel, grey levels of 256");
   b.number("jitter_px", &B::jitter_px, 0, 100,

@@ -10,6 +10,7 @@
 namespace walktrack {
 inline namespace jobs {
 
+// The age at which a lock counts as abandoned; by hand.
 inline constexpr double kStaleSeconds = 60;
 
 class FolderLock {

@@ -130,7 +130,7 @@ std::string in_words(const Account& seen, const Looker& looker, const DetectorCo
     return fmt::format(": {}; the best place has {:.1f} nats, {:g} are needed{}",
                        looker.has_pictures()
                            ? "no person stands out from the background"
-                           : "nobody's keypoints lie as somebody has them who walks on the ground",
+                           : "no keypoints are those of a person who walks on the ground",
                        seen.best.score, config.least_score, size);
   }
   if (seen.speed < config.slowest) {

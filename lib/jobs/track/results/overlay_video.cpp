@@ -18,7 +18,7 @@ inline namespace jobs {
 
 namespace {
 
-constexpr double kSpreadOpacity = 0.35;
+constexpr double kSpreadOpacity = 0.35;  // of the particles' figures; by hand
 
 // One camera's video on its way.
 struct CameraVideo {
