@@ -13,6 +13,24 @@ namespace walktrack {
 
 namespace po = boost::program_options;
 
+namespace {
+
+void say(const OptimiseOutcome& outcome, const JobControl& control) {
+  fmt::print("{}", changes_text(outcome.changes));
+  if (std::abs(outcome.floor_height) >= 0.01)
+    control.say(fmt::format(
+        "the given feet stood {:.0f} mm {} the floor: the motion was moved there",
+        1000 * std::abs(outcome.floor_height), outcome.floor_height > 0 ? "above" : "below"));
+  if (outcome.replaced > 0)
+    control.say(
+        fmt::format("{} joints were far off for a few frames and were replaced", outcome.replaced));
+  control.say(fmt::format("{} of {} frames, joints moved by {:.0f} mm on average; open {}",
+                          outcome.used, outcome.frames, 1000 * outcome.moved,
+                          outcome.open_first.string()));
+}
+
+}  // namespace
+
 int run_optimise(const Arguments& arguments) {
   std::string motion, scene;
   double height = 0, mass = 0, joint_sd_mm = 20;
@@ -58,20 +76,9 @@ int run_optimise(const Arguments& arguments) {
   job.command_line = {"walktrack", "optimise"};
   job.command_line.insert(job.command_line.end(), arguments.begin(), arguments.end());
   Terminal terminal(line.common());
-  const JobControl control = terminal.control();
-  const OptimiseOutcome outcome = optimise(job, control);
+  const OptimiseOutcome outcome = optimise(job, terminal.control());
   if (outcome.interrupted) return kInterrupted;
-  fmt::print("{}", changes_text(outcome.changes));
-  if (std::abs(outcome.floor_height) >= 0.01)
-    control.say(fmt::format(
-        "the given feet stood {:.0f} mm {} the floor: the motion was moved there",
-        1000 * std::abs(outcome.floor_height), outcome.floor_height > 0 ? "above" : "below"));
-  if (outcome.replaced > 0)
-    control.say(
-        fmt::format("{} joints were far off for a few frames and were replaced", outcome.replaced));
-  control.say(fmt::format("{} of {} frames, joints moved by {:.0f} mm on average; open {}",
-                          outcome.used, outcome.frames, 1000 * outcome.moved,
-                          outcome.open_first.string()));
+  say(outcome, terminal.control());
   return kDone;
 }
 

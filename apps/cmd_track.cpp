@@ -49,6 +49,18 @@ void set_budget(const std::string& fps, const std::string& budget_ms, ConfigWith
   apply_setting(config, "budget.frame_ms=" + shortest_number(ms), rate ? "--fps" : "--budget-ms");
 }
 
+// Prints the outcome and returns the exit code.
+int report(const TrackOutcome& outcome, const JobControl& control) {
+  const bool cut_short = outcome.status == TrackStatus::kCutShort;
+  const bool listed = !outcome.failed_checks.empty();  // printed by the summary
+  if (!outcome.message.empty() && !cut_short && !listed) control.say(outcome.message);
+  if (outcome.resumable) control.say("interrupted; run again with --resume to continue from here");
+  control.say(summary_text(outcome));
+  // Reported last, and also with --quiet, although the result before it is kept.
+  if (cut_short) throw InputError(outcome.message);
+  return stop_request() ? kInterrupted : exit_code(outcome.status);
+}
+
 }  // namespace
 
 int run_track(const Arguments& arguments) {
@@ -93,16 +105,8 @@ int run_track(const Arguments& arguments) {
   job.command_line.insert(job.command_line.end(), arguments.begin(), arguments.end());
   job.scene = read_scene(scene);
   Terminal terminal(line.common());
-  const JobControl control = terminal.control();
-  const TrackOutcome outcome = track_scene(job, control);
-  const bool cut_short = outcome.status == TrackStatus::kCutShort;
-  const bool listed = !outcome.failed_checks.empty();  // printed by the summary
-  if (!outcome.message.empty() && !cut_short && !listed) control.say(outcome.message);
-  if (outcome.resumable) control.say("interrupted; run again with --resume to continue from here");
-  control.say(summary_text(outcome));
-  // Reported last, and also with --quiet, although the result before it is kept.
-  if (cut_short) throw InputError(outcome.message);
-  const int code = stop_request() ? kInterrupted : exit_code(outcome.status);
+  const TrackOutcome outcome = track_scene(job, terminal.control());
+  const int code = report(outcome, terminal.control());
   if (json_line) fmt::print("{}", summary_json(outcome, job.output.string(), code));
   return code;
 }
