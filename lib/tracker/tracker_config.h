@@ -12,7 +12,7 @@ inline namespace tracker {
 
 // The pose that is reported for a frame: the particles' mean, or the most probable pose near it
 // (tracker/smooth/refinement.h).
-enum class EstimateKind { kMean, kMap };
+enum class EstimateKind { kFilter, kMap };
 
 struct TrackerConfig {
   MotionConfig motion;

@@ -8,7 +8,7 @@
 #include "camera/camera.h"
 #include "gait/prior/gait_prior.h"
 #include "observation/observer.h"
-#include "tracker/detect/detector.h"
+#include "tracker/detect/stature.h"
 #include "tracker/state/particle.h"
 
 namespace walktrack {
@@ -24,7 +24,8 @@ struct TrackerScene {
   std::optional<DetectedWalk> initial;
   int initial_frame = 0;
   std::optional<double> initial_phase;  // of the stride, 0 = left foot strike
-  bool size_known = true;  // the height of the model is right; otherwise it is estimated
+  bool size_known = true;           // the height of the model is right; otherwise it is estimated
+  Stature stature = kUsualStature;  // what is known of it then
 };
 
 // The detector's limits, adapted to the scene: keypoints alone contain far less evidence than

@@ -35,30 +35,38 @@ std::string reader_says(const TemporaryFolder& place, const Json& scene) {
 Json full_scene() {
   const std::string demo = (kSource / "data/demo").string();
   const Json polygon = {{1, 2}, {3, 4}, {5, 6}};
-  return {
-      {"cameras",
-       {{{"name", "side"},
-         {"video", demo + "/side.mp4"},
-         {"calibration", demo + "/side.yaml"},
-         {"background", demo + "/side_background.mp4"},
-         {"start_frame", 2},
-         {"frame_rate", 30}}}},
-      {"frame_rate", 30},
-      {"ground", {{"normal", {0, 0, 1}}, {"offset", 0}}},
-      {"gravity", {0, 0, -9.81}},
-      {"subject", {{"height", 1.7}, {"mass", 60}, {"lengths", {{"thigh", 0.4}, {"foot", 0.2}}}}},
-      {"initial",
-       {{"time", 0.5}, {"position", {0, 0}}, {"heading", 0}, {"speed", 1}, {"phase", 0.1}}},
-      {"occluders", {{"side", {polygon, {{"polygon", polygon}, {"from", 1}, {"to", 2}}}}}},
-      {"truth", demo + "/truth.csv"},
-      {"first_frame", 1},
-      {"last_frame", 40}};
+  return {{"cameras",
+           {{{"name", "side"},
+             {"video", demo + "/side.mp4"},
+             {"calibration", demo + "/side.yaml"},
+             {"background", demo + "/side_background.mp4"},
+             {"start_frame", 2},
+             {"frame_rate", 30}}}},
+          {"frame_rate", 30},
+          {"ground", {{"normal", {0, 0, 1}}, {"offset", 0}}},
+          {"gravity", {0, 0, -9.81}},
+          {"subject",
+           {{"height", 1.7},
+            {"height_sd", 0.02},
+            {"mass", 60},
+            {"lengths", {{"thigh", 0.4}, {"foot", 0.2}}}}},
+          {"initial",
+           {{"time", 0.5}, {"position", {0, 0}}, {"heading", 0}, {"speed", 1}, {"phase", 0.1}}},
+          {"occluders", {{"side", {polygon, {{"polygon", polygon}, {"from", 1}, {"to", 2}}}}}},
+          {"truth", demo + "/truth.csv"},
+          {"first_frame", 1},
+          {"last_frame", 40}};
 }
 
 TEST(SceneSchema, TakesWhatTheReaderTakes) {
   const TemporaryFolder place;
   EXPECT_EQ(reader_says(place, full_scene()), "");
   EXPECT_EQ(schema_trouble(schema("scene"), full_scene()), "");
+  Json apart = full_scene();
+  place.write("anna.yaml", "height: 1.7");
+  apart["subject"] = "anna.yaml";
+  EXPECT_EQ(reader_says(place, apart), "");
+  EXPECT_EQ(schema_trouble(schema("scene"), apart), "");
   // Every key of the schema is tested here.
   const Json scene = full_scene(), known = schema("scene");
   for (const auto& [key, unused] : known.at("properties").items())
@@ -76,6 +84,7 @@ TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
   };
   refused("/camera", 1, "/camera: an unknown key");
   refused("/subject/height", 175, "/subject/height: too large");
+  refused("/subject/height_sd", 3, "/subject/height_sd: too large");
   refused("/subject/weight", 60, "/subject/weight: an unknown key");
   refused("/subject/lengths/toe", 0.1, "/subject/lengths/toe: an unknown key");
   refused("/cameras/0/fps", 30, "/cameras/0/fps: an unknown key");

@@ -218,7 +218,7 @@ TEST_F(Track, EveryFrameIsRefined) {
       EXPECT_EQ(evidence, log_evidence);
       return read_motion(folder_ / name / "joints.csv");
     };
-    const Motion mean = joints(EstimateKind::kMean), map = joints(EstimateKind::kMap);
+    const Motion mean = joints(EstimateKind::kFilter), map = joints(EstimateKind::kMap);
     ASSERT_EQ(mean.joints.size(), map.joints.size());
     size_t tracked = 0, same = 0;
     for (size_t i = 0; i < map.joints.size(); ++i) {

@@ -119,8 +119,24 @@ TEST_F(UnknownSize, IsEstimatedForAGivenStart) {
   EXPECT_EQ(run_json().at("numbers").at("tracked_frames"), 21);
 }
 
+TEST_F(UnknownSize, IsKnownBetterInTheNextVideoOfThePerson) {
+  track_scene(job("subject: {mass: 60}"), {});
+  const nlohmann::json first = run_json().at("numbers");
+  fs::copy_file(folder() / "tracked/subject.yaml", folder() / "scene/anna.yaml");
+  const TrackJob next = job("subject: anna.yaml");
+  EXPECT_EQ(next.scene.subject.mass, 60);
+  EXPECT_NEAR(next.scene.subject.height, first.at("estimated_height_m"), 0.0006);
+  EXPECT_FALSE(next.scene.height_given);
+  EXPECT_EQ(track_scene(next, {}).status, TrackStatus::kTracked);
+  const nlohmann::json second = run_json().at("numbers");
+  EXPECT_NEAR(second.at("estimated_height_m"), 1.58, 0.05);
+  EXPECT_LT(second.at("estimated_height_sd_m"), first.at("estimated_height_sd_m"));
+  EXPECT_NE(run_json().dump().find("anna.yaml"), std::string::npos);  // among the inputs
+}
+
 TEST_F(UnknownSize, IsNotEstimatedIfItIsStated) {
   track_scene(job("subject: {height: 1.58}"), {});
+  EXPECT_FALSE(fs::exists(folder() / "tracked/subject.yaml"));
   EXPECT_FALSE(run_json().at("numbers").contains("estimated_height_m"));
   EXPECT_EQ(run_json().at("notes").size(), 0u);
 }

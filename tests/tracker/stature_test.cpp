@@ -30,8 +30,9 @@ FigureScore person_of(double height, double width) {
   };
 }
 
-SizedWalk sized(double height, double width) {
-  return size_up(walk_off_by({0.1, -0.15}), 1.75, kFrames, person_of(height, width), kDt, kEye);
+SizedWalk sized(double height, double width, const Stature& known = kUsualStature) {
+  return size_up(walk_off_by({0.1, -0.15}), 1.75, known, kFrames, person_of(height, width), kDt,
+                 kEye);
 }
 
 TEST(SizeUp, FindsTheHeightAndItsLine) {
@@ -40,7 +41,9 @@ TEST(SizeUp, FindsTheHeightAndItsLine) {
     // The prior of the height, 1.70 +- 0.15 m, shifts an estimate with an uncertainty of 2 cm by at
     // most 1.1 cm.
     EXPECT_NEAR(found.stature.height, height, 0.02) << height;
-    EXPECT_LT((found.walk.position - kBegin).norm(), 0.03) << height;  // the climb ends at 1 cm
+    // The line of that height; the climb ends at 1 cm.
+    const Eigen::Vector2d begin = kBegin + Eigen::Vector2d(0, 2 * (found.stature.height - height));
+    EXPECT_LT((found.walk.position - begin).norm(), 0.03) << height;
     EXPECT_NEAR(found.walk.score, 40, 0.5) << height;
   }
 }
@@ -48,7 +51,7 @@ TEST(SizeUp, FindsTheHeightAndItsLine) {
 TEST(SizeUp, TheSpreadIsThatOfTheEvidenceOfUsualHeightsAndOfPeople) {
   for (const double width : {0.15, 0.6}) {
     const double seen = kStrangeFigure * width / std::sqrt(40 * independent_looks(kFrames, kDt));
-    const double expected = std::hypot(1 / std::hypot(1 / seen, 1 / 0.15), 0.02);
+    const double expected = 1 / std::hypot(1 / std::hypot(seen, 0.02), 1 / 0.15);
     // The bell's flanks are less curved than its top: 5 cm are a third of the narrow one's width.
     EXPECT_NEAR(sized(1.7, width).stature.sd, expected, 0.1 * expected) << width;
   }
@@ -58,9 +61,24 @@ TEST(SizeUp, WhereImagesSayNothingItIsAUsualHeight) {
   const FigureScore blind = [](double) -> WindowScore {
     return [](size_t, const Eigen::Vector2d&, const Eigen::Vector2d&) { return 10.0; };
   };
-  const SizedWalk found = size_up(walk_off_by({0, 0}), 1.75, kFrames, blind, kDt, kEye);
+  const SizedWalk found =
+      size_up(walk_off_by({0, 0}), 1.75, kUsualStature, kFrames, blind, kDt, kEye);
   EXPECT_NEAR(found.stature.height, 1.70, 1e-6);
-  EXPECT_NEAR(found.stature.sd, std::hypot(0.15, 0.02), 1e-6);
+  EXPECT_NEAR(found.stature.sd, 0.15, 1e-6);
+}
+
+TEST(SizeUp, WhatIsKnownOfTheHeightCounts) {
+  // The images say 1.70 m, and before it was 1.80: the result is between the two, and narrower.
+  const SizedWalk vague = sized(1.70, 0.2), known = sized(1.70, 0.2, {1.80, 0.03});
+  EXPECT_GT(known.stature.height, vague.stature.height + 0.01);
+  EXPECT_LT(known.stature.height, 1.79);
+  EXPECT_LT(known.stature.sd, std::min(0.03, vague.stature.sd));
+  // Hair and shoes are wrong by as much in the next video: it never becomes more certain than that.
+  EXPECT_NEAR(sized(1.70, 0.2, known.stature).stature.sd, 0.02, 1e-9);
+  // Somebody who has been measured stays that tall.
+  const SizedWalk measured = sized(1.70, 0.2, {1.80, 0.002});
+  EXPECT_NEAR(measured.stature.height, 1.80, 0.002);
+  EXPECT_NEAR(measured.stature.sd, 0.002, 1e-9);
 }
 
 TEST(WithHeight, IsTheModelOfSomebodyThatTall) {

@@ -175,8 +175,12 @@ void add_track(ParameterTable& table) {
            "time for which a lost subject is searched only within walking distance, s");
   t.number("model_error", &T::model_error, 0, 100,
            "factor on the part of the 90 % bands that is not the particles' spread");
-  t.choice("estimate", &T::estimate, {{"mean", EstimateKind::kMean}, {"map", EstimateKind::kMap}},
-           "reported pose: the particles' mean, or the most probable pose near it");
+  t.choice("estimate", &T::estimate,
+           {{"filter", EstimateKind::kFilter},
+            {"map", EstimateKind::kMap},
+            {"mean", EstimateKind::kFilter}},
+           "reported poses: of the filter, which are the particles' means, or the most probable "
+           "ones of the whole video");
   m.number("evidence_window", &M::evidence_window, 0.1, 100,
            "length of the past whose median likelihood a frame is compared with, s");
   t.integer("samples", &T::samples, 0, 1000,

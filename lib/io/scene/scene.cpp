@@ -13,6 +13,7 @@
 #include "io/archive/files.h"
 #include "io/calibration/calibration.h"
 #include "io/config/yaml.h"
+#include "io/scene/subject_file.h"
 
 namespace walktrack {
 inline namespace io {
@@ -131,32 +132,12 @@ Eigen::Vector3d read_gravity(const YamlValue& root, const WorldFrame& world) {
   return gravity;
 }
 
-std::optional<double> read_length(const YamlValue& lengths, const std::string& key) {
-  if (!lengths.has(key)) return std::nullopt;
-  return lengths.at(key).number(0.005, 3);
-}
-
-Subject read_subject(const YamlValue& root) {
-  Subject subject;
-  if (!root.has("subject")) return subject;
-  const YamlValue value = root.at("subject");
-  value.only_keys({"height", "mass", "lengths"});
-  if (value.has("height")) subject.height = value.at("height").number(0.2, 4);
-  if (value.has("mass")) subject.mass = value.at("mass").number(0.5, 1000);
-  if (!value.has("lengths")) return subject;
-  const YamlValue lengths = value.at("lengths");
-  lengths.only_keys({"thigh", "shank", "foot", "ankle_height", "trunk", "hip_width",
-                     "shoulder_width", "upper_arm", "forearm"});
-  subject.lengths = {.thigh = read_length(lengths, "thigh"),
-                     .shank = read_length(lengths, "shank"),
-                     .foot = read_length(lengths, "foot"),
-                     .ankle_height = read_length(lengths, "ankle_height"),
-                     .trunk = read_length(lengths, "trunk"),
-                     .hip_width = read_length(lengths, "hip_width"),
-                     .shoulder_width = read_length(lengths, "shoulder_width"),
-                     .upper_arm = read_length(lengths, "upper_arm"),
-                     .forearm = read_length(lengths, "forearm")};
-  return subject;
+void state_subject(const StatedSubject& stated, Scene& scene) {
+  scene.subject = stated.subject;
+  scene.height_given = stated.height_stated && !stated.height_sd;
+  scene.height_sd = stated.height_sd;
+  scene.mass_given = stated.mass_stated;
+  scene.subject_file = stated.file;
 }
 
 // Whether z of the calibration points up so nearly that (x, y) and an angle define a place and a
@@ -268,9 +249,8 @@ Scene read_scene(const fs::path& path) {
   if (root.has("frame_rate")) {
     scene.frame_rate = root.at("frame_rate").number(kSlowestRate, kFastestRate);
   }
-  scene.subject = read_subject(root);
-  scene.height_given = root.has("subject") && root.at("subject").has("height");
-  scene.mass_given = root.has("subject") && root.at("subject").has("mass");
+  state_subject(root.has("subject") ? read_subject(root.at("subject"), folder) : StatedSubject{},
+                scene);
   scene.initial = read_initial(root, scene.world);
   read_occluders(root, scene.cameras);
   if (root.has("truth")) scene.truth = existing_path(root.at("truth"), folder);
@@ -283,7 +263,7 @@ std::vector<fs::path> files_of(const Scene& scene) {
   for (const SceneCamera& camera : scene.cameras)
     files.insert(files.end(),
                  {camera.video, camera.calibration, camera.background, camera.keypoints.path});
-  files.push_back(scene.truth);
+  files.insert(files.end(), {scene.truth, scene.subject_file});
   std::erase(files, fs::path());
   return files;
 }

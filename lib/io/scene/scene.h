@@ -63,6 +63,8 @@ struct Scene {
   Eigen::Vector3d gravity{0, 0, -9.80665};  // world axes, m/s^2; a slope tilts it
   Subject subject;
   bool height_given = true, mass_given = true;  // otherwise usual values are used
+  std::optional<double> height_sd;              // m, of a height that is known roughly
+  std::filesystem::path subject_file;           // that states the subject; empty = the scene
   std::optional<InitialState> initial;
   std::filesystem::path truth;    // empty = none
   int first_frame = 0;            // time 0
@@ -75,7 +77,7 @@ std::vector<Polygon> occluders_at(const SceneCamera& camera, double time);
 Scene read_scene(const std::filesystem::path& path);
 
 // The scene's own file and all files that it names: videos, calibrations, backgrounds, keypoints,
-// truth.
+// the subject, truth.
 std::vector<std::filesystem::path> files_of(const Scene& scene);
 
 // Whether a path denotes many files, e.g. frames/%05d.png.

@@ -46,7 +46,7 @@ CheckReport check_scene(const CheckJob& job, const JobControl& control) {
   if (!job.pictures.empty()) refuse_what_is_not_ours(check_outputs(scene, job.pictures));
   CheckReport report = look_at_scene(scene, control);
   check_decoding(scene, control, report);
-  if (!scene.height_given)
+  if (!scene.height_given && !scene.height_sd)
     report.findings.push_back(
         {"", false,
          fmt::format("the scene does not say how tall the subject is: here {:g} m, in `track` what "

@@ -83,11 +83,15 @@ Subject subject_of(const OptimiseJob& job, const Motion& motion) {
   Subject out = job.scene ? job.scene->subject : Subject{};
   if (job.height) {
     out.height = *job.height;
-  } else if (!job.scene || !job.scene->height_given) {
+  } else if (!job.scene || !(job.scene->height_given || job.scene->height_sd)) {
     out.height = stature_of(motion);
   }
   if (job.mass) out.mass = *job.mass;
   return with_lengths_of(motion, out);
+}
+
+bool is_mass_stated(const OptimiseJob& job) {
+  return job.mass || (job.scene && job.scene->mass_given);
 }
 
 // Other tools' floors are off by centimetres, so that the motion is lowered onto ours first.
@@ -234,6 +238,11 @@ OptimiseOutcome written_result(const Given& given, OptimiseOutcome outcome,
   outcome.moved = mean_displacement(before, analysed.motion);
   const JointUncertainty uncertainty = uncertainty_of(reported.frames());
   const WrittenTables tables = write_tables(analysed, uncertainty, forces_of(job), folder);
+  folder.write(kSubjectFile, subject_text({.subject = track.scene.subject,
+                                           .height_sd = std::nullopt,
+                                           .height_stated = true,
+                                           .mass_stated = is_mass_stated(job),
+                                           .file = {}}));
   const int threads = thread_count(job.config.values.threads);
   std::vector<ReportClip> clips;
   if (track.overlay) clips = write_overlays(track, reported.frames(), folder, threads, control);

@@ -163,6 +163,7 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
   items.fact("size", !scene.height_given,
              "the subject's height, estimated from the first window in which the subject is found",
              scene.height_given ? "the scene gives subject.height"
+             : scene.height_sd  ? "the scene gives subject.height_sd"
                                 : "the scene does not give subject.height");
   const bool paced = values.budget.frame_ms > 0;
   items.fact(

@@ -133,6 +133,13 @@ void finish(const ResultFolder& folder, const TrackOutcome& outcome, const std::
   partial ? folder.finish_partial(record) : folder.finish(record);
 }
 
+// Frames of the filter are reported as they are.
+SmoothingConfig smoothing_of(const Config& config) {
+  SmoothingConfig out = config.smoothing;
+  out.enabled = out.enabled && config.tracker.estimate == EstimateKind::kMap;
+  return out;
+}
+
 }  // namespace
 
 std::string_view status_word(TrackStatus status) {
@@ -182,8 +189,8 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   report_missing_network(given, control, outcome);
   const bool interrupted = follow_video(run, video, control, outcome);
   const TimePoint writing;
-  const ReportedTrack track(run.frames(), run.model(), job.config.values.smoothing, band_scene(job),
-                            folder);
+  const ReportedTrack track(run.frames(), run.model(), smoothing_of(job.config.values),
+                            band_scene(job), folder);
   const Scene scene = with_stature(job.scene, run.stature());
   const AnalysedMotion analysed =
       analysed_motion(track.frames(), scene, job.config.values.tracker.model_error);
@@ -191,11 +198,13 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   outcome.status = judge(run, quality, video, interrupted, control, outcome.message);
   if (outcome.status == TrackStatus::kQualityFailed) outcome.failed_checks = failures(quality);
   outcome.tracked = frame_counts(track.frames()).tracked;
-  if (run.stature()) control.say(size_note(*run.stature()));
+  if (run.stature()) control.say(size_note(job.scene, *run.stature()));
   for (const std::string& note : run.notes()) control.say(note);
   const JointUncertainty uncertainty = uncertainty_of(track.frames());
   const WrittenTables tables = write_tables(analysed, uncertainty, forces_of_track(job), folder);
   outcome.walk = tables.walk;
+  if (run.stature())
+    folder.write(kSubjectFile, subject_text(known_subject(job.scene, run.stature())));
   std::vector<ReportClip> clips;
   if (job.overlay && outcome.frames > 0)
     clips = write_overlays(job, track.frames(), folder, run.threads(), control);

@@ -49,6 +49,7 @@ Origin input_digests(const Scene& scene, const KeypointConfig& keypoints) {
     });
   };
   add(scene.file, false);
+  add(scene.subject_file, false);
   for (const SceneCamera& camera : scene.cameras) {
     add(camera.calibration, false);
     add(camera.video, true);

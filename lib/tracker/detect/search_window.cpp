@@ -12,6 +12,9 @@ inline namespace tracker {
 
 namespace {
 
+// Heights within so many deviations of what is known are tried. By hand.
+constexpr double kLikely = 3;
+
 // The walk in the window that is found with figures of another body.
 std::optional<DetectedWalk> look_for_walk(const SearchWindow& window, const BodyModel& model) {
   const TrackContext& context = window.context;
@@ -83,7 +86,7 @@ SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double 
       return window_score(window, body, figures)(frame, place, velocity);
     };
   };
-  return size_up(walk, height, window.frames.size(), score, context.scene.dt,
+  return size_up(walk, height, context.scene.stature, window.frames.size(), score, context.scene.dt,
                  camera_position(context.scene));
 }
 
@@ -91,6 +94,8 @@ SizedWalk best_size(const SearchWindow& window, const DetectedWalk& found) {
   const TrackContext& context = window.context;
   std::vector<SizedWalk> sizes{{{context.body().subject.height, 0}, found}};
   for (const double height : {1.3, 1.5, 1.6, 1.9}) {
+    if (std::abs(height - context.scene.stature.height) > kLikely * context.scene.stature.sd)
+      continue;
     const auto other = look_for_walk(window, with_height(context.scene.model, height));
     if (other) sizes.push_back({{height, 0}, *other});
   }

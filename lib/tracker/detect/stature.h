@@ -20,6 +20,10 @@ struct Stature {
   double height, sd;  // m
 };
 
+// What is known of a height that nobody states: adults of both sexes, with a spread that is wide
+// enough for others if the images show them. By hand.
+inline constexpr Stature kUsualStature{1.70, 0.15};
+
 // The score of a figure of that height, m.
 using FigureScore = std::function<WindowScore(double height)>;
 
@@ -29,9 +33,9 @@ struct SizedWalk {
 };
 
 // `walk`: the walk in a window's frames, dt apart, as it was found with figures of `height`.
-// `camera_position` as in detect_walk.
-SizedWalk size_up(const DetectedWalk& walk, double height, size_t frames, const FigureScore& score,
-                  double dt, const Eigen::Vector2d& camera_position);
+// `known`: of the height before the images. `camera_position` as in detect_walk.
+SizedWalk size_up(const DetectedWalk& walk, double height, const Stature& known, size_t frames,
+                  const FigureScore& score, double dt, const Eigen::Vector2d& camera_position);
 
 // The same person with another height, all lengths in proportion; lengths that a scene states stay
 // the same, and so does the mass.

@@ -92,7 +92,7 @@ constexpr QualityWords kWords[] = {
     {"jitter_m_s3", "Jitter: mean third derivative of the joints", "m/s³", 0,
      "The joints of people who walk stay below about 500.",
      "The figure trembles or jumps: more particles (filter.particles) or smoothing "
-     "(smoothing.enabled) help. Check that the figure is on the person."},
+     "(track.estimate=map) help. Check that the figure is on the person."},
 };
 
 }  // namespace

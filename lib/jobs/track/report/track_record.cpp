@@ -97,7 +97,7 @@ std::vector<std::string> notes_of(const TrackJob& job, const TrackRun& run,
   if (!outcome.message.empty()) out.push_back(outcome.message);
   out.insert(out.end(), outcome.checks.begin(), outcome.checks.end());
   if (is_paced(job)) out.push_back(pace_note(job.config.values.budget));
-  if (run.stature()) out.push_back(size_note(*run.stature()));
+  if (run.stature()) out.push_back(size_note(job.scene, *run.stature()));
   for (const std::string& note : run.notes()) out.push_back(note);
   return out;
 }
@@ -179,11 +179,16 @@ FrameCounts frame_counts(const TrackedFrames& frames) {
   return out;
 }
 
-std::string size_note(const Stature& stature) {
+std::string size_note(const Scene& scene, const Stature& stature) {
+  const std::string stated =
+      scene.height_sd
+          ? fmt::format("the scene says that the subject is {:.2f} m tall, give or take {:.2f}",
+                        scene.subject.height, *scene.height_sd)
+          : "the scene does not say how tall the subject is";
   return fmt::format(
-      "the scene does not say how tall the subject is: {:.2f} m, give or take {:.2f}, from the "
-      "images",
-      stature.height, stature.sd);
+      "{}: {:.2f} m, give or take {:.2f}, {} the images; subject.yaml has it for other "
+      "videos of the same person",
+      stated, stature.height, stature.sd, scene.height_sd ? "with" : "from");
 }
 
 RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& run,

@@ -21,7 +21,7 @@ struct FrameCounts {
 FrameCounts frame_counts(const TrackedFrames& frames);
 
 // The estimated size of the subject, if the scene does not state it, as a sentence.
-std::string size_note(const Stature& stature);
+std::string size_note(const Scene& scene, const Stature& stature);
 
 RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& run,
                     const TrackedFrames& frames, const TrackOutcome& outcome,

@@ -152,7 +152,7 @@ std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames) {
 
 Outputs track_outputs(const TrackJob& job) {
   Outputs out{job.output, "track", motion_table_files(), files_of(job.scene)};
-  out.files.insert(out.files.end(), {"joints.csv", "uncertainty.csv", kReportFile});
+  out.files.insert(out.files.end(), {"joints.csv", "uncertainty.csv", kSubjectFile, kReportFile});
   out.files.insert(out.files.end(), kPassingFiles.begin(), kPassingFiles.end());
   for (const SceneCamera& camera : job.scene.cameras)
     if (job.overlay) out.files.push_back(overlay_name(camera));
@@ -165,6 +165,16 @@ Scene with_stature(const Scene& scene, const std::optional<Stature>& stature) {
   const double ratio = stature->height / scene.subject.height;
   out.subject.height = stature->height;
   if (!scene.mass_given) out.subject.mass *= ratio * ratio;
+  return out;
+}
+
+StatedSubject known_subject(const Scene& scene, const std::optional<Stature>& stature) {
+  StatedSubject out{.subject = with_stature(scene, stature).subject,
+                    .height_sd = scene.height_sd,
+                    .height_stated = scene.height_given || scene.height_sd || stature,
+                    .mass_stated = scene.mass_given,
+                    .file = {}};
+  if (stature) out.height_sd = stature->sd;
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include "io/archive/frame_file.h"
 #include "io/archive/result_folder.h"
+#include "io/scene/subject_file.h"
 #include "jobs/track/results/motion_tables.h"
 #include "jobs/track/track.h"
 #include "metrics/statistics/coverage.h"
@@ -33,6 +34,9 @@ Outputs track_outputs(const TrackJob& job);
 // The scene with the estimated height of its subject; a mass that it does not state is in
 // proportion to the square of the height.
 Scene with_stature(const Scene& scene, const std::optional<Stature>& stature);
+
+// What is known of the scene's subject after the track, for other scenes of the same person.
+StatedSubject known_subject(const Scene& scene, const std::optional<Stature>& stature);
 
 struct WrittenTables {
   std::string digest;  // of joints.csv and uncertainty.csv

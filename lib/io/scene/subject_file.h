@@ -1,0 +1,33 @@
+// The subject of a scene: a map in the scene, or a file of its own with the same keys, which
+// another scene of the same person can name. `track` and `optimise` write one, with the height that
+// they have estimated and its standard deviation.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "body/subject.h"
+#include "io/config/yaml.h"
+
+namespace walktrack {
+inline namespace io {
+
+inline constexpr const char* kSubjectFile = "subject.yaml";
+
+struct StatedSubject {
+  Subject subject;                  // usual values for what is not stated
+  std::optional<double> height_sd;  // m; then the height is only known so well
+  bool height_stated = false, mass_stated = false;
+  std::filesystem::path file;  // which states it; empty = the scene itself
+};
+
+// The value of `subject`: a map, or the path of a file, relative to `folder`. InputErrors name the
+// file that has the mistake.
+StatedSubject read_subject(const YamlValue& value, const std::filesystem::path& folder);
+
+// The text of such a file. Usual values that nobody stated are left out.
+std::string subject_text(const StatedSubject& stated);
+
+}  // namespace io
+}  // namespace walktrack
