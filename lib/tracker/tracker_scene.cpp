@@ -26,13 +26,17 @@ int frames_in(double seconds, double dt) {
   return std::max(2, static_cast<int>(std::lround(seconds / dt)));
 }
 
+PriorGait usual_gait(const BodyModel& model, const GaitPrior& prior, double speed, double heading) {
+  const double leg = leg_length(model.body.lengths);
+  const double unit_speed = std::sqrt(model.walker.parameters.gravity * leg);
+  return gait_at(prior, in_plane(model, heading).parameters, speed,
+                 leg * preferred_step_length(speed / unit_speed));
+}
+
 std::vector<Pose> walking_figures(const BodyModel& model, const GaitPrior& prior, double speed,
                                   double heading) {
   constexpr int kFigures = 6;  // by hand; half of them suffice for a first search
-  const double leg = leg_length(model.body.lengths);
-  const double unit_speed = std::sqrt(model.walker.parameters.gravity * leg);
-  const PriorGait gait = gait_at(prior, in_plane(model, heading).parameters, speed,
-                                 leg * preferred_step_length(speed / unit_speed));
+  const PriorGait gait = usual_gait(model, prior, speed, heading);
   std::vector<Pose> figures;
   for (int k = 0; k < kFigures; ++k)
     figures.push_back(pose_in_gait(model, gait, Side::kLeft, double(k) / kFigures));

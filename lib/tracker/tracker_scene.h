@@ -38,6 +38,9 @@ int frames_in(double seconds, double dt);
 // By camera, in the order of TrackerScene::cameras.
 using SceneEvidence = std::vector<CameraEvidence>;
 
+// The usual gait of a speed (m/s) on the slope of `heading`.
+PriorGait usual_gait(const BodyModel& model, const GaitPrior& prior, double speed, double heading);
+
 // A walker's poses over a step of the usual gait of a speed (m/s) on the slope of `heading`, with
 // the root above the origin and the pose's own heading 0. In every frame one of them resembles such
 // a walker, whichever foot stands.

@@ -139,6 +139,29 @@ TEST(DetectWalk, AMomentOfUnusualPosesIsTolerated) {
   EXPECT_FALSE(gap_of(5));
 }
 
+// The scores of somebody who comes out from behind a tree in the first fifth of a second.
+TEST(DetectWalk, SaysForHowLongTheSubjectIsHalfHiddenAtFirst) {
+  const auto seen = [](double first) {
+    return window([=](size_t frame, const Eigen::Vector2d& p) {
+      return bell(p, walker_at(frame), frame < 6 ? first : 100);
+    });
+  };
+  const auto hidden = seen(52).walk(), dark = seen(90).walk();
+  ASSERT_TRUE(hidden && dark);
+  EXPECT_GE(hidden->hidden_frames, 4u);
+  EXPECT_LE(hidden->hidden_frames, 6u);
+  EXPECT_EQ(dark->hidden_frames, 0u);
+}
+
+TEST(DetectWalk, MovesAlongItsLineAndIsLessCertainThere) {
+  const DetectedWalk walk{
+      .position = {1, 2}, .velocity = {1.5, -0.5}, .position_sd = 0.03, .velocity_sd = 0.08};
+  const DetectedWalk before = moved(walk, -0.5);
+  EXPECT_LT((before.position - Eigen::Vector2d(0.25, 2.25)).norm(), 1e-12);
+  EXPECT_NEAR(before.position_sd, 0.05, 1e-12);
+  EXPECT_EQ(before.velocity_sd, walk.velocity_sd);
+}
+
 TEST(DetectWalk, ThreadsDoNotMatter) {
   const Window f =
       window([](size_t frame, const Eigen::Vector2d& p) { return bell(p, walker_at(frame), 100); });

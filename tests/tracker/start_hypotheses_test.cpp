@@ -27,8 +27,11 @@ struct Blind {
     detected.velocity = {1.2, 0};
   }
 
+  std::vector<PhaseRange> ranges(std::optional<double> stride_phase) const {
+    return stride_phase ? phase_ranges(start, *stride_phase) : phase_ranges(start);
+  }
   StartHypotheses contest(std::optional<double> stride_phase) const {
-    return {context.motion, start, filter, detected, stride_phase, 5, 1};
+    return {context.motion, start, filter, detected, ranges(stride_phase), 5, 1};
   }
 };
 
@@ -77,7 +80,7 @@ TEST(StartHypotheses, TheSameForAnyNumberOfThreads) {
   std::vector<double> places[2];
   for (const int threads : {1, 4}) {
     StartHypotheses contest(blind.context.motion, blind.start, blind.filter, blind.detected,
-                            std::nullopt, 5, threads);
+                            blind.ranges(std::nullopt), 5, threads);
     for (uint32_t frame = 0; !contest.decided(); ++frame) contest.step(blind.context, {}, frame);
     for (const WalkerParticle& p : contest.resampled())
       places[threads == 1 ? 0 : 1].push_back(p.pose.root.x());

@@ -45,7 +45,11 @@ struct DetectedWalk {
   double score = 0;
   // Share of the score that a figure standing in the middle of the walk does not reach.
   double over_standing = 0;
+  size_t hidden_frames = 0;  // the first ones of the window, in which the person is half hidden
 };
+
+// The same walk so many seconds later.
+DetectedWalk moved(const DetectedWalk& walk, double seconds);
 
 struct Place {
   Eigen::Vector2d position;

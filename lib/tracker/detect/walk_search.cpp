@@ -10,6 +10,8 @@ namespace {
 // Time for which frames before a walk are kept, s, to track a subject who stood there first. By
 // hand.
 constexpr double kStandingKept = 3;
+// The longest time for which a subject who is half hidden is waited for, s. By hand.
+constexpr double kMostPatience = 0.7;
 
 }  // namespace
 
@@ -30,8 +32,29 @@ SearchWindow WalkSearch::view(const TrackContext& context, const SearchMoment& m
   return {context, window_, moment.first_frame, moment.last_seen, places_};
 }
 
-std::optional<DetectedWalk> WalkSearch::find(const TrackContext& context,
-                                             const SearchMoment& moment) {
+std::optional<FoundWalk> WalkSearch::find(const TrackContext& context, const SearchMoment& moment) {
+  const double dt = context.scene.dt;
+  const uint32_t now = moment.first_frame;
+  const bool last_chance = static_cast<int>(window_.size()) <= frames_in(kShortestWindow, dt);
+  if (half_hidden_ && now < half_hidden_->search_at && !last_chance) return std::nullopt;
+  const std::optional<DetectedWalk> walk = find_here(context, moment);
+  if (!half_hidden_ && (!walk || walk->hidden_frames == 0 || last_chance))
+    return walk ? std::optional(FoundWalk{*walk}) : std::nullopt;
+  if (!half_hidden_) half_hidden_ = HalfHidden{*walk, now, now};
+  const uint32_t waited = now - half_hidden_->frame;
+  const bool clear = walk && walk->hidden_frames == 0;
+  const auto next = static_cast<uint32_t>(walk ? std::max<size_t>(walk->hidden_frames, 1) : 1);
+  if (!clear && !last_chance && dt * (waited + next) <= kMostPatience) {
+    half_hidden_->search_at = now + next;
+    return std::nullopt;
+  }
+  const FoundWalk found{clear ? *walk : moved(half_hidden_->walk, dt * waited), waited};
+  half_hidden_.reset();
+  return found;
+}
+
+std::optional<DetectedWalk> WalkSearch::find_here(const TrackContext& context,
+                                                  const SearchMoment& moment) {
   const TrackerScene& scene = context.scene;
   const DetectorConfig& config = context.config.detector;
   if (places_.empty())
@@ -98,6 +121,17 @@ std::optional<StandingStart> WalkSearch::standing_lead(const TrackContext& conte
   return lead;
 }
 
+double WalkSearch::score_with_lead(const TrackContext& context, const FoundWalk& found) const {
+  const std::optional<LastSeen> nobody;
+  const SearchWindow before{context, waiting_, 0, nobody, {}};
+  const WindowScore score = window_score(before, context.body(), context.subject.figures);
+  double sum = found.walk.score * double(window_.size());
+  for (size_t back = 1; back <= found.lead; ++back)
+    sum += score(waiting_.size() - back,
+                 moved(found.walk, -double(back) * context.scene.dt).position, found.walk.velocity);
+  return sum / double(window_.size() + found.lead);
+}
+
 void WalkSearch::reach_back(size_t frames) {
   for (size_t i = 0; i < frames; ++i) {
     window_.push_front(std::move(waiting_.back()));
@@ -116,10 +150,8 @@ void WalkSearch::let_go(size_t frames) {
 
 bool WalkSearch::slide(const TrackContext& context) {
   let_go(1);
-  const auto kept = context.subject.standing
-                        ? static_cast<size_t>(frames_in(kStandingKept, context.scene.dt))
-                        : size_t{0};
-  if (waiting_.size() <= kept) return false;
+  const double kept = context.subject.standing ? kStandingKept : half_hidden_ ? kMostPatience : 0;
+  if (static_cast<double>(waiting_.size()) * context.scene.dt <= kept) return false;
   waiting_.pop_front();
   return true;
 }

@@ -19,6 +19,13 @@ struct SearchMoment {
   const std::optional<LastSeen>& last_seen;
 };
 
+// A walk, and how many frames before the window it begins: the frames in which the subject came out
+// from behind something. The walk's place is that in the window's first frame.
+struct FoundWalk {
+  DetectedWalk walk;
+  size_t lead = 0;
+};
+
 // The shortest window that is searched, s: the time for which start hypotheses compete.
 inline constexpr double kShortestWindow = 0.5;
 
@@ -33,8 +40,10 @@ class WalkSearch {
   // and whose records have not been returned yet.
   size_t waiting() const { return waiting_.size(); }
 
-  // The walk through the window; nullopt if nobody walks there, or not clearly enough.
-  std::optional<DetectedWalk> find(const TrackContext& context, const SearchMoment& moment);
+  // The walk through the window; nullopt if nobody walks there, or not clearly enough. If the
+  // subject is half hidden at first, the place is uncertain: the walk is searched once more after
+  // that, and begins where it was found first.
+  std::optional<FoundWalk> find(const TrackContext& context, const SearchMoment& moment);
   // That walk together with an estimate of the subject's height.
   SizedWalk with_size(const TrackContext& context, const SearchMoment& moment,
                       const DetectedWalk& walk) const;
@@ -50,6 +59,8 @@ class WalkSearch {
   // together.
   std::optional<StandingStart> standing_lead(const TrackContext& context,
                                              const DetectedWalk& walk) const;
+  // Mean score of a walk, nats a frame, that begins so many frames before the window.
+  double score_with_lead(const TrackContext& context, const FoundWalk& found) const;
   // Moves the beginning of the window back by some of the frames that wait, or forward again.
   void reach_back(size_t frames);
   void let_go(size_t frames);
@@ -64,12 +75,20 @@ class WalkSearch {
   SearchWindow view(const TrackContext& context, const SearchMoment& moment) const;
   const std::vector<Place>& candidates(const SearchWindow& window, size_t index);
   bool walks_clearly(const TrackContext& context, const DetectedWalk& walk);
+  std::optional<DetectedWalk> find_here(const TrackContext& context, const SearchMoment& moment);
+
+  struct HalfHidden {
+    DetectedWalk walk;
+    uint32_t frame;      // number of the first frame of its window
+    uint32_t search_at;  // number of the frame from which on it is searched again
+  };
 
   std::deque<SceneEvidence> waiting_, window_;
   std::deque<std::optional<std::vector<Place>>> candidates_;  // of the window's frames, once
                                                               // computed
   std::vector<Eigen::Vector2d> places_;                       // of a figure, once computed
   size_t slight_walks_ = 0;  // successive windows in which the person may as well stand
+  std::optional<HalfHidden> half_hidden_;
 };
 
 }  // namespace tracker

@@ -81,10 +81,10 @@ FrameRecord track_frame(const TrackContext& context, const SceneEvidence& eviden
 }  // namespace
 
 Starting start_around(const TrackContext& context, const DetectedWalk& walk,
-                      std::optional<double> stride_phase, uint32_t number, Searching before) {
+                      const std::vector<PhaseRange>& ranges, uint32_t number, Searching before) {
   const uint64_t seed = context.seed + 0xD1B54A32D192ED03u * number;  // streams of its own
   return {StartHypotheses(first_filter_context(context, walk.given).motion, context.config.start,
-                          context.config.filter, walk, stride_phase, seed, context.threads),
+                          context.config.filter, walk, ranges, seed, context.threads),
           walk.given, std::move(before)};
 }
 

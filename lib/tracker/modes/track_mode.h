@@ -44,10 +44,10 @@ using TrackMode = std::variant<Searching, Starting, Tracking>;
 inline bool is_searching(const TrackMode& mode) { return std::holds_alternative<Searching>(mode); }
 inline bool is_tracking(const TrackMode& mode) { return std::holds_alternative<Tracking>(mode); }
 
-// Hypotheses about a walk, over the whole stride or at a stated phase of it. `number` counts the
-// starts from 1 and keys the random streams.
+// Hypotheses about a walk, one for each range of phases. `number` counts the starts from 1 and keys
+// the random streams.
 Starting start_around(const TrackContext& context, const DetectedWalk& walk,
-                      std::optional<double> stride_phase, uint32_t number, Searching before);
+                      const std::vector<PhaseRange>& ranges, uint32_t number, Searching before);
 
 // Advances a mode other than Searching by a frame. Returns the records of all frames that are
 // finished now, in order; while hypotheses compete there are none.

@@ -23,7 +23,7 @@ constexpr double kEvidenceTemperature = 50;
 
 StartHypotheses::StartHypotheses(const MotionContext& motion, const StartConfig& start,
                                  const FilterConfig& filter, const DetectedWalk& detected,
-                                 std::optional<double> stride_phase, uint64_t seed, int threads)
+                                 const std::vector<PhaseRange>& ranges, uint64_t seed, int threads)
     : filter_(filter), seed_(seed), frames_to_decide_(frames_in(start.seconds, motion.dt)) {
   FilterConfig small = filter;
   small.particles = start.particles;
@@ -34,8 +34,7 @@ StartHypotheses::StartHypotheses(const MotionContext& motion, const StartConfig&
     hypotheses_.back().filter.start(spawn(motion, all, detected, {}, seed));
     return;
   }
-  for (const PhaseRange& range :
-       stride_phase ? phase_ranges(start, *stride_phase) : phase_ranges(start)) {
+  for (const PhaseRange& range : ranges) {
     // Separate streams of random numbers.
     const uint64_t own = seed + 0x9E3779B97F4A7C15u * (hypotheses_.size() + 1);
     hypotheses_.push_back({WalkerFilter(small, own, threads), own, 0, {}, false});

@@ -21,11 +21,11 @@ inline namespace tracker {
 
 class StartHypotheses {
  public:
-  // Hypotheses around a detected walk, over the whole stride or at a stated phase of it (0 = left
-  // foot strike). `filter`: the configuration that will be used afterwards.
+  // A hypothesis around a detected walk for each range of phases; one that stands has none.
+  // `filter`: the configuration that will be used afterwards.
   StartHypotheses(const MotionContext& motion, const StartConfig& start, const FilterConfig& filter,
-                  const DetectedWalk& detected, std::optional<double> stride_phase, uint64_t seed,
-                  int threads);
+                  const DetectedWalk& detected, const std::vector<PhaseRange>& ranges,
+                  uint64_t seed, int threads);
 
   // Adds the next frame; false if no hypothesis explains it.
   bool step(const WalkerFilterContext& context, const SceneEvidence& evidence, uint32_t frame);

@@ -8,6 +8,7 @@
 #include "tracker/moves/mirror_legs.h"
 #include "tracker/start/keypoint_lead.h"
 #include "tracker/start/leg_label_evidence.h"
+#include "tracker/start/stride_fit.h"
 
 namespace walktrack {
 inline namespace tracker {
@@ -110,7 +111,8 @@ Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& wi
                 uint32_t first_frame, const DetectedWalk& walk, uint32_t number,
                 const Searching& before) {
   const WindowFrames frames{context, window, first_frame};
-  Attempt attempt{.mode = start_around(context, walk, std::nullopt, number, before)};
+  Attempt attempt{
+      .mode = start_around(context, walk, likely_ranges(context, window, walk), number, before)};
   follow_rest(frames, attempt);
   if (attempt.legs != 0) attempt = with_labelled_legs(frames, std::move(attempt));
   const double walk_score = walk.score * static_cast<double>(window.size());

@@ -44,26 +44,38 @@ std::optional<WindowStart> start_at(SearchedWindow& window, const DetectedWalk& 
   return WindowStart{search.take(), first, std::move(trial.records), untracked};
 }
 
-// Starts where the subject stands before the walk, if they do; otherwise with the walk.
-std::optional<WindowStart> start_sized(SearchedWindow& window, const DetectedWalk& walk) {
-  if (const auto lead = window.search.standing_lead(window.subject.context(), walk)) {
-    std::optional<WindowStart> start = start_at(window, lead->detected, lead->frames);
-    if (start || window.outlines_misled) return start;
-  }
-  return start_at(window, walk, 0);
+// Starts with the walk, where it begins.
+std::optional<WindowStart> start_walking(SearchedWindow& window, const FoundWalk& found) {
+  const TrackContext context = window.subject.context();
+  DetectedWalk walk = moved(found.walk, -context.scene.dt * double(found.lead));
+  walk.score = window.search.score_with_lead(context, found);
+  return start_at(window, walk, found.lead);
 }
 
-std::optional<WindowStart> start_unsized(SearchedWindow& window, const DetectedWalk& walk) {
+// Starts where the subject stands before the walk, if they do; otherwise with the walk.
+std::optional<WindowStart> start_sized(SearchedWindow& window, const FoundWalk& found) {
+  const auto standing = found.lead == 0
+                            ? window.search.standing_lead(window.subject.context(), found.walk)
+                            : std::nullopt;
+  if (standing) {
+    std::optional<WindowStart> start = start_at(window, standing->detected, standing->frames);
+    if (start || window.outlines_misled) return start;
+  }
+  return start_walking(window, found);
+}
+
+std::optional<WindowStart> start_unsized(SearchedWindow& window, const FoundWalk& found) {
   const double height_before = window.subject.scene.model.body.subject.height;
-  const SizedWalk sized = window.search.with_size(window.subject.context(), window.moment(), walk);
+  const SizedWalk sized =
+      window.search.with_size(window.subject.context(), window.moment(), found.walk);
   set_height(window, sized.stature.height, sized.stature);
-  std::optional<WindowStart> start = start_at(window, sized.walk, 0);
+  std::optional<WindowStart> start = start_walking(window, {sized.walk, found.lead});
   if (!start) set_height(window, height_before, std::nullopt);
   return start;
 }
 
 std::optional<WindowStart> start_with_walk(SearchedWindow& window) {
-  const std::optional<DetectedWalk> walk =
+  const std::optional<FoundWalk> walk =
       window.search.find(window.subject.context(), window.moment());
   if (!walk) return std::nullopt;
   return window.subject.wants_size() ? start_unsized(window, *walk) : start_sized(window, *walk);
@@ -91,7 +103,10 @@ void start_as_given(TrackedSubject& subject, WalkSearch& search, uint32_t first_
         search.with_size_along(subject.context(), window.moment(), given).stature;
     set_height(window, stature.height, stature);
   }
-  mode = start_around(subject.context(), given, subject.scene.initial_phase, ++starts,
+  const StartConfig& start = subject.config.start;
+  const std::optional<double>& phase = subject.scene.initial_phase;
+  mode = start_around(subject.context(), given,
+                      phase ? phase_ranges(start, *phase) : phase_ranges(start), ++starts,
                       window.searching());
 }
 
