@@ -31,6 +31,9 @@ TARGETS = [
     ("legs_scalar", "legs_batch", "", None),
     ("frame_scalar", "frame_batch", "", None),
     ("track_output_2", "track_all_2", "at most", 0.15),
+    ("one_camera_network_always", "pose_network", "", None),
+    ("one_camera_network_default", "pose_network", "", None),
+    ("one_camera_network_off", "pose_network", "", None),
     ("dynamics_mujoco", "dynamics_scalar", "", None),
     ("dynamics_tmt_eigen", "dynamics_scalar", "", None),
     ("normal_ours", "normal_std", "", None),
@@ -50,14 +53,12 @@ def micro(build: Path, repetitions: int) -> dict[str, float]:
     return {name: statistics.median(values) for name, values in times.items()}
 
 
-def tracked(build: Path, source: Path, threads: int, repetitions: int) -> dict[str, float]:
-    """Seconds a frame of the shipped demo, in all and of its stages, medians."""
+def timed(build: Path, scene: Path, options: list[str], repetitions: int) -> dict[str, float]:
+    """Seconds a frame of a whole run and of its stages, medians."""
     runs: dict[str, list[float]] = {}
-    frames = sum(1 for _ in (source / "data/demo/truth.csv").open()) - 1
     for _ in range(repetitions):
         with tempfile.TemporaryDirectory() as folder:
-            command = [build / "walktrack", "track", source / "data/demo/scene.yaml", "-o",
-                       f"{folder}/out", "--threads", str(threads), "--quiet"]
+            command = [build / "walktrack", "track", scene, "-o", f"{folder}/out", "--quiet", *options]
             begin = time.perf_counter()
             if subprocess.run(command, stdout=subprocess.DEVNULL).returncode not in (0, 4):
                 sys.exit("walktrack track failed")
@@ -65,8 +66,28 @@ def tracked(build: Path, source: Path, threads: int, repetitions: int) -> dict[s
             record = json.loads(Path(folder, "out/run.json").read_text())
             seconds |= record["timing"]["stage_seconds"]
         for stage, value in seconds.items():
-            runs.setdefault(stage, []).append(value / frames)
-    return {f"track_{stage}_{threads}": statistics.median(v) for stage, v in runs.items()}
+            runs.setdefault(stage, []).append(value / record["numbers"]["frames"])
+    return {stage: statistics.median(values) for stage, values in runs.items()}
+
+
+def tracked(build: Path, source: Path, threads: int, repetitions: int) -> dict[str, float]:
+    """The shipped demo, in all and by stage."""
+    stages = timed(build, source / "data/demo/scene.yaml", ["--threads", str(threads)], repetitions)
+    return {f"track_{stage}_{threads}": value for stage, value in stages.items()}
+
+
+def with_network(build: Path, source: Path, repetitions: int) -> dict[str, float]:
+    """The demo's side camera alone, every output, with the network in every frame, as by default, and without it."""
+    demo = source.resolve() / "data/demo"
+    settings = {"always": ["observation.keypoints.enabled=on", "observation.keypoints.every=1"],
+                "default": [], "off": ["observation.keypoints.enabled=off"]}
+    with tempfile.TemporaryDirectory() as folder:
+        scene = Path(folder, "scene.yaml")
+        scene.write_text(f"cameras:\n  - {{name: side, video: {demo}/side.mp4, calibration: {demo}/side.yaml, "
+                         f"background: {demo}/side_background.mp4}}\nframe_rate: 30\nsubject: {{height: 1.75, mass: 70}}\n")
+        return {f"one_camera_network_{name}":
+                timed(build, scene, [word for each in chosen for word in ("--set", each)], repetitions)["all"]
+                for name, chosen in settings.items()}
 
 
 def print_targets(times: dict[str, float]) -> None:
@@ -96,6 +117,7 @@ def main() -> None:
     if not options.micro:
         for threads in (1, 2):
             times |= tracked(options.build, options.source, threads, options.repetitions)
+        times |= with_network(options.build, options.source, options.repetitions)
     path = options.source / "tests/bench/release.json"
     release = json.loads(path.read_text()) if path.exists() else {}
     print(f"{'median':34} {'time':>12} {'/ ' + YARDSTICK:>24} {'/ release before':>18}")
@@ -110,6 +132,9 @@ def main() -> None:
               f"{1 / times['track_all_1']:.3g}, {1 / times['track_all_2']:.3g}; particles on 2 threads "
               f"{times['track_filter_1'] / times['track_filter_2']:.2f} x as fast; largest memory of "
               f"a run {resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024:.0f} MB")
+        print("frames/s of its side camera alone, every output: "
+              + ", ".join(f"network {name} {1 / times[f'one_camera_network_{name}']:.3g}" for name in ("always", "default", "off"))
+              + (f"; the network alone {1 / times['pose_network']:.3g}" if "pose_network" in times else ""))
         print(f"processors {os.cpu_count()}, load average {os.getloadavg()[0]:.1f}: with others at "
               "work, trust the micro benchmarks only")
     if options.store:
