@@ -43,6 +43,7 @@ run_program() {
       "$folder/${program}_tests" --gtest_filter='-*FullRegression*:*clip_*:RealClips*' >"$folder/$program.$part.log" 2>&1 || true
     echo "$program $part of $parts" >>"$done_file"
   done
+  [ "$program" != jobs ] || python3 tests/bids/motion_bids_test.py "$folder/walktrack" . >"$folder/bids.log" 2>&1 || true
 }
 
 # Each program that has run, once; of one that has not run all its parts, how many.
