@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "jobs/batch/batch.h"
 #include "jobs/batch/batch_report.h"
 #include "jobs/batch/sequence_list.h"
 #include "tests/message_of.h"

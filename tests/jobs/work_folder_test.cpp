@@ -13,6 +13,7 @@
 
 #include "core/errors.h"
 #include "io/archive/files.h"
+#include "jobs/batch/batch.h"
 #include "jobs/batch/workers/batch_work.h"
 #include "jobs/batch/workers/folder_move.h"
 #include "tests/message_of.h"

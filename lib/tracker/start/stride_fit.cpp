@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/parallel_for.h"
-#include "tracker/motion/kneed_motion.h"
+#include "tracker/motion/models/kneed_motion.h"
 
 namespace walktrack {
 inline namespace tracker {
