@@ -133,6 +133,12 @@ void finish(const ResultFolder& folder, const TrackOutcome& outcome, const std::
   partial ? folder.finish_partial(record) : folder.finish(record);
 }
 
+// Of an estimated height, for other videos of the same person.
+void write_subject(const TrackJob& job, const TrackRun& run, const ResultFolder& folder) {
+  if (!run.stature()) return;
+  folder.write(kSubjectFile, subject_text(known_subject(job.scene, run.stature())));
+}
+
 // Frames of the filter are reported as they are.
 SmoothingConfig smoothing_of(const Config& config) {
   SmoothingConfig out = config.smoothing;
@@ -203,8 +209,7 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const JointUncertainty uncertainty = uncertainty_of(track.frames());
   const WrittenTables tables = write_tables(analysed, uncertainty, forces_of_track(job), folder);
   outcome.walk = tables.walk;
-  if (run.stature())
-    folder.write(kSubjectFile, subject_text(known_subject(job.scene, run.stature())));
+  write_subject(job, run, folder);
   std::vector<ReportClip> clips;
   if (job.overlay && outcome.frames > 0)
     clips = write_overlays(job, track.frames(), folder, run.threads(), control);
