@@ -1,11 +1,6 @@
 // The batch with a small script in place of `walktrack track`.
 #include "jobs/batch/batch.h"
 
-#include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <fstream>
 #include <thread>
@@ -349,93 +344,6 @@ TEST(ChangedResults, AreNamedOnceAndNotByTheThousand) {
   for (int i = 0; i < 1000; ++i) changed.add("own", std::to_string(i));
   EXPECT_THAT(changed.text(), HasSubstr("\n  and 902 for other reasons"));
   EXPECT_EQ(changed.count(), 2003);
-}
-
-TEST(FolderLock, IsGivenToOneAndBack) {
-  const TemporaryFolder folder;
-  {
-    const auto first = FolderLock::try_take(folder.path());
-    ASSERT_TRUE(first);
-    first->renew();
-    EXPECT_FALSE(FolderLock::try_take(folder.path()));
-  }
-  EXPECT_TRUE(FolderLock::try_take(folder.path()));
-  EXPECT_TRUE(fs::is_empty(folder.path()));
-}
-
-TEST(FolderLock, OfADeadWorkerIsTakenOver) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write(FolderLock::kFile, "elsewhere.1");
-  fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::seconds(100));
-  EXPECT_FALSE(FolderLock::try_take(folder.path(), 200));
-  EXPECT_TRUE(FolderLock::try_take(folder.path(), 60));
-}
-
-// A full disk is not taken for another worker for which the batch would wait.
-TEST(FolderLock, ThatCannotBeWrittenIsAnError) {
-  const TemporaryFolder folder;
-  const pid_t worker = ::fork();
-  if (worker == 0) {
-    ::signal(SIGXFSZ, SIG_IGN);
-    const rlimit none{0, 0};
-    ::setrlimit(RLIMIT_FSIZE, &none);
-    try {
-      FolderLock::try_take(folder.path());
-    } catch (const std::exception& error) {
-      _exit(std::string_view(error.what()).ends_with("File too large") ? 0 : 1);
-    }
-    _exit(2);
-  }
-  int status = 0;
-  ASSERT_EQ(::waitpid(worker, &status, 0), worker);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-  EXPECT_TRUE(fs::is_empty(folder.path()));
-}
-
-TEST(FolderLock, OfAKilledProcessOfThisMachineIsTakenOverAtOnce) {
-  const TemporaryFolder folder;
-  folder.write(".walktrack_stale.elsewhere.1",
-               "");  // of one that was killed during a takeover
-  const pid_t worker = fork();
-  if (worker == 0) _exit(FolderLock::try_take(folder.path()) ? 0 : 1);  // and does not release it
-  int status = 0;
-  ASSERT_EQ(waitpid(worker, &status, 0), worker);
-  ASSERT_EQ(status, 0);
-  EXPECT_TRUE(fs::exists(folder / FolderLock::kFile));
-  EXPECT_TRUE(FolderLock::try_take(folder.path()));
-  EXPECT_TRUE(fs::is_empty(folder.path()));
-}
-
-TEST(ChildProcess, LimitsMemory) {
-  const TemporaryFolder folder;
-  // dd needs its whole block in memory.
-  ChildProcess child({"/bin/dd", "if=/dev/zero", "of=/dev/null", "bs=300M", "count=1"},
-                     folder.path() / "log", {.memory_mb = 100});
-  std::optional<ChildEnd> end;
-  while (!(end = child.poll())) std::this_thread::yield();
-  EXPECT_NE(end->exit_code, 0);
-  EXPECT_THAT(read_file(folder.path() / "log"), HasSubstr("memory"));
-}
-
-TEST(ChildProcess, WritesANewLogAndFollowsNoLink) {
-  const TemporaryFolder folder;
-  const std::string mine = folder.write("mine", "mine");
-  fs::create_symlink(mine, folder.path() / "link");
-  fs::create_hard_link(mine, folder.path() / "same");
-  fs::create_symlink(folder / "nowhere", folder.path() / "dangling");
-  for (const char* log : {"mine", "link", "same", "dangling"})
-    EXPECT_THROW(ChildProcess({"/bin/echo", "theirs"}, folder.path() / log, {}), std::runtime_error)
-        << log;
-  EXPECT_EQ(read_file(mine), "mine");
-  EXPECT_FALSE(fs::exists(folder / "nowhere"));
-}
-
-TEST(ChildProcess, SaysWhenThereIsNoProgram) {
-  const TemporaryFolder folder;
-  ChildProcess child({"/nowhere/track"}, folder.path() / "log", {});
-  std::optional<ChildEnd> end;
-  while (!(end = child.poll())) std::this_thread::yield();
-  EXPECT_EQ(end->exit_code, 127);
 }
 
 }  // namespace
