@@ -38,7 +38,45 @@ class ShippedPrior : public testing::Test {
     result.step_length = state.contact_x / result.steps;
     return result;
   }
+  // Twenty steps in frames of 1/240 s, before each of which the state may be rounded to single
+  // precision.
+  Walk walk_in_frames(const PriorGait& gait, bool rounded) const {
+    const auto kept = [&](const Vector5& numbers) -> Vector5 {
+      return rounded ? Vector5(numbers.cast<float>().cast<double>()) : numbers;
+    };
+    KneedState state = gait.start;
+    KneedControls controls = next_controls(gait, state, 1);
+    double time = 0;
+    Walk result;
+    while (result.steps < 20) {
+      state.q = kept(state.q);
+      state.qd = kept(state.qd);
+      const auto run = kneed_advance(model, controls, Vector5::Zero(), state, 1.0 / 240);
+      time += run.elapsed;
+      if (run.event == KneedEvent::kNone) continue;
+      if (run.event != KneedEvent::kTransfer) break;
+      controls = next_controls(gait, state, 1);
+      ++result.steps;
+    }
+    result.speed = state.contact_x / time;
+    result.step_length = state.contact_x / std::max(1, result.steps);
+    return result;
+  }
 };
+
+// Everything that is integrated is kept in double precision. Were it kept in single precision, the
+// walker would walk on all the same: rounding neither makes it fall nor changes its gait.
+TEST_F(ShippedPrior, RoundingToSinglePrecisionChangesNoGait) {
+  for (const double speed : {0.6, 1.0, 1.3, 1.6, 1.8}) {
+    const PriorGait gait = gait_at(prior, adult, speed, 0.55 * std::sqrt(speed));
+    ASSERT_TRUE(gait.valid) << speed;
+    const Walk exact = walk_in_frames(gait, false), rounded = walk_in_frames(gait, true);
+    EXPECT_EQ(rounded.steps, 20) << speed;
+    EXPECT_NE(rounded.speed, exact.speed) << speed;
+    EXPECT_NEAR(rounded.speed, exact.speed, 1e-6) << speed;
+    EXPECT_NEAR(rounded.step_length, exact.step_length, 1e-6) << speed;
+  }
+}
 
 TEST_F(ShippedPrior, ValidNodesAreCyclesWithinTheirLimits) {
   size_t valid = 0, stable = 0;

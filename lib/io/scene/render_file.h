@@ -9,16 +9,15 @@
 //   sensor: {exposure: 1, noise: 0.01, flicker: 0, blur_samples: 1, shutter: 0.5, jpeg_quality: 0}
 //   walk: {speed: 1.25, step_length: 0.7, start: [0, 0], heading_deg: 0, turn_deg_s: 0, phase: 0,
 //          arm_swing: 1, limp: 0, step_width: 0.09, lean_deg: 4, straightest: 0.999, person: 7}
-//                                # where there is no MOTION.csv (synth/walk/made_walk.h); steps,
-//                                knees, # trunk, ... are those of a person, by default of the
-//                                seed's # number; 0 is the average one
+//                  # where there is no MOTION.csv (synth/walk/made_walk.h): steps,
+//                  # knees, trunk, ... are those of a person, by default that of the seed's
+//                  # number; 0 is the average one
 //   gait: {speed: 1.3, step_length: 0.7, start: [0, 0], heading_deg: 0, speed_at: [[2, 1.6]]}
-//                                # or this: the kneed walker by the table of gaits, truth with
-//                                forces
+//                  # or this: the kneed walker by the table of gaits, whose truth has forces
 //   subject: {height: 1.75, mass: 70, clothes: 0, arms: true}   # height: else as the legs have it
 //             lengths: {thigh: 0.45, shank: 0.45, hip_width: 0.18, trunk: 0.5}  # m, of a `walk`
-//             shape: {girth: 1, head: 1, belly: 0, trousers: 0, skirt: 0, pack: 0}  #
-//             synth/world/shape.h
+//             shape: {girth: 1, head: 1, belly: 0, trousers: 0, skirt: 0, pack: 0}
+//                  # shape: synth/world/shape.h
 //   cameras:
 //     - {name: side, azimuth_deg: -90, distance: 5, height: 1.2, size: [640, 480], focal_px: 600,
 //        distortion: [-0.1, 0.02]}

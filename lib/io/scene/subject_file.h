@@ -1,6 +1,6 @@
 // The subject of a scene: a map in the scene, or a file of its own with the same keys, which
-// another scene of the same person can name. `track` and `optimise` write one, with the height that
-// they have estimated and its standard deviation.
+// another scene of the same person can name. `track` writes one with the height that it has
+// estimated and its standard deviation, `optimise` one with the lengths of the motion's bones.
 #pragma once
 
 #include <filesystem>
