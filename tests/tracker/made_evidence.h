@@ -53,6 +53,17 @@ inline CameraEvidence evidence_of(const Camera& camera, const Body& body, const 
   return seen;
 }
 
+// The columns left of one show something opaque: evidence against a body.
+inline void hide_left_of(int column, CameraEvidence& seen) {
+  std::vector<float> row(kEvidenceWidth);
+  for (int y = 0; y < kEvidenceHeight; ++y) {
+    for (int x = 0; x < kEvidenceWidth; ++x)
+      row[static_cast<size_t>(x)] =
+          x < column ? -1.0F : static_cast<float>(log_ratio_at(seen.planes, Appearance{}, x, y));
+    set_row(seen.planes, 0, y, row, 4);
+  }
+}
+
 // A person in mid-stride at the origin.
 inline Pose striding() {
   Pose pose;

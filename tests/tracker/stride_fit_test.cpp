@@ -59,5 +59,11 @@ TEST_F(StrideFit, WhoStandsFirstHasNoPhase) {
   EXPECT_EQ(likely_ranges(subject_->context(), window_, walk_).size(), all().size());
 }
 
+TEST_F(StrideFit, WhoIsHalfHiddenFirstMayHaveEveryPhase) {
+  show(0, kFrames, {{0, -4, 1}});
+  walk_.hidden_frames = 1;
+  EXPECT_EQ(likely_ranges(subject_->context(), window_, walk_).size(), all().size());
+}
+
 }  // namespace
 }  // namespace walktrack

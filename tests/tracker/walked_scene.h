@@ -44,6 +44,15 @@ class WalkedScene : public testing::Test {
     subject_.emplace(scene, prior_, TrackerConfig{}, 1, 1);
   }
 
+  // Before one camera at the side; in the first five frames something hides the columns left of
+  // one.
+  static constexpr size_t kVideoFrames = 44, kHiddenFrames = 5;
+  void show_coming_out(double phase, int column) {
+    show(phase, kVideoFrames, {{0, -4, 1}}, [column](size_t frame, CameraEvidence& evidence) {
+      if (frame < kHiddenFrames) hide_left_of(column, evidence);
+    });
+  }
+
   GaitPrior prior_ = load_gait_prior();
   DetectedWalk walk_{.position = {-0.8, 0}, .velocity = {kSpeed, 0}};
   std::deque<SceneEvidence> window_;

@@ -48,9 +48,9 @@ std::optional<FoundWalk> WalkSearch::find(const TrackContext& context, const Sea
     half_hidden_->search_at = now + next;
     return std::nullopt;
   }
-  const FoundWalk found{clear ? *walk : moved(half_hidden_->walk, dt * waited), waited};
+  const DetectedWalk first = moved(half_hidden_->walk, dt * waited);
   half_hidden_.reset();
-  return found;
+  return clear ? FoundWalk{*walk, waited, first} : FoundWalk{first, waited};
 }
 
 std::optional<DetectedWalk> WalkSearch::find_here(const TrackContext& context,
@@ -121,15 +121,16 @@ std::optional<StandingStart> WalkSearch::standing_lead(const TrackContext& conte
   return lead;
 }
 
-double WalkSearch::score_with_lead(const TrackContext& context, const FoundWalk& found) const {
+double WalkSearch::score_with_lead(const TrackContext& context, const DetectedWalk& walk,
+                                   size_t lead) const {
   const std::optional<LastSeen> nobody;
   const SearchWindow before{context, waiting_, 0, nobody, {}};
   const WindowScore score = window_score(before, context.body(), context.subject.figures);
-  double sum = found.walk.score * double(window_.size());
-  for (size_t back = 1; back <= found.lead; ++back)
-    sum += score(waiting_.size() - back,
-                 moved(found.walk, -double(back) * context.scene.dt).position, found.walk.velocity);
-  return sum / double(window_.size() + found.lead);
+  double sum = walk.score * double(window_.size());
+  for (size_t back = 1; back <= lead; ++back)
+    sum += score(waiting_.size() - back, moved(walk, -double(back) * context.scene.dt).position,
+                 walk.velocity);
+  return sum / double(window_.size() + lead);
 }
 
 void WalkSearch::reach_back(size_t frames) {
@@ -159,6 +160,7 @@ bool WalkSearch::slide(const TrackContext& context) {
 std::deque<SceneEvidence> WalkSearch::take() {
   waiting_.clear();
   candidates_.clear();
+  half_hidden_.reset();
   return std::exchange(window_, {});
 }
 

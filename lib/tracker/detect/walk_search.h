@@ -24,6 +24,7 @@ struct SearchMoment {
 struct FoundWalk {
   DetectedWalk walk;
   size_t lead = 0;
+  std::optional<DetectedWalk> first{};  // as it was found while the subject was half hidden
 };
 
 // The shortest window that is searched, s: the time for which start hypotheses compete.
@@ -42,7 +43,7 @@ class WalkSearch {
 
   // The walk through the window; nullopt if nobody walks there, or not clearly enough. If the
   // subject is half hidden at first, the place is uncertain: the walk is searched once more after
-  // that, and begins where it was found first.
+  // that. Both walks begin where the first one was found.
   std::optional<FoundWalk> find(const TrackContext& context, const SearchMoment& moment);
   // That walk together with an estimate of the subject's height.
   SizedWalk with_size(const TrackContext& context, const SearchMoment& moment,
@@ -59,8 +60,8 @@ class WalkSearch {
   // together.
   std::optional<StandingStart> standing_lead(const TrackContext& context,
                                              const DetectedWalk& walk) const;
-  // Mean score of a walk, nats a frame, that begins so many frames before the window.
-  double score_with_lead(const TrackContext& context, const FoundWalk& found) const;
+  // Mean score, nats a frame, of a walk through the window that begins so many frames before it.
+  double score_with_lead(const TrackContext& context, const DetectedWalk& walk, size_t lead) const;
   // Moves the beginning of the window back by some of the frames that wait, or forward again.
   void reach_back(size_t frames);
   void let_go(size_t frames);

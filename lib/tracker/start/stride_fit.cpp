@@ -87,7 +87,7 @@ std::vector<PhaseRange> likely_ranges(const TrackContext& context,
                                       const std::deque<SceneEvidence>& window,
                                       const DetectedWalk& walk) {
   const std::vector<PhaseRange> ranges = phase_ranges(context.config.start);
-  if (walk.standing) return ranges;
+  if (walk.standing || walk.hidden_frames > 0) return ranges;
   const std::vector<double> scores = stride_scores(context, window, walk, ranges);
   const auto best = std::max_element(scores.begin(), scores.end()) - scores.begin();
   const auto half = static_cast<long>(ranges.size() / 2);

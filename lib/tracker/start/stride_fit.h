@@ -23,7 +23,8 @@ std::vector<double> stride_scores(const TrackContext& context,
                                   const std::vector<PhaseRange>& ranges);
 
 // Those of phase_ranges() whose phase is the best one or next to it, or half a stride from these;
-// all of them for a subject who stands at first, which has no phase.
+// all of them for a subject who stands at first, which has no phase, and for one who is half hidden
+// at first, on whom it was half a stride off.
 std::vector<PhaseRange> likely_ranges(const TrackContext& context,
                                       const std::deque<SceneEvidence>& window,
                                       const DetectedWalk& walk);

@@ -45,7 +45,7 @@ double total_log_likelihood(const std::vector<FrameRecord>& records) {
   return sum;
 }
 
-double explained(const Attempt& attempt) {
+double total_log_likelihood(const Attempt& attempt) {
   const double finished = total_log_likelihood(attempt.records);
   const Starting* start = std::get_if<Starting>(&attempt.mode);
   return start ? finished + total_log_likelihood(start->hypotheses.records()) : finished;
@@ -116,11 +116,14 @@ Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& wi
   follow_rest(frames, attempt);
   if (attempt.legs != 0) attempt = with_labelled_legs(frames, std::move(attempt));
   const double walk_score = walk.score * static_cast<double>(window.size());
-  if (is_searching(attempt.mode) || explained(attempt) < walk_score)
+  const double log_likelihood = total_log_likelihood(attempt);
+  if (is_searching(attempt.mode) || log_likelihood < walk_score)
     return {Searching{filter_of(std::move(attempt.mode)), before.last_seen}};
   if (may_lead(context.scene, walk) && outlines_fit_badly(context.scene, window, attempt.records))
     return {.mode = before, .outlines_misled = true};
-  return {std::move(attempt.mode), std::move(attempt.records)};
+  return {.mode = std::move(attempt.mode),
+          .records = std::move(attempt.records),
+          .log_likelihood = log_likelihood};
 }
 
 }  // namespace tracker

@@ -22,6 +22,7 @@ struct Trial {
   TrackMode mode;                      // after the window's frames; Searching: the trial has failed
   std::vector<FrameRecord> records{};  // of the frames that are finished, not refined
   bool outlines_misled = false;        // the reason why the trial has failed
+  double log_likelihood = 0;           // of the window's frames together, nats, by the particles
 };
 
 // `window`: the frames from number `first_frame` on. `number` counts the starts from 1. `before`:

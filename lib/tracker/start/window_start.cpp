@@ -16,7 +16,7 @@ struct SearchedWindow {
   uint32_t first_frame;
   uint32_t& starts;
   TrackMode& mode;
-  bool outlines_misled = false;  // in the last trial
+  bool outlines_misled = false;  // in one of the trials
 
   const Searching& searching() const { return std::get<Searching>(mode); }
   SearchMoment moment() const { return {first_frame, searching().last_seen}; }
@@ -27,29 +27,55 @@ void set_height(SearchedWindow& window, double height, const std::optional<Statu
   window.search.forget_places();
 }
 
-// Tracks the window's frames from a walk on, and `lead` frames before them.
-std::optional<WindowStart> start_at(SearchedWindow& window, const DetectedWalk& walk, size_t lead) {
+// Tracks the window's frames from a walk on, and `lead` frames before them; nullopt if the trial
+// fails.
+std::optional<Trial> tried(SearchedWindow& window, const DetectedWalk& walk, size_t lead) {
   WalkSearch& search = window.search;
   search.reach_back(lead);
   const uint32_t first = window.first_frame - static_cast<uint32_t>(lead);
   Trial trial = try_start(window.subject.context(), search.window(), first, walk, ++window.starts,
                           window.searching());
-  window.outlines_misled = trial.outlines_misled;
+  search.let_go(lead);
+  if (trial.outlines_misled) window.outlines_misled = true;
+  if (!is_searching(trial.mode)) return trial;
   window.mode = std::move(trial.mode);
-  if (is_searching(window.mode)) {
-    search.let_go(lead);
-    return std::nullopt;
-  }
-  const size_t untracked = search.waiting();
-  return WindowStart{search.take(), first, std::move(trial.records), untracked};
+  return std::nullopt;
 }
 
-// Starts with the walk, where it begins.
-std::optional<WindowStart> start_walking(SearchedWindow& window, const FoundWalk& found) {
+std::optional<WindowStart> start_of(SearchedWindow& window, std::optional<Trial> trial,
+                                    size_t lead) {
+  if (!trial) return std::nullopt;
+  WalkSearch& search = window.search;
+  search.reach_back(lead);
+  window.mode = std::move(trial->mode);
+  const size_t untracked = search.waiting();
+  return WindowStart{search.take(), window.first_frame - static_cast<uint32_t>(lead),
+                     std::move(trial->records), untracked};
+}
+
+std::optional<WindowStart> start_at(SearchedWindow& window, const DetectedWalk& walk, size_t lead) {
+  return start_of(window, tried(window, walk, lead), lead);
+}
+
+std::optional<Trial> tried_from_lead(SearchedWindow& window, const DetectedWalk& walk,
+                                     size_t lead) {
   const TrackContext context = window.subject.context();
-  DetectedWalk walk = moved(found.walk, -context.scene.dt * double(found.lead));
-  walk.score = window.search.score_with_lead(context, found);
-  return start_at(window, walk, found.lead);
+  DetectedWalk begin = moved(walk, -context.scene.dt * double(lead));
+  begin.hidden_frames += lead;
+  begin.score = window.search.score_with_lead(context, walk, lead);
+  return tried(window, begin, lead);
+}
+
+// Starts with the walk, where it begins. Of a subject who was half hidden at first, two walks are
+// known, and the one whose trial explains the frames better is taken.
+std::optional<WindowStart> start_walking(SearchedWindow& window, const FoundWalk& found) {
+  std::optional<Trial> trial = tried_from_lead(window, found.walk, found.lead);
+  if (found.first) {
+    std::optional<Trial> other = tried_from_lead(window, *found.first, found.lead);
+    if (!trial || (other && other->log_likelihood > trial->log_likelihood))
+      trial = std::move(other);
+  }
+  return start_of(window, std::move(trial), found.lead);
 }
 
 // Starts where the subject stands before the walk, if they do; otherwise with the walk.
@@ -64,6 +90,7 @@ std::optional<WindowStart> start_sized(SearchedWindow& window, const FoundWalk& 
   return start_walking(window, found);
 }
 
+// The height is estimated along the walk that was found last, of a subject who is whole.
 std::optional<WindowStart> start_unsized(SearchedWindow& window, const FoundWalk& found) {
   const double height_before = window.subject.scene.model.body.subject.height;
   const SizedWalk sized =
@@ -88,9 +115,10 @@ std::optional<WindowStart> start_in_window(TrackedSubject& subject, WalkSearch& 
                                            TrackMode& mode) {
   SearchedWindow window{subject, search, first_frame, starts, mode};
   std::optional<WindowStart> start = start_with_walk(window);
-  if (!window.outlines_misled) return start;
+  if (start || !window.outlines_misled) return start;
   let_keypoints_lead(subject.scene.observation);
   search.forget_scores();
+  window.outlines_misled = false;
   return start_with_walk(window);
 }
 

@@ -2,8 +2,9 @@
 // if it is unknown, and the window's frames are tracked as a trial (tracker/start/trial.h).
 //
 // If the trial shows that outlines mislead (tracker/start/keypoint_lead.h), keypoints lead from
-// then on, and the walk is detected anew. A subject who stood before the walk is tracked from there
-// on (tracker/detect/standing_start.h), unless that trial fails.
+// then on, and the walk is detected anew. Of a subject who was half hidden at first two walks are
+// tried, and the one that explains the frames better is taken. A subject who stood before the walk
+// is tracked from there on (tracker/detect/standing_start.h), unless that trial fails.
 #pragma once
 
 #include <cstdint>
