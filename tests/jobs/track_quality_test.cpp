@@ -65,6 +65,15 @@ TEST_F(QualityOf, NobodyTrackedLosesNothing) {
   EXPECT_EQ(named(quality_of(standing(0, {})), "leg_swaps_per_min").value, 0);
 }
 
+// Four frames of a stride are needed to follow which leg is which.
+TEST_F(QualityOf, TooFewFramesASecondFailTheirCheck) {
+  for (const double rate : {1.0, 3.0, 4.9, 5.0, 7.0}) {
+    TrackedFrames frames = standing(12, {});
+    frames.frame_rate = rate;
+    EXPECT_EQ(named(quality_of(frames), "frame_rate_hz").passed(), rate >= 5) << rate;
+  }
+}
+
 TEST_F(QualityOf, LegsThatAreLikelySwappedFailTheirCheck) {
   QualityConfig limits;
   limits.least_steps = 0;

@@ -27,6 +27,7 @@ inline namespace io {
 struct QualityConfig {
   double lost_share = 0.1;          // of the frames after the subject was found
   double untracked_movement = 0.3;  // of the frames with motion
+  double frame_rate = 5;            // Hz; four frames of a fast walker's stride of .8 s
   double least_steps = 1;           // foot changes; without any the subject does not walk
   double overlap = 0.55;            // of figure and foreground, mean over the frames of the worst
                                     // camera

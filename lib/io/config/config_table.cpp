@@ -204,6 +204,7 @@ void add_track(ParameterTable& table) {
            "most lost frames, as a share of those after the subject was found");
   g.number("untracked_movement", &G::untracked_movement, 0, 1,
            "most untracked frames, as a share of those in which somebody moves");
+  g.number("frame_rate", &G::frame_rate, 0, 1000, "lowest frame rate, Hz");
   g.number("least_steps", &G::least_steps, 0, 1000, "fewest steps of a walk");
   g.number("overlap", &G::overlap, 0, 1,
            "lowest overlap of figure and foreground, mean over the frames of the worst camera");

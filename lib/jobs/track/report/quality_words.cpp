@@ -22,6 +22,11 @@ constexpr QualityWords kWords[] = {
      "of all frames with movement; the time before the subject was found is included.",
      "Cut the video to the walk of one person (first_frame, last_frame), or state where the walk "
      "begins (initial). Nothing is known of the frames without a figure."},
+    {"frame_rate_hz", "Frames a second", "Hz", 1,
+     "With fewer than four frames of a stride, which takes .8 s when somebody walks fast, left and "
+     "right can be swapped between two frames.",
+     "Left and right cannot be trusted in this result, nor can steps and their times. Track more "
+     "frames of the video; 25 Hz and more are recommended."},
     {"foot_changes", "Changes of the standing foot", "", 0,
      "How often the figure's weight moved from one foot to the other.",
      "The tracked figure took no step: is there a person who walks in this video?"},

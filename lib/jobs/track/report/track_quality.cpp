@@ -96,6 +96,7 @@ Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
               100 * limits.lost_share),
       at_most("untracked_movement_percent", percent(counts.moving, counts.tracked + counts.moving),
               100 * limits.untracked_movement),
+      at_least("frame_rate_hz", frames.frame_rate, limits.frame_rate),
       at_least("foot_changes", foot_changes(frames), limits.least_steps)};
   add_overlap(frames, limits, out);
   out.push_back(at_most("better_beside_percent", percent(counts.better_beside, counts.tracked),
