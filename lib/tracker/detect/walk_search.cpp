@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "tracker/detect/half_hidden.h"
+
 namespace walktrack {
 inline namespace tracker {
 
@@ -147,6 +149,13 @@ void WalkSearch::let_go(size_t frames) {
     window_.pop_front();
     candidates_.pop_front();
   }
+}
+
+void WalkSearch::hide_occluders(const TrackContext& context, const FoundWalk& found) {
+  const DetectedWalk begin = moved(found.walk, -context.scene.dt * double(found.lead));
+  reach_back(found.lead);
+  walktrack::hide_occluders(context, begin, found.lead + found.walk.hidden_frames, window_);
+  let_go(found.lead);
 }
 
 bool WalkSearch::slide(const TrackContext& context) {

@@ -65,6 +65,9 @@ class WalkSearch {
   // Moves the beginning of the window back by some of the frames that wait, or forward again.
   void reach_back(size_t frames);
   void let_go(size_t frames);
+  // Removes what hides the subject at first from the evidence of the window and of the frames
+  // before it in which the walk begins.
+  void hide_occluders(const TrackContext& context, const FoundWalk& found);
 
   // Moves the beginning of the window forward by a frame. Returns whether the oldest of the frames
   // that wait was dropped.

@@ -67,8 +67,11 @@ std::optional<Trial> tried_from_lead(SearchedWindow& window, const DetectedWalk&
 }
 
 // Starts with the walk, where it begins. Of a subject who was half hidden at first, two walks are
-// known, and the one whose trial explains the frames better is taken.
+// known, and the one whose trial explains the frames better is taken; what was in front of the
+// subject is no evidence.
 std::optional<WindowStart> start_walking(SearchedWindow& window, const FoundWalk& found) {
+  if (found.lead + found.walk.hidden_frames > 0)
+    window.search.hide_occluders(window.subject.context(), found);
   std::optional<Trial> trial = tried_from_lead(window, found.walk, found.lead);
   if (found.first) {
     std::optional<Trial> other = tried_from_lead(window, *found.first, found.lead);
