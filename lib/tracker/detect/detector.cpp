@@ -7,6 +7,7 @@
 
 #include "core/anthropometry.h"
 #include "core/conventions.h"
+#include "core/median.h"
 #include "core/parallel_for.h"
 
 namespace walktrack {
@@ -273,12 +274,6 @@ size_t frames_of_moment(double dt) {
 // The lowest score of a line over a moment, nats, using every `stride`-th frame.
 double worst_moment(std::span<const double> scores, double dt, size_t stride) {
   return least_mean(scores, std::min(frames_of_moment(dt * double(stride)), scores.size()));
-}
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + long(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Number of frames at the beginning in which a person comes out from behind something. Walks of

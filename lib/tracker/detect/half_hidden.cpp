@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "body/kinematics.h"
+#include "core/median.h"
 #include "observation/silhouette/hidden_pixels.h"
 
 namespace walktrack {
@@ -52,12 +53,10 @@ size_t half_hidden_at_first(std::span<const CoveredFrame> frames, double dt) {
   if (frames.size() < 2 * moment) return 0;
   std::vector<double> shares;
   for (const CoveredFrame& frame : frames) shares.push_back(hidden_share(frame));
-  std::vector<double> sorted = shares;
-  const auto middle = sorted.begin() + static_cast<long>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double usual = median_of(shares);
   const auto beyond_usual = [&](size_t at) {
     const auto from = shares.begin() + static_cast<long>(at), to = from + static_cast<long>(moment);
-    return std::accumulate(from, to, 0.0) / static_cast<double>(moment) - *middle;
+    return std::accumulate(from, to, 0.0) / static_cast<double>(moment) - usual;
   };
   if (beyond_usual(0) < kHidden) return 0;
   size_t at = 1;
