@@ -111,6 +111,25 @@ TEST(DetectWalk, ClimbsAlongTheRayOfEitherEnd) {
   EXPECT_NEAR(walk->velocity.y(), 0, 0.1);
 }
 
+// The places along the ray of somebody who stands propose lines, few of which need a climb.
+TEST(DetectWalk, ClimbsLessAlongTheRayOfSomebodyWhoStands) {
+  const auto scores_asked = [](double speed) {
+    int asked = 0;
+    Window f = window([=](size_t frame, const Eigen::Vector2d& p) {
+      return ridge(p, {-0.8 + speed * kDt * double(frame), 0.4}, 100);
+    });
+    EXPECT_GT(f.early.size(), 1u);
+    f.score = [&asked, score = f.score](size_t frame, const Eigen::Vector2d& p,
+                                        const Eigen::Vector2d& velocity) {
+      ++asked;
+      return score(frame, p, velocity);
+    };
+    EXPECT_EQ(f.walk().has_value(), speed > 0);
+    return asked;
+  };
+  EXPECT_LT(scores_asked(0), 0.5 * scores_asked(1.3));
+}
+
 TEST(DetectWalk, NobodyWalks) {
   const Window empty = window([](size_t, const Eigen::Vector2d&) { return -5.0; });
   EXPECT_FALSE(empty.walk());
