@@ -111,7 +111,8 @@ TEST(DetectWalk, ClimbsAlongTheRayOfEitherEnd) {
   EXPECT_NEAR(walk->velocity.y(), 0, 0.1);
 }
 
-// The places along the ray of somebody who stands propose lines, few of which need a climb.
+// The places along the ray of somebody who stands propose lines, few of which are worth a whole
+// climb.
 TEST(DetectWalk, ClimbsLessAlongTheRayOfSomebodyWhoStands) {
   const auto scores_asked = [](double speed) {
     int asked = 0;
@@ -128,6 +129,20 @@ TEST(DetectWalk, ClimbsLessAlongTheRayOfSomebodyWhoStands) {
     return asked;
   };
   EXPECT_LT(scores_asked(0), 0.5 * scores_asked(1.3));
+}
+
+TEST(DetectWalk, DoesNotClimbFromALineThroughSomebodyWhoStands) {
+  Window f = window([](size_t, const Eigen::Vector2d& p) { return bell(p, {0, 1}, 100); });
+  f.early = {{{0, 0.6}, 100}};
+  f.late = {{{0, 1.4}, 100}};
+  size_t asked = 0;
+  f.score = [&asked, score = f.score](size_t frame, const Eigen::Vector2d& p,
+                                      const Eigen::Vector2d& velocity) {
+    ++asked;
+    return score(frame, p, velocity);
+  };
+  EXPECT_FALSE(f.walk());
+  EXPECT_LE(asked, 2 * kWindowFrames);
 }
 
 TEST(DetectWalk, NobodyWalks) {

@@ -112,15 +112,17 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
-double share_over_standing(const Window& window, const DetectedWalk& line, size_t stride = 1) {
-  const double walking = mean(scores_along(window, line, line.velocity, stride));
-  return 1 - mean(scores_along(window, halt(window, line), line.velocity, stride)) / walking;
+double share_over_standing(const Window& window, const DetectedWalk& line) {
+  const double walking = mean(scores_along(window, line, line.velocity, 1));
+  return 1 - mean(scores_along(window, halt(window, line), line.velocity, 1)) / walking;
 }
 
-// Whether a figure standing in the middle of the line explains the frames of a climb as well, or
-// better by a share: such a line is one along the ray of somebody who stands.
-bool stands(const Window& window, const DetectedWalk& line, double better = 0) {
-  return share_over_standing(window, line, stride_of_climb(window)) <= -better;
+// Whether a figure that stands in the middle of the line explains the frames that a climb looks at
+// `times` as well as the walk does: such a line is one along the ray of somebody who stands.
+bool stands(const Window& window, const DetectedWalk& line, double times) {
+  const size_t stride = stride_of_climb(window);
+  return mean(scores_along(window, halt(window, line), line.velocity, stride)) >=
+         times * mean(scores_along(window, line, line.velocity, stride));
 }
 
 // Whether the line explains its worst frames better than a figure standing in its middle explains
@@ -305,10 +307,11 @@ bool seen_throughout(const Walk& walk, const Window& window, const DetectorConfi
   return least >= config.least_score && least >= config.least_share * median_of(scores);
 }
 
-// A line that fits worse than an empty scene over a moment, half-way through its climb, belongs to
-// a person who is hidden then: the last steps of the climb do not change this.
+// Half-way through its climb a line that fits no better than a figure standing in its middle
+// belongs to a person who stands, and one that fits worse than an empty scene over a moment to a
+// person who is hidden then: the last steps of the climb do not change this.
 bool worth_refining(const Walk& walk, const Window& window) {
-  if (stands(window, walk.line)) return false;
+  if (stands(window, walk.line, 1)) return false;
   const size_t stride = stride_of_climb(window);
   return worst_moment(scores_along(window, walk.line, walk.line.velocity, stride), window.dt,
                       stride) >= 0;
@@ -379,9 +382,9 @@ std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
                                         const Vector2d& camera_position,
                                         const DetectorConfig& config, int threads) {
   constexpr size_t kRefined = 4, kStride = 3;  // lines, frames; by hand
-  // A climb may turn a line that fits a little worse than standing into a walk: with 0 instead of
-  // 0.05 the walk before two telephones was found in another window (reports/search.md).
-  constexpr double kBetter = 0.05;
+  // A climb may turn a line that fits a little worse than standing into a walk: with 1 the walk
+  // before two telephones was found in another window (reports/search.md).
+  constexpr double kTimesAsWell = 1.05;
   const Window window{score, candidates.frames, dt, threads};
   std::vector<Walk> walks = proposed_walks(candidates, dt, config);
   for (const DetectedWalk& line : candidates.lines) walks.push_back({line, 0});
@@ -393,7 +396,7 @@ std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
   std::stable_sort(walks.begin(), walks.end(),
                    [](const Walk& a, const Walk& b) { return a.score > b.score; });
   walks.resize(std::min(walks.size(), kRefined));
-  std::erase_if(walks, [&](const Walk& walk) { return stands(window, walk.line, kBetter); });
+  std::erase_if(walks, [&](const Walk& walk) { return stands(window, walk.line, kTimesAsWell); });
   for (Walk& walk : walks) walk = looked_at(window, walk.line);
   refine(window, camera_position, kCoarseSteps, walks);
   std::erase_if(walks, [&](const Walk& walk) { return !worth_refining(walk, window); });
