@@ -31,6 +31,7 @@ struct TrackContext {
   const SubjectModel& subject;  // for the scene's body
   uint64_t seed;
   int threads;
+  bool competing = true;  // whether components may compete with a track (tracker/modes/turning.h)
 
   const Body& body() const { return scene.model.body; }
 };

@@ -29,6 +29,8 @@ std::vector<FrameRecord> Tracker::finish() {
     look_for_walk(out);
   }
   if (std::holds_alternative<Starting>(mode_)) report(settle(mode_), {}, out);
+  if (Tracking* now = std::get_if<Tracking>(&mode_))
+    report(decide_turning(subject_.context(), frame_ - 1, *now), {}, out);
   out.resize(out.size() + search_.waiting() + search_.window().size());
   search_.take();
   return out;
@@ -37,16 +39,18 @@ std::vector<FrameRecord> Tracker::finish() {
 void Tracker::consume(const SceneEvidence& evidence, Records& out) {
   if (is_searching(mode_)) return search(evidence, out);
   const bool tracked = tracking();
-  if (!tracked) starting_.push_back(evidence);
-  report(follow(subject_.context(), evidence, frame_++, mode_), evidence, out);
+  Records records = follow(subject_.context(), evidence, frame_++, mode_);
+  if (records.size() <= waiting_.size()) waiting_.push_back(evidence);  // this frame waits as well
+  report(std::move(records), evidence, out);
   if (tracked && !tracking()) ++losses_;
 }
 
-// Frames of a start are reported when it has been decided who walks there, and which leg is which.
+// Frames of a start are reported when it has been decided who walks there, and which leg is which,
+// and those of a subject who may turn when that has been decided.
 void Tracker::report(Records records, const SceneEvidence& newest, Records& out) {
   for (FrameRecord& record : records) {
-    judge(subject_.context(), starting_.empty() ? newest : starting_.front(), record);
-    if (!starting_.empty()) starting_.pop_front();
+    judge(subject_.context(), waiting_.empty() ? newest : waiting_.front(), record);
+    if (!waiting_.empty()) waiting_.pop_front();
     out.push_back(std::move(record));
   }
 }
@@ -68,7 +72,7 @@ void Tracker::look_for_walk(Records& out) {
   if (auto start = start_in_window(subject_, search_, frame_, starts_, mode_)) {
     out.resize(out.size() + start->untracked);
     frame_ = start->first_frame + static_cast<uint32_t>(start->frames.size());
-    starting_ = std::move(start->frames);
+    waiting_ = std::move(start->frames);
     return report(std::move(start->records), {}, out);
   }
   ++frame_;
@@ -83,14 +87,15 @@ void Tracker::start_given(Records& out) {
 
 TrackerState Tracker::state() const {
   const Tracking& now = tracked();
-  return {frame_,    starts_,         now.filter.state(), now.monitor, losses_, now.p_legs_swapped,
-          stature(), keypoints_lead()};
+  return {frame_,    starts_,   now.filter.state(), now.monitor, losses_, now.p_legs_swapped,
+          now.speed, stature(), keypoints_lead()};
 }
 
 void Tracker::resume(TrackerState state) {
   WalkerFilter filter(subject_.config.filter, subject_.seed, subject_.threads);
   filter.resume(std::move(state.filter));
-  mode_ = Tracking{std::move(filter), std::move(state.monitor), state.p_legs_swapped, {}};
+  mode_ =
+      Tracking{std::move(filter), std::move(state.monitor), state.p_legs_swapped, {}, state.speed};
   subject_.scene.initial.reset();  // it has been used
   frame_ = state.frame;
   starts_ = state.starts;

@@ -6,13 +6,14 @@
 //              (tracker/detect/stature.h).
 //   starting   hypotheses over phase and side compete for a while
 //              (tracker/start/start_hypotheses.h)
-//   tracking   for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h)
+//   tracking   for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h);
+//              now and then components that turn compete with the track (tracker/modes/turning.h)
 //   lost when the monitor decides so (tracker/modes/monitor.h); searching again, for a while only
 //   where the subject can be
 //
 // Modes are values (tracker/modes/track_mode.h). Frames before the walk was found, and while it was
 // lost, are reported as not tracked. Searching needs a whole window, so that records come out late
-// at first and one for each frame afterwards.
+// at first and one for each frame afterwards; before one camera they are up to 1.25 s late.
 #pragma once
 
 #include <deque>
@@ -33,6 +34,7 @@ struct TrackerState {
   MonitorState monitor;
   int losses = 0;
   double p_legs_swapped = 0;
+  double speed = 0;  // m/s
   std::optional<Stature> stature;
   bool keypoints_lead = false;
 };
@@ -65,6 +67,8 @@ class Tracker {
   const ParticleSet<WalkerParticle>& particles() const { return tracked().filter.particles(); }
   // The mean of the particles in the newest frame, which is not the reported pose; after push().
   const Pose& mean_pose() const { return tracked().mean_pose; }
+  // The same, m/s; also after resume().
+  double speed() const { return tracked().speed; }
   // The place of that mean over the ground; also after resume().
   Eigen::Vector2d mean_place() const { return walktrack::mean_place(tracked()); }
 
@@ -80,8 +84,9 @@ class Tracker {
   std::optional<Stature> stature() const { return subject_.stature; }
 
   // A tracker of the same scene, configuration and seed that resumes the state of another one
-  // continues like that one. There is a state only while tracking(): the data of a search are large
-  // and short-lived.
+  // continues like that one. There is a state only while has_state(): the data of a search, and of
+  // frames that are not reported yet, are large and short-lived.
+  bool has_state() const { return tracking() && !tracked().turning; }
   TrackerState state() const;
   void resume(TrackerState state);
 
@@ -100,9 +105,9 @@ class Tracker {
   TrackedSubject subject_;
   TrackMode mode_;
   WalkSearch search_;
-  std::deque<SceneEvidence> starting_;  // frames of the start hypotheses
-  uint32_t frame_ = 0;                  // the next to be tracked
-  uint32_t starts_ = 0;                 // tried
+  std::deque<SceneEvidence> waiting_;  // frames that are tracked and not reported yet
+  uint32_t frame_ = 0;                 // the next to be tracked
+  uint32_t starts_ = 0;                // tried
   int losses_ = 0;
 };
 

@@ -35,7 +35,7 @@ class Resume : public testing::Test {
     job.scene.cameras.resize(cameras_);
     // With a given start: six frames later it is tracked.
     job.scene.initial = InitialState{0, {-2.5, 0}, 0, 1.25, {}};
-    job.scene.last_frame = kVideoFrames - 1;
+    job.scene.last_frame = video_frames_ - 1;
     job.scene.height_given = size_known_;
     Config& config = job.config.values;
     config.tracker.filter.particles = 40;
@@ -44,6 +44,7 @@ class Resume : public testing::Test {
     config.tracker.start.seconds = 0.2;
     config.observation.person_px = 50;  // small images, for speed
     config.checkpoint.seconds = 0;
+    config.tracker.motion.turning_yaw_rate_sd = 0;  // every frame leaves a checkpoint
     job.output = folder_.path() / name;
     job.overlay = false;
     if (change_) change_(config);
@@ -87,6 +88,7 @@ class Resume : public testing::Test {
 
   TemporaryFolder folder_;
   size_t cameras_ = 1;
+  int video_frames_ = kVideoFrames;
   bool size_known_ = true;
   std::function<void(Config&)> change_;
 };
@@ -122,6 +124,36 @@ TEST_F(Resume, FramesAfterTheCheckpointAreDoneAgain) {
   resume(job("killed"));
   EXPECT_EQ(resumed_at("killed"), 12);
   EXPECT_EQ(result("killed"), result("whole"));
+}
+
+// While components that turn compete, there is no checkpoint: what has been done since is done
+// again, and a run that is interrupted goes on until they are decided, after 1.25 s of the video.
+constexpr int kDecided = 6 + 38;  // frames: tracked since the sixth
+
+TEST_F(Resume, WithComponentsThatTurn) {
+  video_frames_ = 60;
+  change_ = [](Config& config) { config.tracker.motion.turning_yaw_rate_sd = 0.6; };
+  track_scene(job("whole"), {});
+  kill(job("killed"), 55);
+  resume(job("killed"));
+  EXPECT_EQ(resumed_at("killed"), kDecided);
+  EXPECT_EQ(result("killed"), result("whole"));
+}
+
+TEST_F(Resume, AnInterruptionWaitsUntilComponentsAreDecided) {
+  video_frames_ = 60;
+  change_ = [](Config& config) { config.tracker.motion.turning_yaw_rate_sd = 0.6; };
+  std::atomic<bool> stop{false};
+  JobControl control;
+  control.stop_request = &stop;
+  control.report = [&](const Progress& progress) {
+    stop = stop || (progress.what == "tracking" && progress.done == 15);
+  };
+  const TrackOutcome outcome = track_scene(job("stopped"), control);
+  EXPECT_EQ(outcome.status, TrackStatus::kInterrupted);
+  EXPECT_TRUE(outcome.resumable);
+  resume(job("stopped"));
+  EXPECT_EQ(resumed_at("stopped"), kDecided);
 }
 
 TEST_F(Resume, WithoutABackground) {

@@ -120,8 +120,9 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<TrackerState> T>
 void fields(Archive& archive, T& value) {
-  auto& [frame, starts, filter, monitor, losses, p_legs_swapped, stature, keypoints_lead] = value;
-  archive(frame, starts, filter, monitor, a_count(losses), a_share(p_legs_swapped), stature,
+  auto& [frame, starts, filter, monitor, losses, p_legs_swapped, speed, stature, keypoints_lead] =
+      value;
+  archive(frame, starts, filter, monitor, a_count(losses), a_share(p_legs_swapped), speed, stature,
           keypoints_lead);
 }
 

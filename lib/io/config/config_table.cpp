@@ -82,6 +82,10 @@ void add_motion(ParameterTable& table) {
            "random drift of the phase of the stride, s per sqrt(s)");
   m.number("yaw_rate_sd", &M::yaw_rate_sd, 0, 100,
            "standard deviation of the rate of turning, rad/s");
+  m.number(
+      "turning_yaw_rate_sd", &M::turning_yaw_rate_sd, 0, 100,
+      "the same of filters that are tried before one camera where the subject may turn, rad/s; "
+      "0: none");
   m.number("heading_time_constant", &M::heading_time_constant, 0.01, 1000,
            "time constant with which the heading returns to the direction of travel, s");
   m.number("residual_scale", &M::residual_scale, 0, 10,

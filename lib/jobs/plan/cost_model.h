@@ -42,7 +42,7 @@ struct CameraWork {
 
 struct FrameWork {
   std::vector<CameraWork> cameras;
-  double particles = 0;
+  double particles = 0;  // also those of components that turn (tracker/modes/turning.h)
   double poses = 0;  // poses evaluated in a frame by the first camera, for all particles and moves
   int parts = 0;     // of the body
   int classes = 0;   // appearance classes; 0 = appearance is off

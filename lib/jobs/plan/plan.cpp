@@ -12,6 +12,7 @@
 #include "jobs/track/input/detections.h"
 #include "jobs/track/input/learned_background.h"
 #include "jobs/track/track_setup.h"
+#include "tracker/modes/turning.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
@@ -61,6 +62,12 @@ FrameWork frame_work(const Scene& scene, const Config& config) {
   work.particles = filter.particles;
   const double layers = usual_layers(static_cast<int>(scene.cameras.size()), filter.max_layers);
   work.poses = filter.particles * (1 + layers * filter.moves);
+  const MotionConfig& motion = config.tracker.motion;
+  if (const int beside = turning_components(motion, motion.path, scene.cameras.size());
+      beside > 0) {
+    work.particles *= 1 + beside;
+    work.poses += beside * filter.particles * (1 + layers * component_config(filter).moves);
+  }
   work.parts = static_cast<int>(body.parts.size());
   work.classes = classes_of(config.observation, body);
   work.terms = config.observation;

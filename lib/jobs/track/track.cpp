@@ -95,7 +95,7 @@ bool follow_video(TrackRun& run, const SceneVideo& video, const JobControl& cont
   const auto total = static_cast<size_t>(std::max(0, video.frame_count()));
   run.skip(control);
   bool stopped = false;
-  while (!(stopped = control.stopping()) && run.step())
+  while (!(stopped = control.stopping() && run.may_stop()) && run.step())
     control.progress("tracking", static_cast<size_t>(run.frames_read()), total);
   outcome.resumable = run.finish(stopped);
   outcome.frames = run.frames_read();

@@ -34,6 +34,13 @@ TrackSetup timed_set_up(const TrackJob& job, double frame_rate,
   return setup;
 }
 
+// Within a time budget the track is alone: components would make it late.
+TrackerConfig tracker_config(const Config& config) {
+  TrackerConfig out = config.tracker;
+  if (config.budget.frame_ms > 0) out.motion.turning_yaw_rate_sd = 0;
+  return out;
+}
+
 }  // namespace
 
 bool CheckpointTimer::due() const {
@@ -57,7 +64,8 @@ TrackRun::TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& f
                           control, watch_)),
       prior_(load_gait_prior()),
       budget_(job.config.values.budget),
-      tracker_(setup_.scene, prior_, job.config.values.tracker, job.config.values.seed, threads_),
+      tracker_(setup_.scene, prior_, tracker_config(job.config.values), job.config.values.seed,
+               threads_),
       video_(video),
       next_(job.scene, video, setup_.observers, setup_.detections),
       regions_(checkpoint ? checkpoint->regions : std::vector<Region>{}),
@@ -107,7 +115,7 @@ bool TrackRun::step() {
   learn();
   pace(start);
   ++frames_read_;
-  if (tracker_.tracking() && timer_.due()) write_checkpoint();
+  if (tracker_.has_state() && timer_.due()) write_checkpoint();
   if (tracked && tracker_.tracking()) {
     stride_.seconds += seconds_since(start.clock);
     ++stride_.frames;
@@ -116,7 +124,7 @@ bool TrackRun::step() {
 }
 
 bool TrackRun::finish(bool resumable) {
-  const bool noted = resumable && tracker_.tracking() && frames_read_ > first_frame_;
+  const bool noted = resumable && tracker_.has_state() && frames_read_ > first_frame_;
   if (noted) write_checkpoint();
   keep(tracker_.finish());
   next_.close();
@@ -152,10 +160,9 @@ Region TrackRun::region(size_t camera) const {
   }
   constexpr double kReach = 0.5;  // m around the last pose, for the limbs
   constexpr double kHasty = 0.5;  // m/s; error of the speed that the search region allows for
-  const double speed = frames_.records.back().estimate.speed;
   Region region = person_region(setup_.scene.cameras[camera], tracker_.mean_place(),
                                 tracker_.body().subject.height,
-                                kReach + 2 * setup_.scene.dt * (speed + kHasty));
+                                kReach + 2 * setup_.scene.dt * (tracker_.speed() + kHasty));
   region.points = !in_doubt_only() || names_.in_doubt();
   return region;
 }

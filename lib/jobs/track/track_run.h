@@ -58,6 +58,9 @@ class TrackRun {
   // Processes the next frame: evidence, tracking, updates of the appearance, and a checkpoint if
   // one is due. Returns false if there is none.
   bool step();
+  // Whether another process could resume here, except while nobody is tracked; this comes
+  // within a second or two.
+  bool may_stop() const { return !tracker_.tracking() || tracker_.has_state(); }
   // To be called after the last frame. `resumable`: another process may resume here. Returns
   // whether it could.
   bool finish(bool resumable);

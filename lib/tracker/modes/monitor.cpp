@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/median.h"
 #include "tracker/tracker_scene.h"
 
 namespace walktrack {
@@ -23,12 +24,6 @@ constexpr double kVelocityMemory = 1;  // s
 // By hand: half a step, and the change of velocity of a subject who stops or turns aside.
 constexpr double kNear = 0.5, kTurnsAside = 0.8;  // m, m/s
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 void begin_watch(std::deque<double> log_likelihoods, MonitorState& state) {
@@ -40,7 +35,7 @@ bool is_fading(const MonitorConfig& config, double least_score, double dt, doubl
                double figure, MonitorState& state) {
   auto& past = state.log_likelihoods;
   const double least =
-      std::max(config.lost_below * median({past.begin(), past.end()}), least_score);
+      std::max(config.lost_below * median_of({past.begin(), past.end()}), least_score);
   const bool outscored = figure > least && log_likelihood < kFigureShare * figure;
   const bool below = log_likelihood < least;
   state.frames_outscored = outscored ? state.frames_outscored + 1 : 0;

@@ -5,9 +5,7 @@
 #include <utility>
 
 #include "core/log_weights.h"
-#include "tracker/frame_likelihood.h"
 #include "tracker/modes/loss.h"
-#include "tracker/moves/mirror_legs.h"
 #include "tracker/smooth/refinement.h"
 #include "tracker/start/leg_label_evidence.h"
 
@@ -15,11 +13,6 @@ namespace walktrack {
 inline namespace tracker {
 
 namespace {
-
-const WalkerParticle& best_particle(const ParticleSet<WalkerParticle>& set) {
-  const auto best = std::max_element(set.log_weights.begin(), set.log_weights.end());
-  return set.states[static_cast<size_t>(best - set.log_weights.begin())];
-}
 
 std::vector<FrameRecord> start_frame(const TrackContext& context, const SceneEvidence& evidence,
                                      uint32_t frame, TrackMode& mode) {
@@ -35,47 +28,53 @@ std::vector<FrameRecord> start_frame(const TrackContext& context, const SceneEvi
   return hypotheses.decided() ? settle(mode) : std::vector<FrameRecord>{};
 }
 
-// Whether left and right can be swapped unnoticed: several cameras would show it, and only the
-// kneed walker makes phase jumps (tracker/moves/phase_jump.h).
-bool labels_may_switch(const TrackContext& context) {
-  return context.scene.cameras.size() == 1 && context.config.motion.model == MotionKind::kKneed;
+// A hypothesis that was rejected at the start is not followed any more, so that its evidence is
+// unknown now.
+void allow_for_start(double p_legs_swapped, FrameRecord& record) {
+  record.modes.p_legs_swapped += p_legs_swapped * (1 - 2 * record.modes.p_legs_swapped);
 }
 
-// Advances the particles by a frame. If left and right have switched, the legs are mirrored back.
-FrameRecord filter_frame(const TrackContext& context, const SceneEvidence& evidence, uint32_t frame,
-                         WalkerFilter& filter) {
-  const WalkerFilterContext now = filter_context(context);
-  std::optional<double> expected;  // place in the stride
-  if (labels_may_switch(context)) {
-    const auto& set = filter.particles();
-    expected = phase_ahead(set.states, normalised_weights(set.log_weights), context.scene.dt);
-  }
-  FrameRecord record = advance(now, evidence, frame, context.seed, false, filter);
-  if (expected && record.tracked && record.modes.standing < 0.5 &&
-      label_switched(*expected, record.modes.phase)) {
-    mirror_legs(now.motion, filter);
-    mirror_legs(context.body(), record);
-  }
-  return record;
-}
-
-FrameRecord track_frame(const TrackContext& context, const SceneEvidence& evidence, uint32_t frame,
-                        TrackMode& mode) {
-  Tracking& now = std::get<Tracking>(mode);
-  FrameRecord record = filter_frame(context, evidence, frame, now.filter);
-  // A hypothesis that was rejected at the start is not followed any more, so that its evidence is
-  // unknown now.
-  record.modes.p_legs_swapped += now.p_legs_swapped * (1 - 2 * record.modes.p_legs_swapped);
+void note_pose(const FrameRecord& record, Tracking& now) {
   now.mean_pose = record.estimate.pose;
+  now.speed = record.estimate.speed;
+}
+
+// The component, whose newest frame is number `frame`, replaces the track.
+void replace(const TrackContext& context, const TurningComponent& component, uint32_t frame,
+             Tracking& now) {
+  now.filter.resume(component.filter.state());
+  note_pose(component.records.back(), now);
+  now.monitor.frames_below = now.monitor.frames_outscored = now.monitor.frames_off = 0;
+  see(component.records.back().estimate, frame + 1, context.scene.dt, now.monitor);
+}
+
+bool components_may_turn(const TrackContext& context) {
+  return context.competing && turning_components(context.config.motion, context.scene.model.path,
+                                                 context.scene.cameras.size()) > 0;
+}
+
+std::vector<FrameRecord> track_frame(const TrackContext& context, const SceneEvidence& evidence,
+                                     uint32_t frame, TrackMode& mode) {
+  Tracking& now = std::get<Tracking>(mode);
+  if (!now.turning && components_may_turn(context))
+    now.turning = components_that_turn(context, now.filter, frame);
+  FrameRecord record =
+      filter_frame(context, filter_context(context), evidence, frame, context.seed, now.filter);
+  allow_for_start(now.p_legs_swapped, record);
+  note_pose(record, now);
   if (is_lost(context, evidence, record, now.monitor)) {
     record.tracked = false;
+    record.evidence.clear();
+    std::vector<FrameRecord> out;
+    if (now.turning) out = std::move(now.turning->records);
+    out.push_back(std::move(record));
     mode = Searching{std::move(now.filter), now.monitor.last_seen};
-    return record;
+    return out;
   }
   if (now.monitor.frames_below == 0) see(record.estimate, frame + 1, context.scene.dt, now.monitor);
-  record.evidence =
-      FrameLikelihood(context.scene, evidence, true).by_term(best_particle(now.filter.particles()));
-  return record;
+  if (!now.turning) return {std::move(record)};
+  if (!step(context, evidence, frame, std::move(record), *now.turning)) return {};
+  return decide_turning(context, frame, now);
 }
 
 }  // namespace
@@ -96,7 +95,8 @@ std::vector<FrameRecord> settle(TrackMode& mode) {
   Tracking now{.filter = std::move(start.before.filter),
                .monitor = {},
                .p_legs_swapped = records.back().modes.p_legs_swapped,
-               .mean_pose = records.back().estimate.pose};
+               .mean_pose = records.back().estimate.pose,
+               .speed = records.back().estimate.speed};
   now.monitor.last_seen = start.before.last_seen;
   now.filter.start(start.hypotheses.resampled());
   begin_watch(std::move(log_likelihoods), now.monitor);
@@ -107,7 +107,19 @@ std::vector<FrameRecord> settle(TrackMode& mode) {
 std::vector<FrameRecord> follow(const TrackContext& context, const SceneEvidence& evidence,
                                 uint32_t frame, TrackMode& mode) {
   if (!is_tracking(mode)) return start_frame(context, evidence, frame, mode);
-  return {track_frame(context, evidence, frame, mode)};
+  return track_frame(context, evidence, frame, mode);
+}
+
+std::vector<FrameRecord> decide_turning(const TrackContext& context, uint32_t frame,
+                                        Tracking& now) {
+  if (!now.turning) return {};
+  TurningTrial trial = std::move(*now.turning);
+  now.turning.reset();
+  TurningComponent* component = winner(trial);
+  if (component == nullptr) return std::move(trial.records);
+  replace(context, *component, frame, now);
+  for (FrameRecord& record : component->records) allow_for_start(now.p_legs_swapped, record);
+  return std::move(component->records);
 }
 
 void judge(const TrackContext& context, const SceneEvidence& evidence, FrameRecord& record) {

@@ -5,6 +5,7 @@
 //       ^------- none explains the images ------'                             |
 //       ^--------------------- the monitor says: lost -----------------------'
 //
+// While Tracking, components that turn may compete with the track (tracker/modes/turning.h).
 // A mode that is tried is a copy; to undo the trial, the copy is dropped (tracker/start/trial.h).
 #pragma once
 
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "tracker/modes/monitor.h"
+#include "tracker/modes/turning.h"
 #include "tracker/start/start_hypotheses.h"
 #include "tracker/subject_model.h"
 #include "tracker/walker_filter.h"
@@ -37,6 +39,8 @@ struct Tracking {
   MonitorState monitor;
   double p_legs_swapped = 0;  // probability that the start has chosen the wrong leg
   Pose mean_pose;             // of the newest frame's particles, not of the reported pose
+  double speed = 0;           // the same, m/s
+  std::optional<TurningTrial> turning{};  // while the frames of the track are not reported
 };
 
 using TrackMode = std::variant<Searching, Starting, Tracking>;
@@ -50,13 +54,16 @@ Starting start_around(const TrackContext& context, const DetectedWalk& walk,
                       const std::vector<PhaseRange>& ranges, uint32_t number, Searching before);
 
 // Advances a mode other than Searching by a frame. Returns the records of all frames that are
-// finished now, in order; while hypotheses compete there are none.
+// finished now, in order; while hypotheses, or components that turn, compete there are none.
 std::vector<FrameRecord> follow(const TrackContext& context, const SceneEvidence& evidence,
                                 uint32_t frame, TrackMode& mode);
 
 // The start hypotheses that are left become one set of particles (Starting becomes Tracking).
 // Returns the records of their frames.
 std::vector<FrameRecord> settle(TrackMode& mode);
+
+// At the end of a video: components that turn are decided now. Returns the records of their frames.
+std::vector<FrameRecord> decide_turning(const TrackContext& context, uint32_t frame, Tracking& now);
 
 // Completes the record of a frame: the most probable pose near the particles' mean, if that is
 // wanted (tracker/smooth/refinement.h), and how well it fits the frame's evidence, which no longer

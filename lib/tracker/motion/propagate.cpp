@@ -108,6 +108,7 @@ MotionConfig to_scale(const MotionConfig& config, double height) {
   scaled.torque_noise_scale *= std::sqrt(time);  // a share of M g L per root second
   scaled.phase_noise *= std::sqrt(time);
   scaled.yaw_rate_sd /= time;
+  scaled.turning_yaw_rate_sd /= time;
   scaled.heading_time_constant *= time;
   scaled.ball_drift *= length / std::sqrt(time);
   scaled.ball_slip *= length / std::sqrt(time);

@@ -35,6 +35,8 @@ struct MotionConfig {
   double ankle_torque = 0.040;
   double phase_noise = 0.05;  // s per sqrt(s): random drift of the phase of the stride
   double yaw_rate_sd = 0.08;  // rad/s: standard deviation of the rate of turning
+  // rad/s: the same of components that turn (tracker/modes/turning.h); 0: there are none
+  double turning_yaw_rate_sd = 0.6;
   // s: time constant with which the heading relaxes to the direction of travel
   double heading_time_constant = 0.3;
   double residual_scale = 0.7;  // multiplies the spreads of the residual angles

@@ -53,7 +53,8 @@ double total_log_likelihood(const Attempt& attempt) {
 
 // Continues after the attempt's records.
 void follow_rest(const WindowFrames& window, Attempt& attempt) {
-  const TrackContext& context = window.context;
+  TrackContext context = window.context;
+  context.competing = false;
   for (size_t i = attempt.records.size(); i < window.frames.size() && !is_searching(attempt.mode);
        ++i) {
     std::vector<FrameRecord> records =
