@@ -192,6 +192,7 @@ std::optional<bool> KeypointTerm::on_somebody(const ObservationConfig& config,
                                               const CameraEvidence& evidence, const Camera& camera,
                                               const PosedBody& now) {
   const KeypointEvidence& seen = evidence.keypoints;
+  if (seen.people.empty()) return std::nullopt;  // the offsets are not set either
   const PointPixels predicted = point_pixels(camera, now, seen.offsets);
   if (subject_of(config.keypoints, seen.people, predicted)) return true;
   const bool near = std::any_of(seen.people.begin(), seen.people.end(), [&](const Person& person) {
