@@ -7,7 +7,7 @@
 //   starting   hypotheses over phase and side compete for a while
 //              (tracker/start/start_hypotheses.h)
 //   tracking   for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h);
-//              now and then components that turn compete with the track (tracker/modes/turning.h)
+//              before one camera, components that turn compete with it (tracker/modes/turning.h)
 //   lost when the monitor decides so (tracker/modes/monitor.h); searching again, for a while only
 //   where the subject can be
 //

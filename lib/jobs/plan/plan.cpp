@@ -62,7 +62,8 @@ FrameWork frame_work(const Scene& scene, const Config& config) {
   work.particles = filter.particles;
   const double layers = usual_layers(static_cast<int>(scene.cameras.size()), filter.max_layers);
   work.poses = filter.particles * (1 + layers * filter.moves);
-  const MotionConfig& motion = config.tracker.motion;
+  MotionConfig motion = config.tracker.motion;
+  if (config.budget.frame_ms > 0) motion.turning_yaw_rate_sd = 0;  // as TrackRun does
   if (const int beside = turning_components(motion, motion.path, scene.cameras.size());
       beside > 0) {
     work.particles *= 1 + beside;

@@ -32,7 +32,7 @@ struct TurningTrial {
   std::vector<FrameRecord> records{};  // of the track
 };
 
-// How many follow, beside how many cameras; and the moves of each for every particle and layer.
+// How many follow beside the track with so many cameras, and the configuration of each.
 int turning_components(const MotionConfig& motion, Path path, size_t cameras);
 FilterConfig component_config(FilterConfig filter);
 
