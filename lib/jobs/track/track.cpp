@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.h"
+#include "core/parallel_for.h"
 #include "io/archive/files.h"
 #include "io/video/scene_video.h"
 #include "jobs/track/checked_job.h"
@@ -207,12 +208,17 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   if (run.stature()) control.say(size_note(job.scene, *run.stature()));
   for (const std::string& note : run.notes()) control.say(note);
   const JointUncertainty uncertainty = uncertainty_of(track.frames());
-  const WrittenTables tables = write_tables(analysed, uncertainty, forces_of_track(job), folder);
+  WrittenTables tables;
+  std::vector<ReportClip> clips;
+  run_beside(
+      run.threads(),
+      [&] {
+        if (job.overlay && outcome.frames > 0)
+          clips = write_overlays(job, track.frames(), folder, run.threads(), control);
+      },
+      [&] { tables = write_tables(analysed, uncertainty, forces_of_track(job), folder); });
   outcome.walk = tables.walk;
   write_subject(job, run, folder);
-  std::vector<ReportClip> clips;
-  if (job.overlay && outcome.frames > 0)
-    clips = write_overlays(job, track.frames(), folder, run.threads(), control);
   run.watch().add("output", elapsed_since(writing));
   const Elapsed spent = elapsed_since(start);
   outcome.frames_per_second = (outcome.frames - run.first_frame()) / spent.seconds;

@@ -26,7 +26,9 @@ struct CameraVideo {
   int shrink;                      // of the images that detections are of
   std::vector<OverlayView> views;  // one, or one for each frame
   VideoWriter writer;
-  Image now, next;  // pictures of the view: drawn into, and read meanwhile
+  // Pictures of the view: of one frame after the other, encoded, drawn into and read at the same
+  // time.
+  Image before, now, next;
 
   const OverlayView& view(size_t frame) const { return views[std::min(frame, views.size() - 1)]; }
 };
@@ -49,7 +51,7 @@ std::vector<CameraVideo> opened(const TrackJob& job, const TrackedFrames& frames
     std::vector<OverlayView> views = views_of(camera, motion, config);
     VideoWriter writer(clips[c].file, views.front().size, frames.frame_rate, config.preset);
     const int shrink = working_scale(job.scene, camera, job.config.values).shrink;
-    out.push_back({camera, shrink, std::move(views), std::move(writer), {}, {}});
+    out.push_back({camera, shrink, std::move(views), std::move(writer), {}, {}, {}});
   }
   return out;
 }
@@ -81,9 +83,12 @@ class OverlayPictures {
       look_through(videos_[c].view(i), frames_.images[c], videos_[c].next);
     return true;
   }
-  // Makes what was read last what is drawn into.
+  // Makes what was drawn last what is encoded, and what was read last what is drawn into.
   void turn() {
-    for (CameraVideo& each : videos_) std::swap(each.now, each.next);
+    for (CameraVideo& each : videos_) {
+      std::swap(each.before, each.now);
+      std::swap(each.now, each.next);
+    }
     fresh_ = frames_.fresh;
   }
   bool fresh(size_t camera) const { return fresh_[camera]; }
@@ -111,19 +116,23 @@ std::vector<ReportClip> write_overlays(const TrackJob& job, const TrackedFrames&
   OverlayPictures pictures(job.scene, videos);
   const bool arms = job.config.values.body.arms;
   const size_t count = frames.records.size();
-  bool there = count > 0 && pictures.read(0);
-  for (size_t i = 0; i < count && there; ++i) {
+  bool drawn = false, there = count > 0 && pictures.read(0);
+  for (size_t i = 0; there || drawn; ++i) {
+    const bool encode = drawn, draw = there;  // frame i - 1, frame i
     pictures.turn();
-    const FrameRecord record = frames.records[i];
+    const FrameRecord record = draw ? frames.records[i] : FrameRecord{};
     const double time = static_cast<double>(i) / frames.frame_rate;
-    const auto draw = [&](size_t c) {
-      draw_record(record, c, videos[c].view(i), arms, time, pictures.fresh(c), videos[c]);
-      videos[c].writer.write(videos[c].now);
+    const auto work = [&](size_t task) {
+      const size_t c = task / 2;
+      if (task % 2 == 0 && draw)
+        draw_record(record, c, videos[c].view(i), arms, time, pictures.fresh(c), videos[c]);
+      if (task % 2 == 1 && encode) videos[c].writer.write(videos[c].before);
     };
     run_beside(
-        threads, [&] { parallel_for(videos.size(), threads, draw); },
+        threads, [&] { parallel_for(2 * videos.size(), threads, work); },
         [&] { there = i + 1 < count && pictures.read(i + 1); });
-    control.progress("drawing", i + 1, count);
+    drawn = draw;
+    if (draw) control.progress("drawing", i + 1, count);
   }
   for (CameraVideo& each : videos) each.writer.close();
   choose_embedded(clips, static_cast<uintmax_t>(1e6 * job.config.values.report.embed_mb));
