@@ -39,7 +39,7 @@ def counted(dump: Path) -> tuple[str, dict[str, int]]:
 
 def short(name: str) -> str:
     """Without parameter lists, template arguments and our namespace: names the function, no more."""
-    name = re.sub(r"\(anonymous namespace\)::|walktrack::|\[clone[^]]*\]|'\d+$", "", name)
+    name = re.sub(r"\(anonymous namespace\)::|walktrack::(?:[a-z]+::)?|\[clone[^]]*\]|'\d+$", "", name)
     while (bare := re.sub(r"<[^<>]*>|\([^()]*\)", "", name)) != name:
         name = bare
     return (name.removesuffix(" const").split() or ["?"])[-1]

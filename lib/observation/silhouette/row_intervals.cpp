@@ -39,12 +39,12 @@ struct DiscRows {
   Real x, y, square;
   double first, last;  // rows that it covers
 
-  HWY_ATTR explicit DiscRows(const Disc& disc)
-      : x(hn::Set(kReal, disc.centre.x())),
-        y(hn::Set(kReal, disc.centre.y())),
-        square(hn::Set(kReal, disc.radius * disc.radius)),
-        first(disc.centre.y() - disc.radius),
-        last(disc.centre.y() + disc.radius) {}
+  HWY_ATTR DiscRows(const DiscTable& discs, size_t i)
+      : x(hn::Set(kReal, discs.x[i])),
+        y(hn::Set(kReal, discs.y[i])),
+        square(hn::Set(kReal, discs.radius[i] * discs.radius[i])),
+        first(discs.y[i] - discs.radius[i]),
+        last(discs.y[i] + discs.radius[i]) {}
 
   HWY_ATTR void widen(Real row, Reach& reach) const {
     const Real dy = hn::Sub(row, y), left_over = hn::Sub(square, hn::Mul(dy, dy));
@@ -56,11 +56,11 @@ struct DiscRows {
 struct EdgeRows {
   Real first, last, x_at_0, slope;
 
-  HWY_ATTR explicit EdgeRows(const Edge& edge)
-      : first(hn::Set(kReal, edge.first)),
-        last(hn::Set(kReal, edge.last)),
-        x_at_0(hn::Set(kReal, edge.x_at_0)),
-        slope(hn::Set(kReal, edge.slope)) {}
+  HWY_ATTR EdgeRows(const EdgeTable& edges, size_t i)
+      : first(hn::Set(kReal, edges.first[i])),
+        last(hn::Set(kReal, edges.last[i])),
+        x_at_0(hn::Set(kReal, edges.x_at_0[i])),
+        slope(hn::Set(kReal, edges.slope[i])) {}
 
   HWY_ATTR void widen(Real row, Reach& reach) const {
     const Real x = hn::Add(x_at_0, hn::Mul(slope, row));
@@ -88,16 +88,16 @@ HWY_ATTR void to_columns(const Reach& reach, const Span& span, int32_t* begins, 
 
 // Every part of the outline is in the convex hull, so that the outermost of those in a row are its
 // bounds there.
-HWY_ATTR void cover_rows(const Outline& outline, const PixelRect& area, int block_row,
+HWY_ATTR void cover_rows(const Outlines& outlines, size_t i, const PixelRect& area, int block_row,
                          BlockRows rows, RowIntervals& out) {
-  const DiscRows discs[2]{DiscRows(outline.discs[0]), DiscRows(outline.discs[1])};
-  const EdgeRows edges[2]{EdgeRows(outline.edges[0]), EdgeRows(outline.edges[1])};
+  const DiscRows discs[2]{DiscRows(outlines.discs[0], i), DiscRows(outlines.discs[1], i)};
+  const EdgeRows edges[2]{EdgeRows(outlines.edges[0], i), EdgeRows(outlines.edges[1], i)};
   const Span span{hn::Set(kReal, static_cast<double>(area.x0)),
                   hn::Set(kReal, static_cast<double>(area.width()))};
   const Reach nothing{hn::Set(kReal, std::numeric_limits<double>::max()),
                       hn::Set(kReal, std::numeric_limits<double>::lowest())};
-  const BlockRows whole = whole_vectors(rows);
-  for (int k = whole.from; k < whole.to; k += real_lanes()) {
+  const int from = rows.from / real_lanes() * real_lanes();
+  for (int k = from; k < rows.to; k += real_lanes()) {
     const double first = block_row + k, last = first + real_lanes() - 1;
     const Real row = hn::Iota(kReal, first);
     Reach reach = nothing;
@@ -106,8 +106,12 @@ HWY_ATTR void cover_rows(const Outline& outline, const PixelRect& area, int bloc
       if (first <= disc.last && last >= disc.first) disc.widen(row, reach);
     to_columns(reach, span, out.begin + k, out.end + k);
   }
-  std::fill(out.begin + rows.to, out.begin + whole.to, 0);  // the area may end within a vector
-  std::fill(out.end + rows.to, out.end + whole.to, 0);
+  // Rows that share a longer vector with them, or are below the area.
+  const BlockRows whole = whole_vectors(rows);
+  for (int32_t* const columns : {out.begin, out.end}) {
+    std::fill(columns + whole.from, columns + from, 0);
+    std::fill(columns + rows.to, columns + whole.to, 0);
+  }
 }
 
 using Whole = hn::Vec<decltype(kWhole)>;
@@ -188,9 +192,9 @@ HWY_EXPORT(hide_rows);
 
 }  // namespace
 
-void cover_rows(const Outline& outline, const PixelRect& area, int block_row, BlockRows rows,
-                RowIntervals& out) {
-  HWY_DYNAMIC_DISPATCH(cover_rows)(outline, area, block_row, rows, out);
+void cover_rows(const Outlines& outlines, size_t i, const PixelRect& area, int block_row,
+                BlockRows rows, RowIntervals& out) {
+  HWY_DYNAMIC_DISPATCH(cover_rows)(outlines, i, area, block_row, rows, out);
 }
 
 void show_rows(const RowIntervals& covered, BlockRows rows, SeenRows& seen) {

@@ -37,9 +37,10 @@ struct RowIntervals {
   alignas(64) int32_t end[kBlockRows];
 };
 
-// The columns of the pixel centres inside or on the outline, in rows block_row + rows.from ...
-void cover_rows(const Outline& outline, const PixelRect& area, int block_row, BlockRows rows,
-                RowIntervals& out);
+// The columns of the pixel centres inside or on the outline of capsule `i`, in rows block_row +
+// rows.from ...
+void cover_rows(const Outlines& outlines, size_t i, const PixelRect& area, int block_row,
+                BlockRows rows, RowIntervals& out);
 
 // The visible part of a capsule in the rows of a block: at most two pieces in each, of which the
 // second one is empty unless `two` is set.

@@ -15,15 +15,15 @@ inline namespace observation {
 
 // Every capsule of a list, nearest first, with the rows of one block that it covers.
 struct SilhouetteBlock {
-  std::array<Outline, kMaxCapsules> outlines;
+  Outlines outlines;
   std::array<RowIntervals, kMaxCapsules> covered;
   std::array<BlockRows, kMaxCapsules> rows;
   int first_row;  // of the block, in the image
 };
 
-inline BlockRows rows_of_block(const Outline& outline, int block_row) {
-  return {std::max(outline.first_row - block_row, 0),
-          std::min(outline.end_row - block_row, kBlockRows)};
+inline BlockRows rows_of_block(const Outlines& outlines, size_t i, int block_row) {
+  return {std::max(outlines.first_row[i] - block_row, 0),
+          std::min(outlines.end_row[i] - block_row, kBlockRows)};
 }
 
 // Calls visit(begin, end) for every visible piece of capsule `i` in row k.
@@ -78,18 +78,19 @@ void visit_seen_rows(const SilhouetteBlock& block, size_t i, Visit&& visit) {
 template <typename Visit>
 void visit_visible(const PixelRect& area, const CapsuleList& capsules, Visit&& visit) {
   SilhouetteBlock block;
+  Outlines& outlines = block.outlines;
+  find_outlines(capsules, area, outlines);
   int first = area.y1, end = area.y0;
   for (size_t i = 0; i < capsules.size(); ++i) {
-    block.outlines[i] = outline_of(capsules[i], area);
-    if (block.outlines[i].first_row >= block.outlines[i].end_row) continue;
-    first = std::min(first, block.outlines[i].first_row);
-    end = std::max(end, block.outlines[i].end_row);
+    if (outlines.first_row[i] >= outlines.end_row[i]) continue;
+    first = std::min(first, outlines.first_row[i]);
+    end = std::max(end, outlines.end_row[i]);
   }
   for (block.first_row = first; block.first_row < end; block.first_row += kBlockRows) {
     for (size_t i = 0; i < capsules.size(); ++i) {
-      block.rows[i] = rows_of_block(block.outlines[i], block.first_row);
+      block.rows[i] = rows_of_block(outlines, i, block.first_row);
       if (block.rows[i].from >= block.rows[i].to) continue;
-      cover_rows(block.outlines[i], area, block.first_row, block.rows[i], block.covered[i]);
+      cover_rows(outlines, i, area, block.first_row, block.rows[i], block.covered[i]);
       visit_seen_rows(block, i,
                       [&](int k, int from, int to) { visit(block.first_row + k, from, to, i); });
     }
