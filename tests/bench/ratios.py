@@ -90,6 +90,30 @@ def with_network(build: Path, source: Path, repetitions: int) -> dict[str, float
                 for name, chosen in settings.items()}
 
 
+BENCH_PX = 450  # height of the figures of `silhouette_scanline_limit` (tests/bench/scenes.h)
+EVALUATIONS = 4 * 17 + 1  # of the dynamics, for one walker and 1/30 s
+PASSED = 0.57  # of the moves, by the first camera: the others are asked for these only (lib/jobs/plan/cost_model.h)
+
+
+def limits_of_frame(build: Path, source: Path, times: dict[str, float]) -> tuple[dict[str, float], float]:
+    """Seconds that a frame of the demo takes on one thread at the machine's limits, by what is computed, and the
+    number of poses that are evaluated."""
+    scene = source / "data/demo/scene.yaml"
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([build / "walktrack", "track", scene, "-o", f"{folder}/out", "--quiet", "--no-overlay"], check=True)
+        record = json.loads(Path(folder, "out/run.json").read_text())
+    plan = json.loads(subprocess.run([build / "walktrack", "plan", scene, "--json"], check=True, capture_output=True, text=True).stdout)
+    settings, cameras = record["config"]["filter"], plan["cameras"]
+    layers = statistics.mean(n for n in record["by_frame"]["layers"] if n)
+    moved = settings["particles"] * layers * settings["moves"]
+    asked = [settings["particles"] + share * moved for share in [1] + [PASSED] * (len(cameras) - 1)]
+    height = sum(poses * camera["rows"] for poses, camera in zip(asked, cameras))
+    return {"decoding": len(cameras) * times["decoded_frame"],
+            "converting": len(cameras) * (times["converted_frame"] - times["decoded_frame"]),
+            "silhouettes": height / BENCH_PX * times["silhouette_scanline_limit"],
+            "dynamics": settings["particles"] * EVALUATIONS * times["dynamics_soa_limit"]}, sum(asked)
+
+
 def print_targets(times: dict[str, float]) -> None:
     print(f"\n{'ratio within this run':58} {'measured':>9}  wanted")
     for what, than, bound, wanted in TARGETS:
@@ -135,6 +159,10 @@ def main() -> None:
         print("frames/s of its side camera alone, every output: "
               + ", ".join(f"network {name} {1 / times[f'one_camera_network_{name}']:.3g}" for name in ("always", "default", "off"))
               + (f"; the network alone {1 / times['pose_network']:.3g}" if "pose_network" in times else ""))
+        limits, poses = limits_of_frame(options.build, options.source, times)
+        listed = ", ".join(f"{what} {1e3 * seconds:.2g}" for what, seconds in limits.items())
+        print(f"ms of a frame of the demo on one thread at the machine's limits: {listed} ({poses:.0f} poses are evaluated); together "
+              f"{1e3 * sum(limits.values()):.3g}, and the whole command takes {1e3 * times['track_all_1']:.3g}")
         print(f"processors {os.cpu_count()}, load average {os.getloadavg()[0]:.1f}: with others at "
               "work, trust the micro benchmarks only")
     if options.store:
