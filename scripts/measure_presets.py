@@ -89,18 +89,18 @@ def panel(title, found, network, x0):
     right, floor = x0 + WIDTH - 12, HEIGHT - 44
     x = lambda speed: x0 + LEFT + (right - x0 - LEFT) * math.log(speed / low) / math.log(high / low)
     y = lambda error: floor - (floor - TOP) * math.log(error / bottom) / math.log(top / bottom)
-    ticks = [digit * 10 ** power for power in range(4) for digit in (1, 2, 5)]
+    ticks = [digit * 10 ** power for power in range(4) for digit in (1, 1.5, 2, 3, 5, 7)]
     out = [f'<text x="{x0 + LEFT}" y="20" font-weight="bold">{title}</text>',
            f'<path d="M{x0 + LEFT} {TOP}V{floor}H{right}" fill="none" stroke="{GREY}"/>',
            f'<text x="{(x0 + LEFT + right) / 2:.0f}" y="{HEIGHT - 8}" text-anchor="middle">frames/s of the whole command</text>',
            f'<text x="{x0 + 14}" y="{(TOP + floor) / 2:.0f}" text-anchor="middle" transform="rotate(-90 {x0 + 14} {(TOP + floor) / 2:.0f})">joint error, mm</text>']
-    out += [f'<path d="M{x(t):.1f} {floor}v5" stroke="{GREY}"/><text x="{x(t):.1f}" y="{floor + 18}" text-anchor="middle">{t}</text>'
+    out += [f'<path d="M{x(t):.1f} {floor}v5" stroke="{GREY}"/><text x="{x(t):.1f}" y="{floor + 18}" text-anchor="middle">{t:g}</text>'
             for t in ticks if low <= t <= high]
-    out += [f'<path d="M{x0 + LEFT} {y(t):.1f}h-5" stroke="{GREY}"/><text x="{x0 + LEFT - 8}" y="{y(t) + 4:.1f}" text-anchor="end">{t}</text>'
+    out += [f'<path d="M{x0 + LEFT} {y(t):.1f}h-5" stroke="{GREY}"/><text x="{x0 + LEFT - 8}" y="{y(t) + 4:.1f}" text-anchor="end">{t:g}</text>'
             for t in ticks if bottom <= t <= top]
     if network:
-        out.append(f'<path d="M{x(network):.1f} {TOP}V{floor}" stroke="{GREY}" stroke-dasharray="2 4"/><text x="{x(network) + 4:.1f}" y="{TOP + 12}"'
-                   f' fill="{GREY}">pose network alone</text>')
+        out.append(f'<path d="M{x(network):.1f} {TOP}V{floor}" stroke="{GREY}" stroke-dasharray="2 4"/><text x="{x(network) - 4:.1f}" y="{TOP + 12}"'
+                   f' text-anchor="end" fill="{GREY}">pose network alone</text>')
     for word, colour, dash in (("bootstrap", ORANGE, "5 4"), ("", BLUE, "none")):
         points = sorted((x(s), y(e), name.split("=")[-1]) for name, (s, e) in found.items()
                         if ("bootstrap" in name) == bool(word) and math.isfinite(s) and math.isfinite(e))
