@@ -34,6 +34,7 @@ constexpr SuiteScene kScenes[] = {
     {"slow", false},
     {"fast", false},
     {"turn", false},
+    {"turn_one_camera", false},
     {"slope", false},
     {"low_light", false},
     {"blur", false},
