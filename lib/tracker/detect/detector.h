@@ -13,24 +13,11 @@
 
 #include <Eigen/Core>
 
-#include "camera/camera.h"
+#include "tracker/detect/detector_config.h"
+#include "tracker/detect/figure_places.h"
 
 namespace walktrack {
 inline namespace tracker {
-
-// By hand; sensitivity not measured.
-struct DetectorConfig {
-  double window = 1.2;       // s of video in which a walk is searched: two steps
-  double slowest = 0.35;     // m/s, lowest speed of a walk
-  double fastest = 3.0;      // m/s
-  double least_share = 0.5;  // lowest score of a frame, as a share of the window's median
-  double least_score = 6;    // nats, lowest score of the figure in any frame
-  // The same if there are only keypoints: nine points of a network at the places where a figure has
-  // them contribute 5.6 nats.
-  double least_points_score = 1;
-  int candidates = 10;  // places of a frame through which lines are tried
-  int grid_px = 8;      // spacing of the pixel grid at 640 px of image width
-};
 
 // Where the person was and how they moved, on the ground, metres and m/s.
 // Along the viewing ray both are less certain.
@@ -51,28 +38,10 @@ struct DetectedWalk {
 // The same walk so many seconds later.
 DetectedWalk moved(const DetectedWalk& walk, double seconds);
 
-struct Place {
-  Eigen::Vector2d position;
-  double score;  // nats
-};
-
-// Log-likelihood ratio of the walking figure over a ground point, all cameras together, nats.
-using PlaceScore = std::function<double(const Eigen::Vector2d&)>;
-// The same in one frame of a window, the figure walking at a velocity, m/s.
+// Log-likelihood ratio of the walking figure in one frame of a window, over a ground point, all
+// cameras together, nats; it walks at that velocity, m/s.
 using WindowScore = std::function<double(size_t frame, const Eigen::Vector2d& place,
                                          const Eigen::Vector2d& velocity)>;
-
-// The heading that shows a figure over `position` side on to the camera.
-double side_on_heading(const Camera& camera, const Eigen::Vector2d& position);
-
-// Ground points under the pixel grid of `cameras[0]` at which the figure lies wholly inside the
-// image of every camera that has the point in front of it.
-std::vector<Eigen::Vector2d> standing_places(std::span<const Camera> cameras, double height,
-                                             const DetectorConfig& config);
-
-// The best of `places`, at least half a metre apart, best first.
-std::vector<Place> find_figures(const PlaceScore& score, std::span<const Eigen::Vector2d> places,
-                                const DetectorConfig& config, int threads);
 
 // The two frames of a window for which candidate places are needed: every line that is tried goes
 // through a candidate of each.

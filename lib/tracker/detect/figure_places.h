@@ -1,0 +1,38 @@
+// The places over the ground at which a walking figure explains one frame best: the candidates
+// through which lines are tried (tracker/detect/detector.h).
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "camera/camera.h"
+#include "tracker/detect/detector_config.h"
+
+namespace walktrack {
+inline namespace tracker {
+
+struct Place {
+  Eigen::Vector2d position;
+  double score;  // nats
+};
+
+// Log-likelihood ratio of the walking figure over a ground point, all cameras together, nats.
+using PlaceScore = std::function<double(const Eigen::Vector2d&)>;
+
+// The heading that shows a figure over `position` side on to the camera.
+double side_on_heading(const Camera& camera, const Eigen::Vector2d& position);
+
+// Ground points under the pixel grid of `cameras[0]` at which the figure lies wholly inside the
+// image of every camera that has the point in front of it.
+std::vector<Eigen::Vector2d> standing_places(std::span<const Camera> cameras, double height,
+                                             const DetectorConfig& config);
+
+// The best of `places`, at least half a metre apart, best first.
+std::vector<Place> find_figures(const PlaceScore& score, std::span<const Eigen::Vector2d> places,
+                                const DetectorConfig& config, int threads);
+
+}  // namespace tracker
+}  // namespace walktrack
