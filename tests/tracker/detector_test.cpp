@@ -1,6 +1,7 @@
 #include "tracker/detect/detector.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -29,9 +30,9 @@ struct Window {
 
 Window window(const std::function<double(size_t, const Eigen::Vector2d&)>& score) {
   const std::vector<Camera> cameras{side_camera(1)};
-  const auto places = standing_places(cameras, 1.75, {});
+  const PlaceGrid grid = place_grid(cameras, 1.75, {});
   const auto figures = [&](size_t f) {
-    return find_figures([&](const Eigen::Vector2d& p) { return score(f, p); }, places, {}, 1);
+    return find_figures([&](const Eigen::Vector2d& p) { return score(f, p); }, grid, {}, 1);
   };
   const WindowEnds ends = window_ends(kWindowFrames);
   return {figures(ends.early), figures(ends.late),
@@ -50,6 +51,33 @@ TEST(StandingPlaces, FiguresStandWhollyInTheImage) {
     ASSERT_TRUE(foot && head);
     EXPECT_TRUE(inside_image(cameras[0], *foot) && inside_image(cameras[0], *head));
   }
+}
+
+// A figure of 200 px in a picture of 640: every second row and column suffices to see where it is.
+TEST(PlaceGrid, FindsTheSameFiguresWithFewerTrials) {
+  const std::vector<Camera> cameras{side_camera(1)};
+  const PlaceGrid grid = place_grid(cameras, 1.75, {});
+  PlaceGrid all = grid;
+  for (std::vector<uint32_t>& guides : all.guides) guides.clear();
+  size_t tried = 0;
+  const auto score = [&](const Eigen::Vector2d& p) {
+    ++tried;
+    return bell(p, walker_at(0), 100) + bell(p, {0.8, 1.8}, 120) - 30;
+  };
+  const std::vector<Place> found = find_figures(score, grid, {}, 1);
+  const size_t with_guides = std::exchange(tried, 0);
+  const std::vector<Place> wanted = find_figures(score, all, {}, 1);
+  EXPECT_EQ(tried, grid.places.size());
+  EXPECT_LT(with_guides, 2 * tried / 3);
+  ASSERT_EQ(found.size(), wanted.size());
+  ASSERT_GE(found.size(), 2u);
+  for (size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].position, wanted[i].position);
+}
+
+TEST(PlaceGrid, TriesEveryPlaceOfSmallFigures) {
+  const std::vector<Camera> cameras{side_camera(1)};
+  for (const std::vector<uint32_t>& guides : place_grid(cameras, 0.4, {}).guides)
+    EXPECT_TRUE(guides.empty());
 }
 
 TEST(DetectWalk, FindsAWalkerBetweenThingsThatStandStill) {

@@ -2,6 +2,7 @@
 // through which lines are tried (tracker/detect/detector.h).
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -27,11 +28,19 @@ double side_on_heading(const Camera& camera, const Eigen::Vector2d& position);
 
 // Ground points under the pixel grid of `cameras[0]` at which the figure lies wholly inside the
 // image of every camera that has the point in front of it.
+struct PlaceGrid {
+  std::vector<Eigen::Vector2d> places;
+  // By place: those of every second row and column beside it, as indices; none for these
+  // themselves, at the border, and where the figure is not much larger than the grid.
+  std::vector<std::vector<uint32_t>> guides;
+};
+PlaceGrid place_grid(std::span<const Camera> cameras, double height, const DetectorConfig& config);
 std::vector<Eigen::Vector2d> standing_places(std::span<const Camera> cameras, double height,
                                              const DetectorConfig& config);
 
-// The best of `places`, at least half a metre apart, best first.
-std::vector<Place> find_figures(const PlaceScore& score, std::span<const Eigen::Vector2d> places,
+// The best of the places, at least half a metre apart, best first. A place whose guides all explain
+// much less than an empty scene is not tried.
+std::vector<Place> find_figures(const PlaceScore& score, const PlaceGrid& grid,
                                 const DetectorConfig& config, int threads);
 
 }  // namespace tracker

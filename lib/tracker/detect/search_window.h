@@ -18,7 +18,7 @@ struct SearchWindow {
   const std::deque<SceneEvidence>& frames;
   uint32_t first_frame;                      // number of the window's first
   const std::optional<LastSeen>& last_seen;  // the subject, if they were lost
-  std::span<const Eigen::Vector2d> places;   // over which figures are tried
+  const PlaceGrid& places;                   // over which figures are tried
 };
 
 // How well figures of a body explain the window's frames.

@@ -59,8 +59,8 @@ std::optional<DetectedWalk> WalkSearch::find_here(const TrackContext& context,
                                                   const SearchMoment& moment) {
   const TrackerScene& scene = context.scene;
   const DetectorConfig& config = context.config.detector;
-  if (places_.empty())
-    places_ = standing_places(scene.cameras, context.body().subject.height, config);
+  if (places_.places.empty())
+    places_ = place_grid(scene.cameras, context.body().subject.height, config);
   const SearchWindow window = view(context, moment);
   const WindowEnds ends = window_ends(window_.size());
   const std::vector<DetectedWalk> lines = lines_by_keypoints(window);
@@ -126,7 +126,8 @@ std::optional<StandingStart> WalkSearch::standing_lead(const TrackContext& conte
 double WalkSearch::score_with_lead(const TrackContext& context, const DetectedWalk& walk,
                                    size_t lead) const {
   const std::optional<LastSeen> nobody;
-  const SearchWindow before{context, waiting_, 0, nobody, {}};
+  const PlaceGrid nowhere;
+  const SearchWindow before{context, waiting_, 0, nobody, nowhere};
   const WindowScore score = window_score(before, context.body(), context.subject.figures);
   double sum = walk.score * double(window_.size());
   for (size_t back = 1; back <= lead; ++back)

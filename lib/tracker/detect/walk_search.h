@@ -52,7 +52,7 @@ class WalkSearch {
   SizedWalk with_size_along(const TrackContext& context, const SearchMoment& moment,
                             const DetectedWalk& walk) const;
   // To be called when the size of the subject has changed.
-  void forget_places() { places_.clear(); }
+  void forget_places() { places_ = {}; }
   // To be called when the likelihood has changed.
   void forget_scores();
 
@@ -90,7 +90,7 @@ class WalkSearch {
   std::deque<SceneEvidence> waiting_, window_;
   std::deque<std::optional<std::vector<Place>>> candidates_;  // of the window's frames, once
                                                               // computed
-  std::vector<Eigen::Vector2d> places_;                       // of a figure, once computed
+  PlaceGrid places_;                                          // of a figure, once computed
   size_t slight_walks_ = 0;  // successive windows in which the person may as well stand
   std::optional<HalfHidden> half_hidden_;
 };

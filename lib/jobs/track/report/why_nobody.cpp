@@ -39,11 +39,12 @@ class Looker {
       : searched_(searched),
         setup_(setup),
         figures_(setup.scene.model, searched.prior),
-        near_(standing_places(setup.scene.cameras, height(), searched.config)) {
+        near_(place_grid(setup.scene.cameras, height(), searched.config)) {
     for (const Vector2d& place :
          standing_places(setup.scene.cameras, kFar * height(), searched.config)) {
-      if (px(place) < least_px()) far_.push_back(place);
+      if (px(place) < least_px()) far_.places.push_back(place);
     }
+    far_.guides.resize(far_.places.size());
   }
 
   bool has_pictures() const { return setup_.scene.pictures; }
@@ -54,8 +55,8 @@ class Looker {
   }
   // Height of the smallest figure that is searched; 0 if there is none.
   double least_px() const {
-    double least = near_.empty() ? 0 : px(near_[0]);
-    for (const Vector2d& place : near_) least = std::min(least, px(place));
+    double least = near_.places.empty() ? 0 : px(near_.places[0]);
+    for (const Vector2d& place : near_.places) least = std::min(least, px(place));
     return least;
   }
 
@@ -97,22 +98,21 @@ class Looker {
     return evidence;
   }
 
-  Seen best_of(const SceneEvidence& evidence, std::span<const Vector2d> places) const {
+  Seen best_of(const SceneEvidence& evidence, const PlaceGrid& grid) const {
     const auto score = [&](const Vector2d& place) {
       const double heading = side_on_heading(setup_.scene.cameras[0], place);
       return place_score(setup_.scene, evidence, setup_.scene.model.body,
                          figures_.at(kUsualSpeed, heading), place, heading);
     };
-    const std::vector<Place> found =
-        find_figures(score, places, searched_.config, searched_.threads);
+    const std::vector<Place> found = find_figures(score, grid, searched_.config, searched_.threads);
     return found.empty() ? Seen{} : Seen{found[0].score, found[0].position};
   }
 
   const SearchedVideo& searched_;
   TrackSetup& setup_;
   PoseTemplates figures_;
-  std::vector<Vector2d> near_, far_;  // places at which figures are large enough, and at which they
-                                      // are smaller
+  PlaceGrid near_, far_;  // places at which figures are large enough, and at which they
+                          // are smaller
 };
 
 std::string in_words(const Account& seen, const Looker& looker, const DetectorConfig& config) {
