@@ -83,12 +83,6 @@ Detections detections_of(const Scene& scene, const Config& config) {
 
 }  // namespace
 
-double height_px(const Camera& camera, const Eigen::Vector2d& place, double height) {
-  const auto foot = project(camera, Eigen::Vector3d(place.x(), place.y(), 0));
-  const auto head = project(camera, Eigen::Vector3d(place.x(), place.y(), height));
-  return foot && head ? (*foot - *head).norm() : 0;
-}
-
 WorkingScale working_scale(const Scene& scene, const Camera& camera, const Config& config) {
   const double person_px = expected_height_px(scene, camera, config.tracker.detector);
   return {person_px, shrink_factor(person_px, config.observation.person_px)};

@@ -32,10 +32,6 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
 void learn_appearance(const Body& body, const Pose& pose, const SceneEvidence& evidence,
                       int threads, TrackSetup& setup);
 
-// Height in the image, px, of a person of this height who stands at a place on the ground; 0 if the
-// place is not in front of the camera.
-double height_px(const Camera& camera, const Eigen::Vector2d& place, double height);
-
 // The scale at which a camera's images are processed.
 WorkingScale working_scale(const Scene& scene, const Camera& camera, const Config& config);
 

@@ -18,35 +18,15 @@ void CapsuleList::insert(const Capsule& capsule) {
   items_[at] = capsule;
 }
 
-namespace {
-
-// The parts in front of the camera, nearest first; parts of equal depth in their order.
-struct ByDepth {
-  std::array<uint8_t, kMaxParts> part;
-  size_t count = 0;
-
-  ByDepth(const PartDiscs& discs, size_t parts) {
-    for (size_t i = 0; i < parts; ++i) {
-      if (!(discs.nearest[i] >= kMinDepth)) continue;
-      size_t at = count++;
-      for (; at > 0 && discs.depth[part[at - 1]] > discs.depth[i]; --at) part[at] = part[at - 1];
-      part[at] = static_cast<uint8_t>(i);
-    }
-  }
-};
-
-}  // namespace
-
 CapsuleList project_parts(const Camera& camera, std::span<const PosedPart> parts) {
   PartDiscs discs;
   find_discs(camera, parts, discs);
-  const auto disc = [](const PartDiscs::Ends& ends, size_t i) {
+  const auto disc = [](const DiscTable& ends, size_t i) {
     return Disc{{ends.x[i], ends.y[i]}, ends.radius[i]};
   };
-  const ByDepth order(discs, parts.size());
   CapsuleList out;
-  for (size_t k = 0; k < order.count; ++k) {
-    const size_t i = order.part[k];
+  for (size_t i = 0; i < parts.size(); ++i) {
+    if (!(discs.nearest[i] >= kMinDepth)) continue;
     out.insert({disc(discs.lower, i), disc(discs.upper, i), discs.depth[i], parts[i].appearance,
                 static_cast<int>(i)});
   }

@@ -14,11 +14,6 @@
 namespace walktrack {
 inline namespace observation {
 
-// By capsule, px.
-struct DiscTable {
-  alignas(64) double x[kMaxParts], y[kMaxParts], radius[kMaxParts];
-};
-
 // By capsule: the line x = x_at_0 + slope y for first <= y <= last; empty if first > last.
 struct EdgeTable {
   alignas(64) double first[kMaxParts], last[kMaxParts], x_at_0[kMaxParts], slope[kMaxParts];

@@ -160,8 +160,7 @@ HWY_ATTR void bend(const Camera& camera, const FlatPoints& flat, size_t count, F
 }
 
 // From distorted coordinates to pixels.
-HWY_ATTR void to_pixels(const Camera& camera, const FlatEnds& flat, size_t count,
-                        PartDiscs::Ends& out) {
+HWY_ATTR void to_pixels(const Camera& camera, const FlatEnds& flat, size_t count, DiscTable& out) {
   const Real fx = hn::Set(kReal, camera.focal_px.x()), fy = hn::Set(kReal, camera.focal_px.y());
   const Real cx = hn::Set(kReal, camera.centre_px.x()), cy = hn::Set(kReal, camera.centre_px.y());
   for (size_t i = 0; i < count; i += hn::Lanes(kReal)) {
@@ -204,7 +203,7 @@ void bend_all(const Camera& camera, size_t count, FlatPoints& points) {
   }
 }
 
-void project_ends(const Camera& camera, size_t count, FlatEnds& ends, PartDiscs::Ends& out) {
+void project_ends(const Camera& camera, size_t count, FlatEnds& ends, DiscTable& out) {
   if (camera.lens != Lens::kPinhole) {
     bend_all(camera, count, ends.middle);
     bend_all(camera, count, ends.rim);

@@ -16,10 +16,7 @@ inline namespace observation {
 
 // By part. In pixels of the given camera; depth along the optical axis, m.
 struct PartDiscs {
-  struct Ends {
-    alignas(64) double x[kMaxParts], y[kMaxParts], radius[kMaxParts];  // px
-  };
-  Ends lower, upper;
+  DiscTable lower, upper;
   alignas(64) double depth[kMaxParts];    // of the middle of the axis
   alignas(64) double nearest[kMaxParts];  // of the discs; if it is below kMinDepth the other values
                                           // are undefined

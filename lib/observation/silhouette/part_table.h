@@ -19,6 +19,11 @@ struct SectionTable {
   alignas(64) double lateral[kMaxParts], forward[kMaxParts];
 };
 
+// Discs in the image, px.
+struct DiscTable {
+  alignas(64) double x[kMaxParts], y[kMaxParts], radius[kMaxParts];
+};
+
 struct PartTable {
   size_t count = 0;  // number of complete vectors
   VectorTable lower, upper, lateral, forward;

@@ -54,11 +54,6 @@ bool visible_everywhere(std::span<const Camera> cameras, const Vector2d& positio
   return true;
 }
 
-double height_px(const Camera& camera, const Vector2d& position, double height) {
-  const Outline figure = outline(camera, position, height);
-  return figure.foot && figure.head ? (*figure.foot - *figure.head).norm() : 0;
-}
-
 // 0, step, ... below the end.
 std::vector<double> steps_to(double end, double step) {
   std::vector<double> out;
@@ -88,6 +83,11 @@ std::vector<uint32_t> guides_of(const Cell& cell, size_t rows, size_t columns,
 }
 
 }  // namespace
+
+double height_px(const Camera& camera, const Vector2d& position, double height) {
+  const Outline figure = outline(camera, position, height);
+  return figure.foot && figure.head ? (*figure.foot - *figure.head).norm() : 0;
+}
 
 double side_on_heading(const Camera& camera, const Vector2d& position) {
   const Vector3d camera_position = camera_centre(camera);

@@ -23,6 +23,10 @@ struct Place {
 // Log-likelihood ratio of the walking figure over a ground point, all cameras together, nats.
 using PlaceScore = std::function<double(const Eigen::Vector2d&)>;
 
+// Height in the image, px, of a person of this height who stands at a place on the ground; 0 if the
+// place is not in front of the camera.
+double height_px(const Camera& camera, const Eigen::Vector2d& position, double height);
+
 // The heading that shows a figure over `position` side on to the camera.
 double side_on_heading(const Camera& camera, const Eigen::Vector2d& position);
 
