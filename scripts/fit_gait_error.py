@@ -22,7 +22,7 @@ from measure_gait import SAME_CONTACT
 
 LEGS = (("lknee", "rknee"), ("lankle", "rankle"))
 FIGURE = 0.018  # kFigureError of lib/tracker/smooth/model_error.cpp, m
-STRIKE, TOE_OFF, ACROSS_TO_WIDTH, LENGTH_NOISE, TIME_NOISE = 0.002, 0.02, 0.9, 0.02, 0.016  # lib/metrics/gait_error.cpp
+STRIKE, TOE_OFF, ACROSS_TO_WIDTH, LENGTH_NOISE, TIME_NOISE = 0.002, 0.006, 0.9, 0.02, 0.016  # lib/metrics/gait_error.cpp
 
 
 def across_walk(scene, joints):
@@ -83,7 +83,7 @@ def failed(folder, result):
 
 def rows_of_walk(scene, result):
     """{(kind, column): [(error, reach down, reach up, unit)]}: without the sizes of today."""
-    truth, estimate = (json.loads((folder / "gait.json").read_text()) for folder in (result.parent / "truth", result))
+    truth, estimate = (json.loads((folder / "gait.json").read_text()) for folder in (result / "truth", result))
     across = across_walk(scene, result / "joints.csv")
     out = {}
     for kind, column, true, band, stride in pairs(truth, estimate):

@@ -69,11 +69,12 @@ def rmse(values, weight):
 
 
 def changes(table, column, first=-math.inf):
-    """(time, whether the foot was put down) of each crossing of the threshold."""
+    """(time, whether the foot was put down) of each crossing of the threshold, between the rows."""
     force, times = table[column], table["time"]
     for i in range(1, len(force)):
         if (force[i] > LOADED) != (force[i - 1] > LOADED) and times[i] >= first:
-            yield times[i], force[i] > LOADED
+            share = (LOADED - force[i - 1]) / (force[i] - force[i - 1])
+            yield times[i - 1] + share * (times[i] - times[i - 1]), force[i] > LOADED
 
 
 def late(plates, reaction, first):

@@ -11,6 +11,7 @@ startMoreAngles();
 startForces();
 startTimes();
 quality();
+constants();
 origin();
 startSpace();
 const videoShown = startPlayer();

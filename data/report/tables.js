@@ -94,6 +94,16 @@ function quality() {
     : analysed ? '' : 'Every frame is tracked.';
 }
 
+// What was estimated for the whole video, with its band from 5 to 95 %.
+function constants() {
+  if (!run.constants?.length) return;
+  byId('constants').append(element('h3', {}, 'Estimated for the whole video'),
+    table(['', 'estimate', ''], run.constants.map((c) => {
+      const reach = 1.6449 * c.sd;
+      return [c.what, banded({value: c.value, p05: c.value - reach, p95: c.value + reach}, c.digits), `${c.unit}. ${c.effect}`];
+    }), 'constants'));
+}
+
 function origin() {
   const changed = Object.entries(run.config_origin).map(([key, place]) => `${key} (${place})`).join(', ');
   const stages = Object.entries(run.timing.stage_seconds).map(([name, s]) => `${name} ${fixed(s, 1)} s`).join(', ');

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
+
+#include "metrics/toe_off.h"
 
 namespace walktrack {
 inline namespace metrics {
@@ -16,7 +19,7 @@ using Eigen::Vector2d;
 constexpr double kPathWindow = 0.5;      // s; about a step, so that sway and vertical motion are
                                          // averaged out
 constexpr double kMatchWithin = 0.25;    // s; under half of the shortest usual stride
-constexpr double kRetraction = 0.045;    // share of the stride after the turning point; see the
+constexpr double kRetraction = 0.038;    // share of the stride after the turning point; see the
                                          // header
 constexpr double kUsualStride = 1.1;     // s, for a motion with one turning point
 constexpr double kLeastProgress = 0.15;  // m/s; slower than any walk, so that the direction is
@@ -154,6 +157,38 @@ FootSignals foot_signals(const Motion& motion, const Run& run,
   return out;
 }
 
+// Forward speed of a place on the ground, by row of the run: its central difference along the
+// direction of walking, m/s.
+template <typename Place>
+std::vector<double> forward_speeds(const Motion& motion, const Run& run,
+                                   const std::vector<Vector2d>& direction, const Place& place) {
+  std::vector<double> out;
+  for (size_t i = run.begin; i < run.end; ++i) {
+    const size_t before = std::max(i, run.begin + 1) - 1, after = std::min(i + 1, run.end - 1);
+    out.push_back(direction[i - run.begin].dot(place(after) - place(before)) /
+                  (motion.time[after] - motion.time[before]));
+  }
+  return out;
+}
+
+std::vector<GaitEvent> toe_offs(const Motion& motion, const Run& run,
+                                const std::vector<Vector2d>& direction,
+                                const std::vector<Vector2d>& path,
+                                const std::vector<double>& toe_behind, Side side) {
+  const std::span time = std::span(motion.time).subspan(run.begin, run.end - run.begin);
+  const auto toe_speed = forward_speeds(
+      motion, run, direction, [&](size_t i) { return ground(motion.joints[i][toe(side)]); });
+  const auto pelvis_speed =
+      forward_speeds(motion, run, direction, [&](size_t i) { return path[i - run.begin]; });
+  std::vector<GaitEvent> out;
+  for (const size_t i : maxima(toe_behind)) {
+    const auto leaves = toe_off_time(time, toe_speed, i, pelvis_speed[i]);
+    out.push_back(
+        {leaves.value_or(refined_time(motion, run, toe_behind, i)), side, GaitEventKind::kToeOff});
+  }
+  return out;
+}
+
 // Twice the mean time between successive turning points of opposite feet.
 double stride_time(const std::vector<GaitEvent>& turns) {
   if (turns.size() < 2) return kUsualStride;
@@ -161,7 +196,8 @@ double stride_time(const std::vector<GaitEvent>& turns) {
 }
 
 std::vector<GaitEvent> events_of(const Motion& motion, const Run& run,
-                                 const std::vector<Vector2d>& direction) {
+                                 const std::vector<Vector2d>& direction,
+                                 const std::vector<Vector2d>& path) {
   const auto sort = [](std::vector<GaitEvent>& events) {
     std::stable_sort(events.begin(), events.end(),
                      [](const GaitEvent& a, const GaitEvent& b) { return a.time < b.time; });
@@ -172,9 +208,8 @@ std::vector<GaitEvent> events_of(const Motion& motion, const Run& run,
     for (const size_t i : maxima(foot.ankle_ahead))
       strikes.push_back(
           {refined_time(motion, run, foot.ankle_ahead, i), side, GaitEventKind::kFootStrike});
-    for (const size_t i : maxima(foot.toe_behind))
-      events.push_back(
-          {refined_time(motion, run, foot.toe_behind, i), side, GaitEventKind::kToeOff});
+    for (const GaitEvent& each : toe_offs(motion, run, direction, path, foot.toe_behind, side))
+      events.push_back(each);
   }
   sort(strikes);
   const double retraction = kRetraction * stride_time(strikes);
@@ -288,7 +323,7 @@ Gait gait_from_motion(const Motion& motion) {
     for (size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
     duration += motion.time[run.end - 1] - motion.time[run.begin];
     const std::vector<Vector2d> direction = directions(motion, run, path);
-    const std::vector<GaitEvent> events = events_of(motion, run, direction);
+    const std::vector<GaitEvent> events = events_of(motion, run, direction, path);
     for (const Side side : {Side::kLeft, Side::kRight})
       add_stances(motion, run, events, side, gait.stances);
     gait.events.insert(gait.events.end(), events.begin(), events.end());

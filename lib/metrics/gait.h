@@ -1,10 +1,11 @@
 // Gait from joint centres: foot strikes, toe-offs, stances, speed and steps.
 //
 // A foot leaves the ground when its toe is furthest behind the pelvis along the direction of
-// walking, and strikes after its ankle was furthest in front (Zeni, Richards & Higginson, Gait &
-// Posture 27, 2008, with the ankle instead of the heel): from that turning point on the foot moves
-// back with the pelvis until it is on the ground. This takes 4.5 % of a stride: force plates
-// measure it 3.1 to 5.2 % later (four strikes of two trials); heels of generated walks
+// walking, read so that the smoothing of a track does not matter (metrics/toe_off.h), and strikes
+// after its ankle was furthest in front (Zeni, Richards & Higginson, Gait & Posture 27, 2008, with
+// the ankle instead of the heel): from that turning point on the foot moves back with the pelvis
+// until it is on the ground. This takes 3.8 % of a stride, the mean of 3.0 to 5.1 % that force
+// plates measure (four strikes of two trials); heels of generated walks
 // (lib/synth/walk/made_walk.h) touch the ground 2.8 % later at 0.6 m/s, 3.8 % at 1.8. The
 // deceleration of the foot would be a more direct sign, but a tracked foot lands more slowly than
 // the person's (README.md). Rows in which the pelvis moves by less than 15 cm per second are

@@ -11,7 +11,7 @@ inline namespace metrics {
 namespace {
 
 // Standard deviations, fitted by scripts/fit_gait_error.py (lib/tracker/reports/bands.md).
-constexpr double kStrikeError = 0.002, kToeOffError = 0.020;  // s
+constexpr double kStrikeError = 0.002, kToeOffError = 0.006;  // s
 constexpr double kAcrossToWidth = 0.9;                        // of the figure's error
 constexpr double kStepLengthNoise = 0.02;                     // m
 constexpr double kStepTimeNoise = 0.016;                      // s

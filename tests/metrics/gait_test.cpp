@@ -10,9 +10,10 @@ namespace {
 
 // An ankle is furthest in front of the pelvis when it has slowed down to the pelvis's speed, 6 u (1
 // - u) / (1 - stance) = 1, i.e. 7.2 % of the swing or 32 ms before it is on the ground; the strike
-// is detected 4.5 % of the stride or 50 ms later, 18 ms late; toe-offs are detected when the toe
-// begins to gain on the pelvis, 32 ms after it left.
-constexpr double kLateStrike = 0.023, kLate = 0.04;
+// is detected 3.8 % of the stride or 42 ms later, 10 ms late; toe-offs are detected 29 ms after the
+// toe left: it has half of its highest speed after 64 ms (6 u (1 - u) = 3/4), and the pelvis has
+// .27 of that speed.
+constexpr double kLateStrike = 0.015, kLate = 0.025;
 
 TEST(Gait, ReadsTheNumbersThatTheWalkWasMadeOf) {
   for (const double heading : {0.0, 1.0, -2.5, kPi}) {
@@ -38,7 +39,7 @@ TEST(Gait, PutsTheStrikesOfEachFootInTime) {
     const double offset = event.side == Side::kLeft ? 0 : walk.step_time;
     const double error = std::remainder(event.time - offset, 2 * walk.step_time);
     EXPECT_LE(error, kLateStrike);
-    EXPECT_GE(error, 0.005);
+    EXPECT_GE(error, 0.002);
     ++strikes;
   }
   EXPECT_GE(strikes, 7u);

@@ -63,6 +63,20 @@ Json quality_list(const std::vector<QualityMeasure>& quality) {
   return list;
 }
 
+Json constants_list(const std::vector<RecordingConstant>& constants) {
+  Json list = Json::array();
+  for (const RecordingConstant& each : constants) {
+    list.push_back({{"name", each.name},
+                    {"what", each.what},
+                    {"value", each.value},
+                    {"sd", each.sd},
+                    {"unit", each.unit},
+                    {"digits", each.digits},
+                    {"effect", each.effect}});
+  }
+  return list;
+}
+
 template <typename Pairs>
 Json object_of(const Pairs& pairs) {
   Json root = Json::object();
@@ -111,6 +125,7 @@ std::string run_json(const RunRecord& record) {
   root["config"] = nested_config(record.config);
   root["config_origin"] = origins(record.config);
   root["numbers"] = object_of(record.numbers);
+  root["constants"] = constants_list(record.constants);
   root["quality"] = quality_list(record.quality);
   root["by_frame"] = object_of(record.by_frame);
   root["digest"] = record.digest;

@@ -31,6 +31,16 @@ struct QualityMeasure {
   bool passed() const { return !limit || (at_most ? value <= *limit : value >= *limit); }
 };
 
+// What was estimated for the whole recording.
+struct RecordingConstant {
+  std::string name;  // e.g. "height_m"
+  std::string what;  // its description
+  double value, sd;
+  std::string unit;
+  int digits;          // decimals in text
+  std::string effect;  // what it did to the result, one or two sentences
+};
+
 using RunNumbers = std::vector<std::pair<std::string, double>>;
 using RunSeries = std::vector<std::pair<std::string, std::vector<double>>>;
 
@@ -43,6 +53,7 @@ struct RunRecord {
   std::string status;              // e.g. "tracked", "lost", "interrupted"
   std::vector<std::string> notes;  // notes for the user
   RunNumbers numbers;              // e.g. "fallen_particles"
+  std::vector<RecordingConstant> constants;
   std::vector<QualityMeasure> quality;
   RunSeries by_frame;  // e.g. "ess"; NaN -> null
   std::string digest;  // result_digest() of the result's tables

@@ -70,8 +70,8 @@ Json contacts_of(const GaitTable& table) {
 }
 
 constexpr std::array kNotes{
-    "foot_strike: 4.5 % of a stride after the ankle was furthest ahead of the pelvis; toe_off: the "
-    "toe is furthest behind the pelvis (after Zeni et al. 2008).",
+    "foot_strike: 3.8 % of a stride after the ankle was furthest ahead of the pelvis; toe_off: the "
+    "toe is furthest behind the pelvis (after Zeni et al. 2008), read from its speed.",
     "support_transfer: when the walker model's weight changed onto this foot. The model has no "
     "double support, so it comes between the strike and the other foot's toe-off.",
     "p05, p95: the interval that should contain the truth in 90 % of the cases, from sample "

@@ -32,12 +32,18 @@ double offset_sd(size_t kind) {
   return static_cast<PointKind>(kind) == PointKind::kHip ? kHipOffsetSd : kOffsetSd;
 }
 
-Vector2d offset_of(const KeypointErrors& errors, size_t kind) {
+// The inverse of the offset's covariance.
+Matrix2d precision_of(const KeypointErrors& errors, size_t kind) {
   const auto& [xx, xy, yy] = errors.information[kind];
   const double prior = 1 / (offset_sd(kind) * offset_sd(kind));
-  Matrix2d information;
-  information << xx + prior, xy, xy, yy + prior;
-  return information.inverse() * Vector2d(errors.pull[kind][0], errors.pull[kind][1]);
+  Matrix2d precision;
+  precision << xx + prior, xy, xy, yy + prior;
+  return precision;
+}
+
+Vector2d mean_offset(const KeypointErrors& errors, size_t kind) {
+  const auto& [x, y] = errors.pull[kind];
+  return precision_of(errors, kind).inverse() * Vector2d(x, y);
 }
 
 void learn_scale(size_t kind, double z, double dof, KeypointErrors& errors) {
@@ -58,9 +64,14 @@ KeypointErrors initial_errors() {
   return out;
 }
 
+PointOffset offset_of(const KeypointErrors& errors, PointKind kind) {
+  const auto k = static_cast<size_t>(kind);
+  return {mean_offset(errors, k), precision_of(errors, k).inverse().diagonal().cwiseSqrt()};
+}
+
 PointOffsets offsets_of(const KeypointErrors& errors) {
   PointOffsets out;
-  for (size_t kind = 0; kind < kPointKinds; ++kind) out[kind] = offset_of(errors, kind);
+  for (size_t kind = 0; kind < kPointKinds; ++kind) out[kind] = mean_offset(errors, kind);
   return out;
 }
 
@@ -70,7 +81,7 @@ void learn(const PointResidual& residual, double dof, double temper, KeypointErr
   const double weight = temper * (dof + 2) / (dof + z * z) / std::pow(residual.scale_px, 2);
   const Matrix2d& j = residual.px_per_offset;
   const Matrix2d more = weight * j.transpose() * j;
-  const Vector2d pull = weight * j.transpose() * (residual.px + j * offset_of(errors, kind));
+  const Vector2d pull = weight * j.transpose() * (residual.px + j * mean_offset(errors, kind));
   auto& information = errors.information[kind];
   information = {information[0] + more(0, 0), information[1] + more(0, 1),
                  information[2] + more(1, 1)};

@@ -26,6 +26,11 @@ struct KeypointErrors {
 // Detectors are more accurate on clear views and less on others.
 KeypointErrors initial_errors();
 
+// An offset and its standard deviation, forward and up, after the points seen so far.
+struct PointOffset {
+  Eigen::Vector2d mean, sd;
+};
+PointOffset offset_of(const KeypointErrors& errors, PointKind kind);
 PointOffsets offsets_of(const KeypointErrors& errors);
 
 // One matched point of a frame.

@@ -9,6 +9,7 @@
 
 #include "io/archive/files.h"
 #include "io/archive/sha256.h"
+#include "jobs/track/report/recording_constants.h"
 #include "jobs/track/report/track_quality.h"
 #include "jobs/track/results/keypoint_results.h"
 
@@ -137,6 +138,13 @@ RunNumbers numbers_of(const TrackJob& job, const TrackRun& run, const TrackedFra
   return out;
 }
 
+double mean_speed(const TrackedFrames& frames) {
+  double sum = 0, count = 0;
+  for (const double speed : pelvis_speeds(frames))
+    if (std::isfinite(speed)) sum += speed, ++count;
+  return count > 0 ? sum / count : 0;
+}
+
 RunSeries series_of(const TrackJob& job, const TrackRun& run, const TrackedFrames& frames) {
   RunSeries out{
       {"ess", by_frame(frames, [](const FrameRecord& r) { return r.filter.ess; })},
@@ -203,6 +211,9 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
   out.status = status_word(outcome.status);
   out.notes = notes_of(job, run, outcome);
   out.numbers = numbers_of(job, run, frames, outcome, tables.totals);
+  const std::vector<KeypointTerm::State> keypoints = run.keypoints();
+  out.constants = recording_constants(
+      {job.scene, frames.frame_rate, mean_speed(frames), run.stature(), outcome.lag, keypoints});
   out.quality = quality;
   out.by_frame = series_of(job, run, frames);
   out.digest = tables.digest;
