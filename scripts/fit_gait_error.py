@@ -23,6 +23,7 @@ from measure_gait import SAME_CONTACT
 LEGS = (("lknee", "rknee"), ("lankle", "rankle"))
 FIGURE = 0.018  # kFigureError of lib/tracker/smooth/model_error.cpp, m
 STRIKE, TOE_OFF, ACROSS_TO_WIDTH, LENGTH_NOISE, TIME_NOISE = 0.002, 0.006, 0.9, 0.02, 0.016  # lib/metrics/gait_error.cpp
+CLEARANCE, PROGRESSION, ACROSS_TO_STRIKE, ACROSS_TO_BASE = 0.010, 0.21, 0.7, 0.8
 
 
 def across_walk(scene, joints):
@@ -40,6 +41,8 @@ def unit_and_size(column, stride, across):
     share = 100 / stride if stride else 0
     return {
         "foot_strike_s": (1, STRIKE), "toe_off_s": (1, TOE_OFF), "step_width_m": (across, ACROSS_TO_WIDTH),
+        "toe_clearance_m": (1, CLEARANCE), "foot_progression_deg": (math.degrees(1), PROGRESSION),
+        "width_at_strike_m": (across, ACROSS_TO_STRIKE), "walking_base_m": (across, ACROSS_TO_BASE),
         "stance_percent": (share, math.hypot(STRIKE, TOE_OFF)), "swing_percent": (share, math.hypot(STRIKE, TOE_OFF)),
         "double_support_percent": (2 * share, math.hypot(STRIKE, TOE_OFF)),
         "step_length_sd_m": (1, LENGTH_NOISE), "step_time_sd_s": (1, TIME_NOISE),

@@ -51,6 +51,7 @@ const summaryRows = [
   ['step_length_m', 'Step length, m', 3], ['step_width_m', 'Step width, m', 3], ['step_time_s', 'Step time, s', 3],
   ['stride_length_m', 'Stride length, m', 3], ['stride_time_s', 'Stride time, s', 3], ['stance_percent', 'Stance, % of stride', 1],
   ['swing_percent', 'Swing, % of stride', 1], ['double_support_percent', 'Double support, % of stride', 1],
+  ['walking_base_m', 'Walking base, m', 3], ['toe_clearance_m', 'Toe clearance, m', 3], ['foot_progression_deg', 'Foot progression, ° outwards', 1],
   ['step_length_sd_m', 'Step length, SD over steps, m', 3], ['step_time_sd_s', 'Step time, SD over steps, s', 3],
 ];
 const symmetryOf = {step_length_m: 'step_length_percent', step_time_s: 'step_time_percent', stance_percent: 'stance_percent'};
@@ -62,7 +63,7 @@ function gaitTables() {
     into.append(element('p', {}, 'The tracked figure took no step.'));
     return;
   }
-  into.append(element('p', {}, `${plural(summary.steps, 'step')}, ${plural(summary.strides, 'stride')}.`),
+  into.append(element('p', {}, `${plural(summary.steps, 'step')}, ${plural(summary.strides, 'stride')}${summary.turning_steps ? `; at ${plural(summary.turning_steps, 'step')} the direction of walking turns by more than 10°` : ''}.`),
     table(['mean', 'both', 'left', 'right', 'asymmetry, %'], summaryRows.map(([column, name, digits]) =>
       [name, ...['both', 'left', 'right'].map((side) => banded(summary[side][column], digits)), banded(summary.symmetry[symmetryOf[column]], 1)]), 'gait'),
     element('h3', {}, 'Contacts'),
@@ -98,9 +99,9 @@ function quality() {
 function constants() {
   if (!run.constants?.length) return;
   byId('constants').append(element('h3', {}, 'Estimated for the whole video'),
-    table(['', 'estimate', ''], run.constants.map((c) => {
+    table(['', 'estimate', 'unit', 'effect on the result'], run.constants.map((c) => {
       const reach = 1.6449 * c.sd;
-      return [c.what, banded({value: c.value, p05: c.value - reach, p95: c.value + reach}, c.digits), `${c.unit}. ${c.effect}`];
+      return [c.what, banded({value: c.value, p05: c.value - reach, p95: c.value + reach}, c.digits), c.unit, c.effect];
     }), 'constants'));
 }
 

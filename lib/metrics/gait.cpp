@@ -6,7 +6,8 @@
 #include <numeric>
 #include <span>
 
-#include "metrics/toe_off.h"
+#include "metrics/steps/toe_off.h"
+#include "metrics/steps/walking_direction.h"
 
 namespace walktrack {
 inline namespace metrics {
@@ -264,15 +265,17 @@ void add_stances(const Motion& motion, const Run& run, const std::vector<GaitEve
   if (on) close(end, false);
 }
 
-// Direction of walking between two stances: that of the pelvis between their times.
-Vector2d direction_between(const Motion& motion, double from, double to) {
-  const auto row = [&](double t) {
-    const auto at = std::lower_bound(motion.time.begin(), motion.time.end(), t);
-    return std::min<size_t>(static_cast<size_t>(at - motion.time.begin()), motion.time.size() - 1);
-  };
-  return (ground(motion.joints[row(to)][Joint::kPelvis]) -
-          ground(motion.joints[row(from)][Joint::kPelvis]))
-      .normalized();
+// Twice the mean time between the strikes of successive feet.
+double stride_time_of(const std::vector<Stance>& stances) {
+  double sum = 0, count = 0;
+  for (size_t i = 1; i < stances.size(); ++i) {
+    const Stance &a = stances[i - 1], &b = stances[i];
+    if (!a.starts_in_motion || !b.starts_in_motion || a.side == b.side) continue;
+    if (b.on > a.off + kPathWindow) continue;
+    sum += b.on - a.on;
+    ++count;
+  }
+  return count > 0 ? 2 * sum / count : kUsualStride;
 }
 
 void add_steps(const Motion& motion, Gait& gait) {
@@ -282,8 +285,8 @@ void add_steps(const Motion& motion, Gait& gait) {
     const Stance& b = gait.stances[i];
     if (!a.starts_in_motion || !b.starts_in_motion) continue;
     if (a.side == b.side || b.on > a.off + kPathWindow) continue;
-    const Vector2d way = direction_between(motion, 0.5 * (a.on + a.off), 0.5 * (b.on + b.off));
-    if (!way.allFinite() || way.isZero()) continue;
+    const Vector2d way = walking_direction(motion, 0.5 * (a.on + b.on), gait.stride_time);
+    if (!way.allFinite()) continue;
     const Vector2d step = b.place - a.place;
     gait.steps.push_back(
         {i - 1, i, way.dot(step), std::abs(way.x() * step.y() - way.y() * step.x()), b.on - a.on});
@@ -332,6 +335,7 @@ Gait gait_from_motion(const Motion& motion) {
     return a.on < b.on || (a.on == b.on && a.off < b.off);
   });
   if (duration > 0) gait.speed = length / duration;
+  gait.stride_time = stride_time_of(gait.stances);
   add_steps(motion, gait);
   gait.stance_share = mean_stance_share(gait.stances);
   return gait;

@@ -1,11 +1,11 @@
 // Gait from joint centres: foot strikes, toe-offs, stances, speed and steps.
 //
 // A foot leaves the ground when its toe is furthest behind the pelvis along the direction of
-// walking, read so that the smoothing of a track does not matter (metrics/toe_off.h), and strikes
-// after its ankle was furthest in front (Zeni, Richards & Higginson, Gait & Posture 27, 2008, with
-// the ankle instead of the heel): from that turning point on the foot moves back with the pelvis
-// until it is on the ground. This takes 3.8 % of a stride, the mean of 3.0 to 5.1 % that force
-// plates measure (four strikes of two trials); heels of generated walks
+// walking, read so that the smoothing of a track does not matter (metrics/steps/toe_off.h), and
+// strikes after its ankle was furthest in front (Zeni, Richards & Higginson, Gait & Posture 27,
+// 2008, with the ankle instead of the heel): from that turning point on the foot moves back with
+// the pelvis until it is on the ground. This takes 3.8 % of a stride, the mean of 3.0 to 5.1 % that
+// force plates measure (four strikes of two trials); heels of generated walks
 // (lib/synth/walk/made_walk.h) touch the ground 2.8 % later at 0.6 m/s, 3.8 % at 1.8. The
 // deceleration of the foot would be a more direct sign, but a tracked foot lands more slowly than
 // the person's (README.md). Rows in which the pelvis moves by less than 15 cm per second are
@@ -56,6 +56,7 @@ struct Gait {
   std::vector<Stance> stances;    // by time of `on`, then `off`
   double speed = 0;  // m/s, length of the pelvis' smoothed path over its duration while walking
   std::vector<Step> steps;
+  double stride_time = 0;       // s, twice the mean step time; 1.1 without steps
   double mean_step_length = 0;  // m, along the direction of walking; 0 without steps
   double mean_step_time = 0;    // s, between their strikes; 0 without
   double mean_step_width = 0;   // m, across the direction of walking

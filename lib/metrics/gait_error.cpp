@@ -12,9 +12,12 @@ namespace {
 
 // Standard deviations, fitted by scripts/fit_gait_error.py (lib/tracker/reports/bands.md).
 constexpr double kStrikeError = 0.002, kToeOffError = 0.006;  // s
-constexpr double kAcrossToWidth = 0.9;                        // of the figure's error
-constexpr double kStepLengthNoise = 0.02;                     // m
-constexpr double kStepTimeNoise = 0.016;                      // s
+constexpr double kClearanceError = 0.010;                     // m
+constexpr double kProgressionError = 0.21;                    // rad
+// Of the figure's error.
+constexpr double kAcrossToWidth = 0.9, kAcrossToStrike = 0.7, kAcrossToBase = 0.8;
+constexpr double kStepLengthNoise = 0.02;  // m
+constexpr double kStepTimeNoise = 0.016;   // s
 
 // Of times that end with an event of each kind and begin with one, per cent of a stride.
 double stance_error(double stride_time) {
@@ -44,12 +47,20 @@ void widen_contact(const FigureError& figure, double weight, ContactRow& row) {
   widen(weight * kStrikeError, row.at[kFootStrike]);
   widen(weight * kToeOffError, row.at[kToeOff]);
   widen_positive(weight * kAcrossToWidth * figure.across, row.at[kStepWidth]);
+  widen(weight * kAcrossToStrike * figure.across, row.at[kWidthAtStrike]);
+  widen(weight * kAcrossToBase * figure.across, row.at[kWalkingBase]);
+  widen(weight * kClearanceError, row.at[kToeClearance]);
+  widen(weight * deg_from_rad(kProgressionError), row.at[kFootProgression]);
   widen_shares(weight, row.at[kStrideTime].value, row.at[kStanceShare], row.at[kSwingShare],
                row.at[kDoubleSupportShare]);
 }
 
 void widen_summary(const FigureError& figure, double weight, Summary& summary) {
   widen_positive(weight * kAcrossToWidth * figure.across, summary[kMeanStepWidth]);
+  widen(weight * kAcrossToStrike * figure.across, summary[kMeanWidthAtStrike]);
+  widen(weight * kAcrossToBase * figure.across, summary[kMeanWalkingBase]);
+  widen(weight * kClearanceError, summary[kMeanToeClearance]);
+  widen(weight * deg_from_rad(kProgressionError), summary[kMeanFootProgression]);
   widen_shares(weight, summary[kMeanStrideTime].value, summary[kMeanStance], summary[kMeanSwing],
                summary[kMeanDoubleSupport]);
   widen_positive(weight * kStepLengthNoise, summary[kStepLengthSd]);

@@ -6,8 +6,9 @@
 // strike and toe-off. Errors of two strikes are alike, and so are those of two toe-offs: a step
 // time has none of it, a stance has that of one strike and one toe-off, double support that of two
 // each. Step widths have a share of the figure's error across the walk, since one camera places
-// each foot by itself. From step to step, what differs from one error to the next looks like the
-// walker's.
+// each foot by itself; so have walking bases and widths at the strike. All samples have the same
+// standard foot, which points and clears the ground in another way than people's. From step to
+// step, what differs from one error to the next looks like the walker's.
 //
 // These errors are added here, as independent normal errors of every number of a table; the values
 // do not change. The sizes were fitted on walks with truth (lib/tracker/reports/bands.md).

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "metrics/statistics/statistics.h"
+#include "metrics/steps/foot_placement.h"
 
 namespace walktrack {
 inline namespace metrics {
@@ -66,6 +67,14 @@ void set_stride(const Gait& gait, size_t index, Values& at) {
   at[kDoubleSupportShare] = 100 * shared_time(gait, stance, stance.on, next->on) / time;
 }
 
+void set_foot(const Motion& motion, const Gait& gait, size_t index, Values& at) {
+  at[kToeClearance] = toe_clearance(motion, gait, index);
+  at[kFootProgression] = foot_progression_deg(motion, gait, index);
+  at[kWidthAtStrike] = width_at_strike(motion, gait, index);
+  at[kWalkingBase] = walking_base(gait, index);
+  at[kTurn] = turn_deg(motion, gait, index);
+}
+
 MotionGait read(const Motion& motion) {
   const Gait gait = gait_from_motion(motion);
   MotionGait out;
@@ -77,6 +86,7 @@ MotionGait read(const Motion& motion) {
     if (stance.ends_in_motion) contact.at[kToeOff] = stance.off;
     if (!stance.starts_in_motion) contact.time = contact.at[kToeOff];
     set_stride(gait, i, contact.at);
+    set_foot(motion, gait, i, contact.at);
     out.contacts.push_back(contact);
   }
   for (const Step& step : gait.steps) {
@@ -128,6 +138,10 @@ std::array<double, kSummaryColumnCount> summarised(const MotionGait& gait_of_mot
   out[kMeanDoubleSupport] = mean(values(kDoubleSupportShare));
   out[kStepLengthSd] = deviation(values(kStepLength));
   out[kStepTimeSd] = deviation(values(kStepTime));
+  out[kMeanToeClearance] = mean(values(kToeClearance));
+  out[kMeanFootProgression] = mean(values(kFootProgression));
+  out[kMeanWidthAtStrike] = mean(values(kWidthAtStrike));
+  out[kMeanWalkingBase] = mean(values(kWalkingBase));
   return out;
 }
 
@@ -239,6 +253,9 @@ GaitTable gait_table(const Motion& motion, const Ensemble& members,
   }
   table.steps = column(gait_of_motion, std::nullopt, kStepLength).size();
   table.strides = column(gait_of_motion, std::nullopt, kStrideLength).size();
+  const std::vector<double> turns = column(gait_of_motion, std::nullopt, kTurn);
+  table.turning_steps = static_cast<size_t>(
+      std::ranges::count_if(turns, [](double turn) { return std::abs(turn) > kTurningStep_deg; }));
   std::vector<Common> common;
   for (const MotionGait& member : others) common.push_back(common_of(gait_of_motion, member));
   const auto summary = [&](std::optional<Side> side) {

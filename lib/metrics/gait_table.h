@@ -49,12 +49,31 @@ enum ContactColumn {
   kStanceShare,
   kSwingShare,
   kDoubleSupportShare,  // before and after single support together
+  kToeClearance,  // of the swing after this contact; this and the next four: steps/foot_placement.h
+  kFootProgression,
+  kWidthAtStrike,
+  kWalkingBase,
+  kTurn,
   kContactColumnCount
 };
 inline constexpr std::array<std::string_view, kContactColumnCount> kContactColumns{
-    "foot_strike_s", "toe_off_s",      "support_transfer_s", "step_length_m",
-    "step_width_m",  "step_time_s",    "stride_length_m",    "stride_time_s",
-    "speed_m_s",     "stance_percent", "swing_percent",      "double_support_percent"};
+    "foot_strike_s",
+    "toe_off_s",
+    "support_transfer_s",
+    "step_length_m",
+    "step_width_m",
+    "step_time_s",
+    "stride_length_m",
+    "stride_time_s",
+    "speed_m_s",
+    "stance_percent",
+    "swing_percent",
+    "double_support_percent",
+    "toe_clearance_m",
+    "foot_progression_deg",
+    "width_at_strike_m",
+    "walking_base_m",
+    "turn_deg"};
 
 struct ContactRow {
   Side side = Side::kLeft;
@@ -76,12 +95,17 @@ enum SummaryColumn {
   kMeanDoubleSupport,
   kStepLengthSd,  // from step to step
   kStepTimeSd,
+  kMeanToeClearance,
+  kMeanFootProgression,
+  kMeanWidthAtStrike,
+  kMeanWalkingBase,
   kSummaryColumnCount
 };
 inline constexpr std::array<std::string_view, kSummaryColumnCount> kSummaryColumns{
-    "speed_m_s",     "cadence_steps_per_min",  "step_length_m",    "step_width_m",
-    "step_time_s",   "stride_length_m",        "stride_time_s",    "stance_percent",
-    "swing_percent", "double_support_percent", "step_length_sd_m", "step_time_sd_s"};
+    "speed_m_s",       "cadence_steps_per_min",  "step_length_m",     "step_width_m",
+    "step_time_s",     "stride_length_m",        "stride_time_s",     "stance_percent",
+    "swing_percent",   "double_support_percent", "step_length_sd_m",  "step_time_sd_s",
+    "toe_clearance_m", "foot_progression_deg",   "width_at_strike_m", "walking_base_m"};
 using Summary = std::array<Banded, kSummaryColumnCount>;
 
 // 100 (left - right) / mean of both, per cent: 0 is symmetric.
@@ -92,6 +116,7 @@ inline constexpr std::array<std::string_view, kSymmetryCount> kSymmetryColumns{
 struct GaitTable {
   std::vector<ContactRow> contacts;  // by time
   size_t steps = 0, strides = 0;     // those with a length
+  size_t turning_steps = 0;          // contacts at which the direction changes by kTurningStep_deg
   Summary both, left, right;         // left: steps that end with the left foot
   std::array<Banded, kSymmetryCount> symmetry;
 };

@@ -1,4 +1,4 @@
-#include "metrics/flat_feet.h"
+#include "metrics/steps/flat_feet.h"
 
 #include <algorithm>
 

@@ -81,6 +81,11 @@ constexpr std::array kNotes{
     "step: from the other foot's contact to this one, along and across the direction of walking, "
     "where both heel strikes were seen; stride: to the next contact of the same foot. symmetry: "
     "100 (left - right) / mean of both.",
+    "toe_clearance: the lowest height of the toe, above its height in the stance before, while it "
+    "swings at 80 % of its highest speed or more. foot_progression: from the direction of walking, "
+    "toes outwards positive. width_at_strike: of the ankles, across. walking_base: from the line "
+    "between the other foot's places before and after. turn: of the direction of walking, to the "
+    "left positive; steps of more than 10 degrees are turning_steps.",
     "Whether these numbers can be trusted is said by the quality checks in run.json and in the "
     "report."};
 
@@ -95,6 +100,7 @@ std::string gait_json(const GaitTable& table) {
   Json& summary = root["summary"];
   summary["steps"] = table.steps;
   summary["strides"] = table.strides;
+  summary["turning_steps"] = table.turning_steps;
   summary["both"] = bands(kSummaryColumns, table.both);
   summary["left"] = bands(kSummaryColumns, table.left);
   summary["right"] = bands(kSummaryColumns, table.right);
@@ -106,7 +112,10 @@ std::string gait_json(const GaitTable& table) {
 TableNotes gait_notes() {
   const nlohmann::ordered_json notes = {
       {"rows", "one for each contact of a foot with the ground"},
-      {"units", "times in s from the scene's first frame, lengths in m, shares in % of the stride"},
+      {"units",
+       "times in s from the scene's first frame, lengths in m, angles in degrees, shares in % of "
+       "the "
+       "stride"},
       {"bands", "_p05, _p95: 5-95 % band of the tracker; empty where nothing is known"},
       {"definitions", "gait.json"}};
   return {"gait.csv", notes.dump()};

@@ -5,12 +5,12 @@
 //   time_zero   "first frame of the scene": what times count from, s
 //   events      [{event: "foot_strike" | "toe_off", side: "left" | "right", time_s: band}], by time
 //   contacts    [{side, <column>: band, …}], by time; columns: kContactColumns
-//   summary     {steps, strides, both: {<column>: band, …}, left: {…}, right: {…},
+//   summary     {steps, strides, turning_steps, both: {<column>: band, …}, left: {…}, right: {…},
 //                symmetry: {<column>: band, …}}; columns: kSummaryColumns, kSymmetryColumns;
 //                left: steps that end with the left foot, strides that begin with it
 //   band        {value, p05, p95}; null where there is none
 //   notes       [what the numbers mean, for people]
-// Units are in the names: s, m, m_s, per_min, percent.
+// Units are in the names: s, m, m_s, deg, per_min, percent.
 //
 // gait.csv: side,<column>,<column>_p05,<column>_p95,… for every contact. Summaries are in gait.json
 // only.

@@ -10,7 +10,7 @@
 #include "jobs/track/input/next_frame.h"
 #include "jobs/track/track_run.h"
 #include "jobs/track/track_setup.h"
-#include "metrics/flat_feet.h"
+#include "metrics/steps/flat_feet.h"
 #include "observation/image_threads.h"
 #include "tracker/smooth/joint_fit.h"
 #include "tracker/smooth/refinement.h"

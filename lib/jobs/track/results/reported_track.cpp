@@ -8,7 +8,7 @@
 #include "body/kinematics.h"
 #include "jobs/track/results/named_track.h"
 #include "jobs/track/track_run.h"
-#include "metrics/flat_feet.h"
+#include "metrics/steps/flat_feet.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -1,4 +1,4 @@
-#include "metrics/toe_off.h"
+#include "metrics/steps/toe_off.h"
 
 #include <algorithm>
 

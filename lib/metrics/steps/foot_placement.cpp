@@ -1,0 +1,127 @@
+#include "metrics/steps/foot_placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/conventions.h"
+#include "metrics/steps/walking_direction.h"
+
+namespace walktrack {
+inline namespace metrics {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFast = 0.8;     // of the swing's highest speed
+constexpr double kStepGap = 0.5;  // s between the end of a stance and the next strike, at most
+
+double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+double angle_deg(const Vector2d& from, const Vector2d& to) {
+  return deg_from_rad(std::atan2(cross(from, to), from.dot(to)));
+}
+
+// The next stance of the other foot, if it is the next step.
+std::optional<size_t> next_step(const Gait& gait, size_t stance) {
+  if (stance + 1 >= gait.stances.size()) return {};
+  const Stance &now = gait.stances[stance], &next = gait.stances[stance + 1];
+  const bool steps = now.side != next.side && now.starts_in_motion && next.starts_in_motion &&
+                     next.on <= now.off + kStepGap;
+  return steps ? std::optional(stance + 1) : std::nullopt;
+}
+
+// The sum over the rows in which the sole of a stance is flat, by row; nothing if there are none.
+template <typename F>
+std::optional<Vector3d> mean_while_flat(const Motion& motion, const Stance& stance,
+                                        const F& value) {
+  const double length = stance.off - stance.on;
+  Vector3d sum = Vector3d::Zero();
+  double count = 0;
+  for (size_t i = 0; i < motion.time.size(); ++i) {
+    const double share = (motion.time[i] - stance.on) / length;
+    if (share < kFlatFrom || share > kFlatTo) continue;
+    sum += value(motion.joints[i]);
+    ++count;
+  }
+  return count > 0 ? std::optional(Vector3d(sum / count)) : std::nullopt;
+}
+
+}  // namespace
+
+double toe_clearance(const Motion& motion, const Gait& gait, size_t stance) {
+  const Stance& before = gait.stances[stance];
+  const Joint joint = toe(before.side);
+  const auto after = std::find_if(gait.stances.begin() + static_cast<std::ptrdiff_t>(stance) + 1,
+                                  gait.stances.end(),
+                                  [&](const Stance& each) { return each.side == before.side; });
+  if (after == gait.stances.end() || !before.ends_in_motion || !after->starts_in_motion)
+    return kUnknown;
+  const auto flat =
+      mean_while_flat(motion, before, [&](const JointPositions& joints) { return joints[joint]; });
+  if (!flat) return kUnknown;
+  const auto speed = [&](size_t i) {
+    return (motion.joints[i + 1][joint] - motion.joints[i - 1][joint]).head<2>().norm() /
+           (motion.time[i + 1] - motion.time[i - 1]);
+  };
+  const auto in_swing = [&](const auto& f) {
+    for (size_t i = 1; i + 1 < motion.time.size(); ++i)
+      if (motion.time[i] > before.off && motion.time[i] < after->on) f(i);
+  };
+  double highest = 0, lowest = std::numeric_limits<double>::infinity();
+  bool whole = true;
+  in_swing([&](size_t i) {
+    whole = whole && known(motion.joints[i][joint]);
+    highest = std::max(highest, speed(i));
+  });
+  in_swing([&](size_t i) {
+    if (speed(i) >= kFast * highest) lowest = std::min(lowest, motion.joints[i][joint].z());
+  });
+  return whole && std::isfinite(lowest) ? lowest - flat->z() : kUnknown;
+}
+
+double foot_progression_deg(const Motion& motion, const Gait& gait, size_t stance) {
+  const Stance& now = gait.stances[stance];
+  if (!now.starts_in_motion || !now.ends_in_motion) return kUnknown;
+  const auto foot = mean_while_flat(motion, now, [&](const JointPositions& joints) {
+    return Vector3d(joints[toe(now.side)] - joints[ankle(now.side)]);
+  });
+  if (!foot) return kUnknown;
+  const double middle = now.on + 0.5 * (kFlatFrom + kFlatTo) * (now.off - now.on);
+  const Vector2d way = walking_direction(motion, middle, gait.stride_time);
+  return outward(now.side) * angle_deg(way, foot->head<2>());
+}
+
+double width_at_strike(const Motion& motion, const Gait& gait, size_t stance) {
+  const Stance& now = gait.stances[stance];
+  if (!now.starts_in_motion) return kUnknown;
+  const Vector2d apart = on_ground(motion, ankle(now.side), now.on) -
+                         on_ground(motion, ankle(other(now.side)), now.on);
+  return outward(now.side) * cross(walking_direction(motion, now.on, gait.stride_time), apart);
+}
+
+double walking_base(const Gait& gait, size_t stance) {
+  if (stance == 0 || next_step(gait, stance - 1) != stance) return kUnknown;
+  const auto next = next_step(gait, stance);
+  if (!next) return kUnknown;
+  const Stance &now = gait.stances[stance], &before = gait.stances[stance - 1];
+  const Vector2d line = (gait.stances[*next].place - before.place).normalized();
+  return outward(now.side) * cross(line, now.place - before.place);
+}
+
+double turn_deg(const Motion& motion, const Gait& gait, size_t stance) {
+  const auto next = next_step(gait, stance);
+  if (!next || stance == 0 || next_step(gait, stance - 1) != stance) return kUnknown;
+  const double now = gait.stances[stance].on;
+  const double before = 0.5 * (gait.stances[stance - 1].on + now),
+               after = 0.5 * (now + gait.stances[*next].on);
+  return angle_deg(walking_direction(motion, before, gait.stride_time),
+                   walking_direction(motion, after, gait.stride_time));
+}
+
+}  // namespace metrics
+}  // namespace walktrack
