@@ -269,10 +269,8 @@ void add_stances(const Motion& motion, const Run& run, const std::vector<GaitEve
 double stride_time_of(const std::vector<Stance>& stances) {
   double sum = 0, count = 0;
   for (size_t i = 1; i < stances.size(); ++i) {
-    const Stance &a = stances[i - 1], &b = stances[i];
-    if (!a.starts_in_motion || !b.starts_in_motion || a.side == b.side) continue;
-    if (b.on > a.off + kPathWindow) continue;
-    sum += b.on - a.on;
+    if (!is_step(stances[i - 1], stances[i])) continue;
+    sum += stances[i].on - stances[i - 1].on;
     ++count;
   }
   return count > 0 ? 2 * sum / count : kUsualStride;
@@ -283,8 +281,7 @@ void add_steps(const Motion& motion, Gait& gait) {
   for (size_t i = 1; i < gait.stances.size(); ++i) {
     const Stance& a = gait.stances[i - 1];
     const Stance& b = gait.stances[i];
-    if (!a.starts_in_motion || !b.starts_in_motion) continue;
-    if (a.side == b.side || b.on > a.off + kPathWindow) continue;
+    if (!is_step(a, b)) continue;
     const Vector2d way = walking_direction(motion, 0.5 * (a.on + b.on), gait.stride_time);
     if (!way.allFinite()) continue;
     const Vector2d step = b.place - a.place;
@@ -317,6 +314,12 @@ double mean_stance_share(const std::vector<Stance>& stances) {
 }
 
 }  // namespace
+
+bool is_step(const Stance& from, const Stance& to) {
+  constexpr double kLongestFlight = 0.5;  // s; a foot that comes later belongs to another walk
+  return from.side != to.side && from.starts_in_motion && to.starts_in_motion &&
+         to.on <= from.off + kLongestFlight;
+}
 
 Gait gait_from_motion(const Motion& motion) {
   Gait gait;

@@ -42,6 +42,10 @@ struct Stance {
   Eigen::Vector2d place;                  // mean of (ankle + toe) / 2 over the middle of the stance
 };
 
+// Whether the second stance is the next step after the first: that of the other foot, both of whose
+// strikes are in the motion.
+bool is_step(const Stance& from, const Stance& to);
+
 // From a stance to the next one of the other foot; indices of Gait::stances. Steps exist only
 // between strikes that are both in the motion: the position of a foot whose stance is cut by the
 // beginning of the motion is not accurate enough.
@@ -65,8 +69,8 @@ struct Gait {
 
 Gait gait_from_motion(const Motion& motion);
 
-// The part of a stance in which the sole is flat: 15 % to 60 % of it. By hand.
-inline constexpr double kFlatFrom = 0.15, kFlatTo = 0.60;
+// The part of a stance in which the sole is flat: 16 % to 59 % of it. By hand.
+inline constexpr double kFlatFrom = 0.16, kFlatTo = 0.59;
 
 // The middle of the foot, (ankle + toe) / 2.
 inline Eigen::Vector3d foot_point(const JointPositions& joints, Side side) {

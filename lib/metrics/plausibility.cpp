@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "metrics/joint_error.h"
+#include "metrics/steps/walking_direction.h"
 
 namespace walktrack {
 inline namespace metrics {
@@ -85,17 +86,6 @@ double mean_jerk(const Motion& motion) {
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
-// The position of the pelvis over the ground, linear between rows; NaN beside an unknown row.
-Eigen::Vector2d pelvis_at(const Motion& motion, double time) {
-  const auto row = [&](size_t i) { return motion.joints[i][Joint::kPelvis].head<2>(); };
-  const auto after = std::lower_bound(motion.time.begin(), motion.time.end(), time);
-  if (after == motion.time.begin()) return row(0);
-  if (after == motion.time.end()) return row(motion.time.size() - 1);
-  const auto i = static_cast<size_t>(after - motion.time.begin());
-  const double share = (time - motion.time[i - 1]) / (motion.time[i] - motion.time[i - 1]);
-  return (1 - share) * row(i - 1) + share * row(i);
-}
-
 void add_steps(const Motion& motion, const Gait& gait, Plausibility& out) {
   if (gait.steps.empty()) return;
   double steps = 0, way = 0;
@@ -104,9 +94,10 @@ void add_steps(const Motion& motion, const Gait& gait, Plausibility& out) {
     out.longest_step = std::max(out.longest_step, step.length);
     out.shortest_step = std::min(out.shortest_step, step.length);
     steps += step.length;
-    way += (pelvis_at(motion, gait.stances[step.to].on) -
-            pelvis_at(motion, gait.stances[step.from].on))
-               .norm();
+    const double from = gait.stances[step.from].on, to = gait.stances[step.to].on;
+    const Eigen::Vector2d pelvis =
+        on_ground(motion, Joint::kPelvis, to) - on_ground(motion, Joint::kPelvis, from);
+    way += pelvis.dot(walking_direction(motion, 0.5 * (from + to), gait.stride_time));
   }
   out.steps_off_way = way > 0 ? std::abs(steps / way - 1) : 1;
 }

@@ -23,7 +23,7 @@ struct Plausibility {
   // The shortest time from one strike to the next, as a share of the median one; the time to the
   // next strike of the same foot counts as two. 1 with less than three times.
   double quickest_step = 1;
-  // |sum of the steps' lengths / path of the pelvis between the same strikes - 1|: 0 if the feet
+  // |sum of the steps' lengths / way of the pelvis between the same strikes - 1|: 0 if the feet
   // move as far as the body, and without steps.
   double steps_off_way = 0;
   // Speed of the pelvis over the ground in the fastest half second of known rows, m/s.

@@ -263,6 +263,17 @@ TEST(Plan, TheSizeIsLookedForWhereTheSceneDoesNotGiveIt) {
   EXPECT_EQ(item(plan_with({}, scene), "size").why, "the scene does not give subject.height");
 }
 
+TEST(Plan, TheLagOfTwoCamerasIsLookedForWhereTheSceneDoesNotGiveIt) {
+  Scene scene = demo();
+  ASSERT_EQ(scene.cameras.size(), 2u);
+  for (SceneCamera& camera : scene.cameras) camera.start_given = false;
+  EXPECT_TRUE(item(plan_with({}, scene), "lag").on);
+  scene.cameras[1].start_given = true;
+  EXPECT_EQ(item(plan_with({}, scene), "lag").why, "the scene gives a start_frame");
+  scene.cameras.pop_back();
+  EXPECT_EQ(item(plan_with({}, scene), "lag").why, "only for two cameras");
+}
+
 TEST(Plan, ASlopeIsOnWhereGravityLeans) {
   Scene scene = demo();
   scene.gravity = {-9.8 * std::sin(0.1), 0, -9.8 * std::cos(0.1)};

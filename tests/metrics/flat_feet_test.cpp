@@ -21,7 +21,7 @@ struct Cut {
   std::vector<size_t> rows;  // first and last; none: not flat
 };
 
-// Complete stances last 1 s here, so that soles are flat from 0.15 to 0.6 s after the strike.
+// Complete stances last 1 s here, so that soles are flat from 0.16 to 0.59 s after the strike.
 TEST(FlatFeet, ThoseOfStancesThatTheMotionCutsLastAsLongAsWholeOnes) {
   const Stance whole{Side::kRight, 1, 2, true, true, {}};
   const Cut cuts[] = {

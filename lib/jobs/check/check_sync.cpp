@@ -25,12 +25,6 @@ constexpr const char* kOrStandsElsewhere =
     ", if that is so; a camera that stands a step's length further along the way than its "
     "calibration says looks the same";
 
-// Whether the scene leaves the cameras' start to be estimated from the walk.
-bool starts_are_open(const Scene& scene) {
-  return std::none_of(scene.cameras.begin(), scene.cameras.end(),
-                      [](const SceneCamera& camera) { return camera.start_given; });
-}
-
 // The advice for a camera that began so many frames early, or for the other one, which began late.
 std::string start_cure(const Scene& scene, int lag) {
   const bool second = scene.cameras[1].start_frame + lag >= 0;
@@ -92,6 +86,12 @@ void say_pair_lag(const Scene& scene, const std::optional<PairLag>& lag, double 
 }
 
 }  // namespace
+
+bool starts_are_open(const Scene& scene) {
+  return scene.cameras.size() == 2 &&
+         std::none_of(scene.cameras.begin(), scene.cameras.end(),
+                      [](const SceneCamera& camera) { return camera.start_given; });
+}
 
 SeenFigures figures_in(const Scene& scene, const JobControl& control) {
   SceneVideo video(scene);

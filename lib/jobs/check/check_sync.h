@@ -11,6 +11,9 @@
 namespace walktrack {
 inline namespace jobs {
 
+// Whether the scene leaves the lag between two cameras to be estimated from the walk.
+bool starts_are_open(const Scene& scene);
+
 // The paths of the moving figures, by camera, from the first frame on, at most kMostSyncFrames.
 struct SeenFigures {
   double frame_rate = 0;  // of the scene, Hz

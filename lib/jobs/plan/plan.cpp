@@ -9,6 +9,7 @@
 
 #include "core/conventions.h"
 #include "io/video/scene_video.h"
+#include "jobs/check/check_sync.h"
 #include "jobs/track/input/detections.h"
 #include "jobs/track/input/learned_background.h"
 #include "jobs/track/track_setup.h"
@@ -135,6 +136,20 @@ double slope_deg(const Scene& scene) {
   return deg_from_rad(std::atan2(scene.gravity.head<2>().norm(), -scene.gravity.z()));
 }
 
+// What is estimated for the whole recording, where the scene leaves it open.
+void add_recording(const Scene& scene, Items& items) {
+  items.fact("size", !scene.height_given,
+             "the subject's height, estimated from the first window in which the subject is found",
+             scene.height_given ? "the scene gives subject.height"
+             : scene.height_sd  ? "the scene gives subject.height_sd"
+                                : "the scene does not give subject.height");
+  const bool lag = starts_are_open(scene);
+  items.fact("lag", lag, "the time between both cameras, estimated from the walk",
+             lag                         ? "no camera has a start_frame"
+             : scene.cameras.size() == 2 ? "the scene gives a start_frame"
+                                         : "only for two cameras");
+}
+
 std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& config) {
   const Config& values = config.values;
   Items items(scene, config);
@@ -168,11 +183,7 @@ std::vector<PlanItem> items_of(const Scene& scene, const ConfigWithOrigin& confi
   items.fact("search", !scene.initial,
              "a search for the walk in a window of frames, until it is found",
              scene.initial ? "the scene says where the walk begins" : "the scene has no `initial`");
-  items.fact("size", !scene.height_given,
-             "the subject's height, estimated from the first window in which the subject is found",
-             scene.height_given ? "the scene gives subject.height"
-             : scene.height_sd  ? "the scene gives subject.height_sd"
-                                : "the scene does not give subject.height");
+  add_recording(scene, items);
   const bool paced = values.budget.frame_ms > 0;
   items.fact(
       "budget", paced,

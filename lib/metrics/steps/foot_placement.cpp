@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <ranges>
 
 #include "core/conventions.h"
 #include "metrics/steps/walking_direction.h"
@@ -17,8 +18,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kFast = 0.8;     // of the swing's highest speed
-constexpr double kStepGap = 0.5;  // s between the end of a stance and the next strike, at most
+constexpr double kFast = 0.8;  // of the swing's highest speed
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -28,27 +28,28 @@ double angle_deg(const Vector2d& from, const Vector2d& to) {
 
 // The next stance of the other foot, if it is the next step.
 std::optional<size_t> next_step(const Gait& gait, size_t stance) {
-  if (stance + 1 >= gait.stances.size()) return {};
-  const Stance &now = gait.stances[stance], &next = gait.stances[stance + 1];
-  const bool steps = now.side != next.side && now.starts_in_motion && next.starts_in_motion &&
-                     next.on <= now.off + kStepGap;
+  const bool steps =
+      stance + 1 < gait.stances.size() && is_step(gait.stances[stance], gait.stances[stance + 1]);
   return steps ? std::optional(stance + 1) : std::nullopt;
 }
 
-// The sum over the rows in which the sole of a stance is flat, by row; nothing if there are none.
+// The rows from one time to another, both included.
+auto rows_between(const Motion& motion, double from, double to) {
+  const auto index = [&](auto at) { return static_cast<size_t>(at - motion.time.begin()); };
+  const size_t first = index(std::ranges::lower_bound(motion.time, from));
+  return std::views::iota(first, std::max(first, index(std::ranges::upper_bound(motion.time, to))));
+}
+
+// The mean over the rows in which the sole of a stance is flat; nothing if there are none.
 template <typename F>
 std::optional<Vector3d> mean_while_flat(const Motion& motion, const Stance& stance,
                                         const F& value) {
   const double length = stance.off - stance.on;
+  const auto rows =
+      rows_between(motion, stance.on + kFlatFrom * length, stance.on + kFlatTo * length);
   Vector3d sum = Vector3d::Zero();
-  double count = 0;
-  for (size_t i = 0; i < motion.time.size(); ++i) {
-    const double share = (motion.time[i] - stance.on) / length;
-    if (share < kFlatFrom || share > kFlatTo) continue;
-    sum += value(motion.joints[i]);
-    ++count;
-  }
-  return count > 0 ? std::optional(Vector3d(sum / count)) : std::nullopt;
+  for (const size_t i : rows) sum += value(motion.joints[i]);
+  return rows.empty() ? std::nullopt : std::optional(Vector3d(sum / double(rows.size())));
 }
 
 }  // namespace
@@ -65,23 +66,19 @@ double toe_clearance(const Motion& motion, const Gait& gait, size_t stance) {
       mean_while_flat(motion, before, [&](const JointPositions& joints) { return joints[joint]; });
   if (!flat) return kUnknown;
   const auto speed = [&](size_t i) {
-    return (motion.joints[i + 1][joint] - motion.joints[i - 1][joint]).head<2>().norm() /
-           (motion.time[i + 1] - motion.time[i - 1]);
-  };
-  const auto in_swing = [&](const auto& f) {
-    for (size_t i = 1; i + 1 < motion.time.size(); ++i)
-      if (motion.time[i] > before.off && motion.time[i] < after->on) f(i);
+    const size_t a = std::max<size_t>(i, 1) - 1, b = std::min(i + 1, motion.time.size() - 1);
+    return (motion.joints[b][joint] - motion.joints[a][joint]).head<2>().norm() /
+           (motion.time[b] - motion.time[a]);
   };
   double highest = 0, lowest = std::numeric_limits<double>::infinity();
-  bool whole = true;
-  in_swing([&](size_t i) {
-    whole = whole && known(motion.joints[i][joint]);
+  const auto swing = rows_between(motion, before.off, after->on);
+  for (const size_t i : swing) {
+    if (!known(motion.joints[i][joint])) return kUnknown;
     highest = std::max(highest, speed(i));
-  });
-  in_swing([&](size_t i) {
+  }
+  for (const size_t i : swing)
     if (speed(i) >= kFast * highest) lowest = std::min(lowest, motion.joints[i][joint].z());
-  });
-  return whole && std::isfinite(lowest) ? lowest - flat->z() : kUnknown;
+  return std::isfinite(lowest) ? lowest - flat->z() : kUnknown;
 }
 
 double foot_progression_deg(const Motion& motion, const Gait& gait, size_t stance) {
