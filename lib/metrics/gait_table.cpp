@@ -203,6 +203,14 @@ void set_transfer(std::span<const SupportTransfer> transfers, ContactRow& row) {
   }
 }
 
+// Whether the direction of walking turns at this contact, with all of the band, if there is one.
+bool turns(const ContactRow& row) {
+  const Banded& turn = row.at[kTurn];
+  const double least = std::isnan(turn.p05) ? turn.value : turn.p05,
+               most = std::isnan(turn.p95) ? turn.value : turn.p95;
+  return least > kTurningStep_deg || most < -kTurningStep_deg;
+}
+
 // The gaits of a motion and of a member, both reduced to the contacts that both have.
 struct Common {
   MotionGait motion, member;
@@ -253,9 +261,7 @@ GaitTable gait_table(const Motion& motion, const Ensemble& members,
   }
   table.steps = column(gait_of_motion, std::nullopt, kStepLength).size();
   table.strides = column(gait_of_motion, std::nullopt, kStrideLength).size();
-  const std::vector<double> turns = column(gait_of_motion, std::nullopt, kTurn);
-  table.turning_steps = static_cast<size_t>(
-      std::ranges::count_if(turns, [](double turn) { return std::abs(turn) > kTurningStep_deg; }));
+  table.turning_steps = static_cast<size_t>(std::ranges::count_if(table.contacts, turns));
   std::vector<Common> common;
   for (const MotionGait& member : others) common.push_back(common_of(gait_of_motion, member));
   const auto summary = [&](std::optional<Side> side) {

@@ -116,7 +116,7 @@ inline constexpr std::array<std::string_view, kSymmetryCount> kSymmetryColumns{
 struct GaitTable {
   std::vector<ContactRow> contacts;  // by time
   size_t steps = 0, strides = 0;     // those with a length
-  size_t turning_steps = 0;          // contacts at which the direction changes by kTurningStep_deg
+  size_t turning_steps = 0;          // contacts whose turn is more than kTurningStep_deg
   Summary both, left, right;         // left: steps that end with the left foot
   std::array<Banded, kSymmetryCount> symmetry;
 };

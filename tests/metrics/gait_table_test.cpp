@@ -158,6 +158,30 @@ TEST(GaitTable, TransfersGoToTheContactOfTheirFoot) {
   EXPECT_TRUE(std::isnan(table.contacts[4].at[kSupportTransfer].value));
 }
 
+// The same walk along a circle to the left, which takes every place of the straight one along.
+Motion on_circle(const Motion& straight, double radius) {
+  return changed(straight, [&](JointPositions& joints, size_t) {
+    for (Eigen::Vector3d& joint : joints.at) {
+      const double angle = joint.x() / radius, from_middle = radius - joint.y();
+      joint.head<2>() << from_middle * std::sin(angle), radius - from_middle * std::cos(angle);
+    }
+  });
+}
+
+TEST(GaitTable, StepsTurnWhereAllOfTheBandDoes) {
+  const Motion straight = walk_motion({});
+  constexpr double kRadius = 2.5;  // m: 15 degrees a step of 0.66 m
+  const auto turning = [&](const std::vector<double>& radii) {
+    std::vector<Motion> members;
+    for (const double radius : radii) members.push_back(on_circle(straight, radius));
+    return gait_table(on_circle(straight, kRadius), ensemble_of(members), {}).turning_steps;
+  };
+  EXPECT_GE(turning({}), 4u) << "no band: the value counts";
+  EXPECT_EQ(turning({2.4, 2.4, 2.5, 2.6, 2.6}), turning({}));
+  EXPECT_EQ(turning({1.5, 2, 2.5, 5, 5}), 0u) << "it might be straight";
+  EXPECT_EQ(gait_table(straight, {}, {}).turning_steps, 0u);
+}
+
 TEST(GaitTable, NobodyHasNoGait) {
   const GaitTable table = gait_table({}, {}, {});
   EXPECT_TRUE(table.contacts.empty());

@@ -85,7 +85,7 @@ constexpr std::array kNotes{
     "swings at 80 % of its highest speed or more. foot_progression: from the direction of walking, "
     "toes outwards positive. width_at_strike: of the ankles, across. walking_base: from the line "
     "between the other foot's places before and after. turn: of the direction of walking, to the "
-    "left positive; steps of more than 10 degrees are turning_steps.",
+    "left positive; turning_steps: those whose band is beyond 10 degrees.",
     "Whether these numbers can be trusted is said by the quality checks in run.json and in the "
     "report."};
 
