@@ -114,8 +114,7 @@ TableNotes gait_notes() {
       {"rows", "one for each contact of a foot with the ground"},
       {"units",
        "times in s from the scene's first frame, lengths in m, angles in degrees, shares in % of "
-       "the "
-       "stride"},
+       "the stride"},
       {"bands", "_p05, _p95: 5-95 % band of the tracker; empty where nothing is known"},
       {"definitions", "gait.json"}};
   return {"gait.csv", notes.dump()};

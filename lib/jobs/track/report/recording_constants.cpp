@@ -71,8 +71,8 @@ void add_offsets(const ConstantSources& sources, const NamedKind& kind,
     if (weights == 0) return;
     const double mean = height * sum / weights;
     out.push_back({fmt::format("{}_offset_{}_m", kind.name, axis == 0 ? "forward" : "up"),
-                   fmt::format("The pose network sees {} {} of the joint by", kind.what,
-                               axis == 0 ? "in front" : "above"),
+                   fmt::format("Detected {} lie {} the joint by", kind.what,
+                               axis == 0 ? "in front of" : "above"),
                    mean, height / std::sqrt(weights), "m", 3,
                    fmt::format("Detected points are compared with that place: otherwise they would "
                                "pull the joint {:.0f} mm {}.",

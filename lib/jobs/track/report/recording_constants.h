@@ -1,5 +1,5 @@
 // What a track has estimated that holds for the whole recording: the subject's height, the lag
-// between two cameras, and where a pose network sees the joints. Each with its standard deviation
+// between two cameras, and where keypoints lie beside the joints. Each with its standard deviation
 // and what it did to the result; only those that the scene leaves open.
 #pragma once
 
