@@ -17,6 +17,9 @@ ALLOWED_OUTSIDE = {
     "yaml-cpp": {"io"},
     "boost": set(),
     "libavformat": {"io"},
+    "libavcodec": {"io"},
+    "libavutil": {"io"},
+    "libswscale": {"io"},
     "toml++": {"io"},
     "nlohmann": {"io", "jobs"},
 }

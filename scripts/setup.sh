@@ -10,7 +10,7 @@ packages=(
   libtbb-dev libhwy-dev nlohmann-json3-dev libtomlplusplus-dev libnlopt-cxx-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
   libopencv-video-dev libopencv-videoio-dev libopencv-calib3d-dev libopencv-ml-dev libopencv-dnn-dev
-  libavformat-dev
+  libavformat-dev libswscale-dev
 )
 if [ "${1:-}" = tests ]; then
   packages+=(

@@ -11,7 +11,7 @@ inline namespace observation {
 
 struct ObserverSetting {
   ObservationConfig config;
-  Camera camera, full_camera;  // of the shrunk image, and as calibrated
+  Camera camera;  // of the shrunk image
   int shrink;
   int threads;
   bool occluded;  // whether some pixels are unknown

@@ -10,7 +10,6 @@
 
 #include "core/errors.h"
 #include "observation/observed_frame.h"
-#include "observation/shrink.h"
 
 namespace walktrack {
 inline namespace observation {
@@ -52,14 +51,14 @@ void set_mask(const std::vector<Polygon>& occluders, const cv::Mat& unseen,
   if (!unseen.empty() && unseen.size() == setting.mask.size()) setting.mask |= unseen;
 }
 
-void require_size(const cv::Mat& frame_bgr, const Camera& calibrated) {
-  if (frame_bgr.type() == CV_8UC3 && frame_bgr.cols == calibrated.width_px &&
-      frame_bgr.rows == calibrated.height_px)
+void require_size(const cv::Mat& frame_bgr, const Camera& camera) {
+  if (frame_bgr.type() == CV_8UC3 && frame_bgr.cols == camera.width_px &&
+      frame_bgr.rows == camera.height_px)
     return;
   const auto size = [](int w, int h) { return std::to_string(w) + " x " + std::to_string(h); };
   throw InputError(describe(
       {}, "a frame of " + size(frame_bgr.cols, frame_bgr.rows),
-      "8-bit BGR of " + size(calibrated.width_px, calibrated.height_px) + " px, as calibrated"));
+      "8-bit BGR of " + size(camera.width_px, camera.height_px) + " px, as calibrated and shrunk"));
 }
 
 template <typename Term>
@@ -90,12 +89,7 @@ const GreyImage& grey_of(ObservedFrame& frame) {
 
 struct Observer::State {
   State(const ObservationConfig& config, ObserverInput input)
-      : setting{config,
-                scaled_down(input.camera, input.shrink),
-                input.camera,
-                input.shrink,
-                input.threads,
-                false,
+      : setting{config, scaled_down(input.camera, input.shrink), input.shrink, input.threads, false,
                 {}},
         unseen(unseen_mask(input.background)),
         memories(Terms::make<std::tuple, MemoryOf>(setting, input)) {
@@ -157,6 +151,7 @@ Observer& Observer::operator=(Observer&&) noexcept = default;
 Observer::~Observer() = default;
 
 const Camera& Observer::camera() const { return state_->setting.camera; }
+int Observer::shrink() const { return state_->setting.shrink; }
 
 void Observer::hide(const std::vector<Polygon>& occluders) {
   set_mask(occluders, state_->unseen, state_->setting);
@@ -195,10 +190,10 @@ void Observer::observe(const cv::Mat& frame_bgr, const Region& region, CameraEvi
 void Observer::prepare(const cv::Mat& frame_bgr, const Region& region, int threads,
                        PreparedFrame& prepared, const DetectedPeople& people) const {
   const ObserverSetting& setting = state_->setting;
-  if (!frame_bgr.empty()) require_size(frame_bgr, setting.full_camera);
+  if (!frame_bgr.empty()) require_size(frame_bgr, setting.camera);
   PreparedFrame::Content& content = *prepared.content_;
   ObservedFrame& frame = content.frame;
-  frame.bgr = frame_bgr.empty() ? cv::Mat() : shrunk(frame_bgr, setting.shrink);
+  frame.bgr = frame_bgr;
   frame.region = region;
   frame.region.area = intersection(region.area, image_area(setting.camera));
   frame.grey = {};

@@ -64,7 +64,7 @@ double independent_share(const ObservationConfig& config, double metres_per_px);
 using Polygon = std::vector<Eigen::Vector2d>;
 
 struct ObserverInput {
-  Camera camera;                                     // of the frames
+  Camera camera;                                     // as calibrated
   int shrink = 1;                                    // see shrink.h
   std::array<bool, kAppearanceCount> appearances{};  // that are used; see appearances_of
   std::optional<BackgroundModel> background;  // of shrunk frames; needed if that term is enabled
@@ -86,9 +86,10 @@ class Observer {
   ~Observer();
 
   const Camera& camera() const;
+  int shrink() const;
 
-  // Computes the evidence of the next frame (8-bit BGR, of the size of the calibrated camera; empty
-  // = there is no image). The previous frame for flow is that of the last call. `out` keeps its
+  // Computes the evidence of the next frame (8-bit BGR, shrunk, of the size of camera(); empty =
+  // there is no image). The previous frame for flow is that of the last call. `out` keeps its
   // memory from frame to frame.
   void observe(const cv::Mat& frame_bgr, const Region& region, CameraEvidence& out,
                const DetectedPeople& people = {});

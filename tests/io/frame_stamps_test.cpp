@@ -1,4 +1,4 @@
-#include "io/video/frame_stamps.h"
+#include "io/ffmpeg/frame_stamps.h"
 
 #include <gtest/gtest.h>
 

@@ -37,7 +37,7 @@ TEST(WholeView, StaysLargeEnoughForEncoders) {
   const OverlayView tiny = whole_view(camera_of_size(1, 1), 1);
   EXPECT_EQ(tiny.size, cv::Size(32, 32));
   cv::Mat shown;
-  look_through(tiny, cv::Mat(1, 1, CV_8UC3, cv::Scalar::all(7)), shown);
+  look_through(tiny, FrameSource(cv::Mat(1, 1, CV_8UC3, cv::Scalar::all(7)), 1), shown);
   EXPECT_EQ(shown.size(), tiny.size);
 }
 
@@ -65,7 +65,7 @@ TEST(OverlayView, ShowsAPointAtItsPlace) {
         OverlayView{{1900, 700, 300, 200}, {300, 200}},
         OverlayView{{1, 3, 3837, 2155}, {640, 360}}}) {
     cv::Mat shown, grey;
-    look_through(view, picture, shown);
+    look_through(view, FrameSource(picture, 1), shown);
     ASSERT_EQ(shown.size(), view.size);
     cv::cvtColor(shown, grey, cv::COLOR_BGR2GRAY);
     const cv::Moments moments = cv::moments(grey);
@@ -77,7 +77,7 @@ TEST(OverlayView, ShowsAPointAtItsPlace) {
 TEST(OverlayView, LeavesThePictureAsItIs) {
   const cv::Mat picture(480, 640, CV_8UC3, cv::Scalar::all(9));
   cv::Mat shown;
-  look_through(whole_view(camera_of_size(640, 480), 1280), picture, shown);
+  look_through(whole_view(camera_of_size(640, 480), 1280), FrameSource(picture, 1), shown);
   shown.setTo(cv::Scalar::all(200));
   EXPECT_EQ(picture.at<cv::Vec3b>(5, 5)[0], 9);
 }

@@ -83,11 +83,14 @@ void write_uneven_video(const std::string& path, const std::vector<double>& dura
 }
 
 // Phones write the sensor's pixels and a rotation in the track header (tkhd, matrix).
-void turn_video_by_90_degrees(const std::string& path) {
+void turn_video(const std::string& path, int clockwise_deg) {
   std::string bytes = bytes_of(path);
-  const size_t matrix = bytes.find("tkhd") + 44;
-  const std::string turn{"\0\0\0\0\0\1\0\0\0\0\0\0\xff\xff\0\0\0\0\0\0\0\0\0\0\0\x30\0\0", 28};
-  bytes.replace(matrix, turn.size(), turn);
+  const std::string none(4, '\0'), one{"\0\1\0\0", 4}, minus{"\xff\xff\0\0", 4};
+  const std::string& cosine = clockwise_deg == 180 ? minus : none;
+  const std::string& sine = clockwise_deg == 90 ? one : clockwise_deg == 270 ? minus : none;
+  const std::string& opposite = clockwise_deg == 90 ? minus : clockwise_deg == 270 ? one : none;
+  const std::string turn = cosine + sine + none + opposite + cosine;
+  bytes.replace(bytes.find("tkhd") + 44, turn.size(), turn);
   std::ofstream(path, std::ios::binary) << bytes;
 }
 

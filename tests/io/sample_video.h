@@ -20,8 +20,8 @@ void write_uneven_video(const std::string& path, const std::vector<double>& dura
 // These frames at this rate; frame i is shown until durations[i] / rate s later.
 void write_timed_video(const std::string& path, const std::vector<cv::Mat>& frames, double rate,
                        const std::vector<double>& durations);
-// Sets a rotation flag, clockwise, in the file.
-void turn_video_by_90_degrees(const std::string& path);
+// Sets a rotation flag, clockwise, in an MP4 file: 90, 180 or 270.
+void turn_video(const std::string& path, int clockwise_deg);
 // frame<number>.png
 void write_sample_images(const std::string& folder, const std::vector<int>& numbers);
 

@@ -230,7 +230,7 @@ TEST(FrameSource, TurnsPhoneVideoUprightUnlessTheCalibrationIsRaw) {
     for (int i = 0; i < 3; ++i) writer.write(left_half_white);
     writer.close();
   }
-  turn_video_by_90_degrees(file);
+  turn_video(file, 90);
   cv::Mat frame;
   FrameSource upright(file, cv::Size(48, 64));
   EXPECT_EQ(upright.facts().rotation_deg, 90);

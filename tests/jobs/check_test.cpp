@@ -235,7 +235,7 @@ TEST_F(CheckTest, SaysHowManyImagesOfAFolderAreMissing) {
 }
 
 TEST_F(CheckTest, SaysThatAPhonesFramesAreTurned) {
-  turn_video_by_90_degrees(folder_ / "c1.mp4");
+  turn_video(folder_ / "c1.mp4", 90);
   const CheckReport raw = check();  // the calibration is for frames as they are stored
   EXPECT_FALSE(raw.failed()) << check_text(raw);
   ASSERT_EQ(notes(raw, "c1").size(), 1u) << check_text(raw);

@@ -49,7 +49,7 @@ class DetectionsTest : public testing::Test {
     return Detections(scene, config, std::vector<WorkingScale>(scene.cameras.size(), {40, 1}));
   }
   TemporaryFolder folder_;
-  const cv::Mat picture_ = cv::Mat::zeros(48, 64, CV_8UC3);
+  const FrameSource picture_{cv::Mat::zeros(48, 64, CV_8UC3), 9};
 };
 
 TEST_F(DetectionsTest, FilesAreAskedByTheVideosOwnNumber) {

@@ -37,7 +37,7 @@ void scale(cv::Mat& image, const cv::Rect& where, double factor) {
 }
 
 BackgroundModel model_of(const std::vector<cv::Mat>& frames, const BackgroundConfig& config = {}) {
-  BackgroundSampler sampler(config, 1);
+  BackgroundSampler sampler(config);
   for (const cv::Mat& frame : frames) sampler.add(frame);
   return sampler.model();
 }
@@ -147,7 +147,7 @@ TEST(Background, IsFoundBehindAWalkerWhoCoversItHalfTheTime) {
 TEST(Background, LeavesOutWhatIsHidden) {
   Rng rng(9, Purpose::kTest);
   const cv::Rect always(70, 10, 8, 8);
-  BackgroundSampler sampler({}, 1);
+  BackgroundSampler sampler({});
   for (int i = 0; i < 20; ++i) {
     cv::Mat frame = scene(rng, 2);
     if (i < 15) frame(kBox) = cv::Scalar(60, 70, 150);
@@ -173,7 +173,7 @@ TEST(Background, LeavesOutWhatIsHidden) {
 TEST(Background, MemoryIsBounded) {
   BackgroundConfig config;
   config.samples = 8;
-  BackgroundSampler sampler(config, 2);
+  BackgroundSampler sampler(config);
   Rng rng(5, Purpose::kTest);
   const cv::Mat frame = scene(rng, 2);
   for (int i = 0; i < 100; ++i) {
@@ -181,8 +181,8 @@ TEST(Background, MemoryIsBounded) {
     EXPECT_LE(sampler.frames(), 8);
     EXPECT_GE(sampler.frames(), std::min(i + 1, 4));
   }
-  EXPECT_EQ(sampler.model().width, kWidth / 2);
-  EXPECT_THROW(BackgroundSampler(config, 1).model(), InputError);
+  EXPECT_EQ(sampler.model().width, kWidth);
+  EXPECT_THROW(BackgroundSampler(config).model(), InputError);
 }
 
 // Pixels that do not change are summed in rows, others are sorted one by one: both give the plain
@@ -231,7 +231,7 @@ TEST(Background, IsFoundBehindAWalkerWhoDiffersInColourAlone) {
 
 TEST(Background, ThreadsDoNotMatter) {
   Rng rng(7, Purpose::kTest);
-  BackgroundSampler sampler({}, 1);
+  BackgroundSampler sampler({});
   for (int i = 0; i < 12; ++i) sampler.add(scene(rng, 3, 0.8 + 0.03 * i));
   const BackgroundModel one = sampler.model(1), many = sampler.model(8);
   EXPECT_EQ(one.luma, many.luma);

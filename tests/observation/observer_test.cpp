@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "core/parallel_for.h"
 #include "observation/background/background_sampler.h"
+#include "observation/shrink.h"
 #include "tests/observation/picture_terms.h"
 #include "tests/observation/rendered.h"
 #include "tests/observation/scenes.h"
@@ -77,7 +78,7 @@ struct World {
     return image;
   }
   Observer observer(const ObservationConfig& config, int threads = 1) const {
-    BackgroundSampler sampler(config.background, 1);
+    BackgroundSampler sampler(config.background);
     sampler.add(empty);
     return Observer(config, {camera, 1, appearances_of(body), sampler.model(), {}, threads});
   }
@@ -232,7 +233,7 @@ TEST(Observer, PersonRegionHoldsTheBody) {
 TEST(Observer, OccludersSayNothing) {
   const World world;
   const ObservationConfig config = every_term();
-  BackgroundSampler sampler(config.background, 1);
+  BackgroundSampler sampler(config.background);
   sampler.add(world.empty);
   const Polygon left_half{{-1, -1}, {160, -1}, {160, 240}, {-1, 240}};
   Observer observer(config,
@@ -254,7 +255,7 @@ TEST(Observer, OccludersSayNothing) {
 // The background behind people who always stood there is unknown, whatever else moves.
 TEST(Observer, PixelsThatWereNeverSeenGiveNoEvidence) {
   const World world;
-  BackgroundSampler sampler({}, 1);
+  BackgroundSampler sampler({});
   sampler.add(world.empty);
   BackgroundModel model = sampler.model();
   for (size_t y = 0; y < 240; ++y)
@@ -314,7 +315,7 @@ TEST(Observer, RefusesFramesAndModelsOfAnotherSize) {
   Observer observer = world.observer(config);
   CameraEvidence evidence;
   EXPECT_THROW(observer.observe(cv::Mat::zeros(10, 10, CV_8UC3), {}, evidence), InputError);
-  BackgroundSampler sampler(config.background, 1);
+  BackgroundSampler sampler(config.background);
   sampler.add(cv::Mat::zeros(48, 64, CV_8UC3));
   const auto make = [&](std::optional<BackgroundModel> model) {
     return Observer(config, {world.camera, 1, appearances_of(world.body), std::move(model), {}});
@@ -370,14 +371,14 @@ TEST(Observer, LevelsOfThePyramidWeighTheSameArea) {
   ObservationConfig config;
   config.foreground.enabled = false;
   const auto gain = [&](int factor) {  // of the true pose over one 10 cm in front
-    BackgroundSampler sampler(config.background, factor);
-    sampler.add(world.empty);
+    BackgroundSampler sampler(config.background);
+    sampler.add(shrunk(world.empty, factor));
     Observer observer(config,
                       {world.camera, factor, appearances_of(world.body), sampler.model(), {}});
     CameraEvidence evidence;
     const double metres_per_px = 5.0 * factor / 320;
-    observer.observe(world.frame(world.pose(0)), whole_image(observer.camera(), metres_per_px),
-                     evidence);
+    observer.observe(shrunk(world.frame(world.pose(0)), factor),
+                     whole_image(observer.camera(), metres_per_px), evidence);
     const auto score = [&](double x) {
       return log_likelihood(config, evidence,
                             project_parts(observer.camera(), posed(world.body, world.pose(x))),

@@ -20,7 +20,7 @@ Share true_pose_wins(const std::filesystem::path& folder, const ObservationConfi
   const Camera camera = read_camera(folder / "cam0.yaml");
   const std::vector<JointPositions> truth = read_truth(folder / "truth.csv");
   const Body body = make_body({1.71, 70, {}}, {});
-  BackgroundSampler sampler(config.background, 1);
+  BackgroundSampler sampler(config.background);
   for (const cv::Mat& frame : read_frames(folder / "cam0_background.mp4", 8)) sampler.add(frame);
   Observer observer(config, {camera, 1, appearances_of(body), sampler.model(), {}});
   const auto capsules = [&](const JointPositions& joints) {

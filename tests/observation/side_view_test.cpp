@@ -80,8 +80,8 @@ class SideView : public testing::Test {
 std::pair<double, double> SideView::judged(const ObservationConfig& config) const {
   constexpr int kShrink = 3;  // 416 px of woman to at least 120
   const Body body = make_body({1.65, 55, {}}, {});
-  BackgroundSampler sampler(config.background, kShrink);
-  sampler.add(background_);
+  BackgroundSampler sampler(config.background);
+  sampler.add(shrunk(background_, kShrink));
   Observer observer(config, {camera_, kShrink, appearances_of(body), sampler.model(), {}});
   const auto capsules = [&](const JointPositions& joints) {
     return project_parts(observer.camera(), pose_parts(body, skeleton_from_joints(body, joints)));
@@ -92,7 +92,7 @@ std::pair<double, double> SideView::judged(const ObservationConfig& config) cons
   for (int f = 54; f <= 58; ++f) {
     const JointPositions pose = placed_pose(camera_, f);
     const Vector2d place = pose[Joint::kPelvis].head<2>();
-    observer.observe(frames_[static_cast<size_t>(f)],
+    observer.observe(shrunk(frames_[static_cast<size_t>(f)], kShrink),
                      person_region(observer.camera(), place, 1.65, 0.7), evidence);
     if (f > 55) {
       const CapsuleList before = capsules(placed_pose(camera_, f - 1));

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "observation/background/background_sampler.h"
+#include "observation/shrink.h"
 #include "tests/observation/perturbed.h"
 #include "tests/observation/picture_terms.h"
 #include "tests/observation/rendered.h"
@@ -52,8 +53,9 @@ std::vector<Derivatives> derivatives(const std::filesystem::path& walk, const st
   constexpr size_t kLearning = 8, kFrames = 68;
   const std::vector<JointPositions> truth = read_truth(walk / "truth.csv");
   const Body body = make_body({1.72, 70, {}}, {});
-  BackgroundSampler sampler(config.background, kShrink);
-  for (const cv::Mat& frame : read_frames(walk / (name + "_background.mp4"), 8)) sampler.add(frame);
+  BackgroundSampler sampler(config.background);
+  for (const cv::Mat& frame : read_frames(walk / (name + "_background.mp4"), 8))
+    sampler.add(shrunk(frame, kShrink));
   Observer observer(
       config,
       {read_camera(walk / (name + ".yaml")), kShrink, appearances_of(body), sampler.model(), {}});
@@ -66,7 +68,8 @@ std::vector<Derivatives> derivatives(const std::filesystem::path& walk, const st
   CameraEvidence evidence;
   for (size_t f = 0; f < frames.size(); ++f) {
     const Eigen::Vector2d place = truth[f][Joint::kPelvis].head<2>();
-    observer.observe(frames[f], person_region(observer.camera(), place, 1.75, 0.7), evidence);
+    observer.observe(shrunk(frames[f], kShrink), person_region(observer.camera(), place, 1.75, 0.7),
+                     evidence);
     const CapsuleList now = capsules(truth[f]);
     for (size_t d = 0; f >= kLearning && d < moved.size(); ++d) {
       const CapsuleList before = capsules(truth[f - 1]);

@@ -67,7 +67,7 @@ Observer observer_of(const Stage& stage, const View& view, const BackgroundConfi
   ObservationConfig config;
   config.background = background;
   config.foreground.enabled = false;
-  BackgroundSampler sampler(background, 1);
+  BackgroundSampler sampler(background);
   for (uint32_t i = 0; i < 10; ++i) sampler.add(image(view.empty, i));
   return Observer(config,
                   {view.camera, 1, appearances_of(stage.actors[0].body), sampler.model(), {}});

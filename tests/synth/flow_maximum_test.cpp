@@ -128,7 +128,7 @@ class Pairs {
     constexpr uint32_t kAfter = 1000;  // of no frame of the walk
     std::vector<uint8_t> bgr =
         developed(render(view, stage.world, {}).colour, Sensor{}, 3, 0, kAfter);
-    BackgroundSampler sampler({}, 1);
+    BackgroundSampler sampler({});
     sampler.add(cv::Mat(view.camera.height_px, view.camera.width_px, CV_8UC3, bgr.data()));
     return sampler.model();
   }

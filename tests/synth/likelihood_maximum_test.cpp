@@ -15,6 +15,7 @@
 #include "body/kinematics.h"
 #include "core/conventions.h"
 #include "observation/background/background_sampler.h"
+#include "observation/shrink.h"
 #include "observation/silhouette/capsules.h"
 #include "synth/recording/sensor.h"
 #include "synth/recording/view.h"
@@ -80,14 +81,14 @@ class TwoCameras {
   void record(const Camera& camera, const Pose& before, const Pose& now) {
     constexpr int kShrink = 2;
     const View view = make_view(world_, camera, 2);
-    BackgroundSampler sampler(config_.background, kShrink);
-    sampler.add(noise_free(view, view.empty));
+    BackgroundSampler sampler(config_.background);
+    sampler.add(shrunk(noise_free(view, view.empty), kShrink));
     Observer observer(config_, {camera, kShrink, appearances_of(body_), sampler.model(), {}});
     const Region all = whole_image(observer.camera(), 0.02);
     CameraEvidence evidence;
-    observer.observe(shot(view, before), all, evidence);
+    observer.observe(shrunk(shot(view, before), kShrink), all, evidence);
     observer.learn(evidence, capsules(observer.camera(), before));
-    observer.observe(shot(view, now), all, evidence);
+    observer.observe(shrunk(shot(view, now), kShrink), all, evidence);
     cameras_.push_back(observer.camera());
     evidence_.push_back(std::move(evidence));
   }

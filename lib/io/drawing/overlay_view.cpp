@@ -90,20 +90,12 @@ Array2d ratio_of(const OverlayView& view) {
   return Array2d(view.size.width, view.size.height) / Array2d(view.area.width, view.area.height);
 }
 
-// An image that is more than twice too large is halved first by 2 x 2 means: area averages with
-// other factors cost several times as much. The rest is interpolated without loss.
-void shrink(const cv::Mat& picture, const cv::Size& size, cv::Mat& out) {
-  cv::Mat from = picture;
-  const auto halves = [](int length, int wanted) {
-    return length >= 2 * wanted && length % 2 == 0;
-  };
-  while (halves(from.cols, size.width) && halves(from.rows, size.height)) {
-    cv::Mat half;
-    cv::resize(from, half, {from.cols / 2, from.rows / 2}, 0, 0, cv::INTER_AREA);
-    from = half;
-  }
-  const bool twice = from.cols >= 2 * size.width || from.rows >= 2 * size.height;
-  cv::resize(from, out, size, 0, 0, twice ? cv::INTER_AREA : cv::INTER_LINEAR);
+// The largest factor by which the area can be shrunk without a remainder and stays large enough.
+int whole_factor(const OverlayView& view) {
+  const cv::Rect& area = view.area;
+  int factor = std::max(1, std::min(area.width / view.size.width, area.height / view.size.height));
+  while (area.width % factor != 0 || area.height % factor != 0) --factor;
+  return factor;
 }
 
 }  // namespace
@@ -151,12 +143,13 @@ Vector2d in_view(const OverlayView& view, const Vector2d& px) {
   return ratio_of(view) * (px.array() - Array2d(view.area.x, view.area.y) + 0.5) - 0.5;
 }
 
-void look_through(const OverlayView& view, const cv::Mat& picture, cv::Mat& out) {
-  const cv::Mat seen = picture(view.area);
-  if (seen.size() == view.size) return seen.copyTo(out);
-  const bool larger = view.size.width > seen.cols || view.size.height > seen.rows;
-  if (larger) return cv::resize(seen, out, view.size, 0, 0, cv::INTER_LINEAR);
-  shrink(seen, view.size, out);
+void look_through(const OverlayView& view, const FrameSource& video, cv::Mat& out) {
+  const int factor = whole_factor(view);
+  if (view.area.size() == view.size * factor) return video.picture(view.area, factor, out);
+  cv::Mat seen;
+  video.picture(view.area, factor, seen);
+  const bool twice = seen.cols >= 2 * view.size.width || seen.rows >= 2 * view.size.height;
+  cv::resize(seen, out, view.size, 0, 0, twice ? cv::INTER_AREA : cv::INTER_LINEAR);
 }
 
 }  // namespace io

@@ -13,6 +13,7 @@
 
 #include "body/pose.h"
 #include "camera/camera.h"
+#include "io/video/video.h"
 
 namespace walktrack {
 inline namespace io {
@@ -37,9 +38,8 @@ Camera camera_of(const OverlayView& view, const Camera& camera);
 // The position of a pixel of the camera's image in the view.
 Eigen::Vector2d in_view(const OverlayView& view, const Eigen::Vector2d& px);
 
-// Extracts the view: 8-bit BGR of its size. `out` keeps its memory and never shares that of the
-// image.
-void look_through(const OverlayView& view, const cv::Mat& picture, cv::Mat& out);
+// The view of the frame that the video is at: 8-bit BGR of its size. `out` keeps its memory.
+void look_through(const OverlayView& view, const FrameSource& video, cv::Mat& out);
 
 }  // namespace io
 }  // namespace walktrack

@@ -1,15 +1,12 @@
 #include "io/video/lens_facts.h"
 
-extern "C" {
-#include <libavformat/avformat.h>
-}
-
 #include <algorithm>
 #include <array>
 #include <fstream>
 
 #include "core/errors.h"
 #include "io/archive/files.h"
+#include "io/ffmpeg/ffmpeg.h"
 #include "io/video/image_files.h"
 
 namespace walktrack {
@@ -117,17 +114,15 @@ Tiff exif_of(std::string_view jpeg) {
 template <size_t count>
 std::string said_of(const std::filesystem::path& video,
                     const std::array<const char*, count>& keys) {
-  AVFormatContext* file = nullptr;
-  if (avformat_open_input(&file, video.c_str(), nullptr, nullptr) < 0) return {};
+  const auto file = ffmpeg::opened(video);
+  if (!file) return {};
   const AVDictionaryEntry* entry = nullptr;
   for (const char* key : keys) {
     if (!entry) entry = av_dict_get(file->metadata, key, nullptr, 0);
     for (unsigned i = 0; !entry && i < file->nb_streams; ++i)
       entry = av_dict_get(file->streams[i]->metadata, key, nullptr, 0);
   }
-  const std::string said = entry ? entry->value : "";
-  avformat_close_input(&file);
-  return said;
+  return entry ? entry->value : "";
 }
 
 // The beginning of the first image file; "" for a video.

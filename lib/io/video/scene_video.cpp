@@ -8,8 +8,8 @@
 #include <opencv2/core.hpp>
 
 #include "core/errors.h"
+#include "io/ffmpeg/frame_stamps.h"
 #include "io/keypoints/keypoint_file.h"
-#include "io/video/frame_stamps.h"
 
 namespace walktrack {
 inline namespace io {
@@ -43,7 +43,8 @@ cv::Size size_of(const SceneCamera& camera) {
 }  // namespace
 
 FrameSource plain_frames(const SceneCamera& camera) {
-  return FrameSource(size_of(camera), read_keypoints(camera.keypoints).people.rbegin()->first + 1);
+  return FrameSource(cv::Mat::zeros(size_of(camera), CV_8UC3),
+                     read_keypoints(camera.keypoints).people.rbegin()->first + 1);
 }
 
 SceneVideo::SceneVideo(const Scene& scene)
@@ -123,7 +124,7 @@ bool SceneVideo::advance(size_t camera, SceneFrames& frames) {
   frames.fresh[camera] = false;
   if (frame == before) return true;
   FrameSource& source = sources_[camera];
-  if (!source.skip(frame - before - 1) || !source.read(frames.images[camera])) {
+  if (!source.skip(frame - before - 1) || !source.advance()) {
     trouble_ = source.trouble();
     return false;
   }
@@ -138,7 +139,6 @@ bool SceneVideo::advance(size_t camera, SceneFrames& frames) {
 
 bool SceneVideo::read(SceneFrames& frames) {
   if (!trouble_.empty() || (last_frame_ && next_frame_ > *last_frame_)) return false;
-  frames.images.resize(sources_.size());
   frames.fresh.resize(sources_.size());
   frames.source.resize(sources_.size());
   for (size_t i = 0; i < sources_.size(); ++i) {

@@ -5,7 +5,7 @@
 // start_frame. Cameras may therefore have different rates; a slow one shows the same frame several
 // times, of which only the first is fresh. This also holds for dropped frames and variable rates:
 // the container's time stamps, or the numbers of images, state when each frame was taken
-// (io/video/frame_stamps.h), and frames are paired by time. If a rate is stated, the time stamps
+// (io/ffmpeg/frame_stamps.h), and frames are paired by time. If a rate is stated, the time stamps
 // are scaled to it, because a file's clock is wrong more often than the number of its frames; time
 // stamps whose usual rate differs by more than a tenth from the stated one are ignored.
 //
@@ -15,8 +15,6 @@
 #include <string>
 #include <vector>
 
-#include <opencv2/core/mat.hpp>
-
 #include "io/scene/scene.h"
 #include "io/video/video.h"
 
@@ -24,14 +22,14 @@ namespace walktrack {
 inline namespace io {
 
 struct SceneFrames {
-  int number = 0;               // scene frame
-  double time = 0;              // s since first_frame
-  std::vector<cv::Mat> images;  // by camera, 8-bit BGR; overwritten by the next read
-  std::vector<char> fresh;      // whether the camera has a new frame since the last step
-  std::vector<int> source;      // number of that frame in its video (FrameSource::number)
+  int number = 0;           // scene frame
+  double time = 0;          // s since first_frame
+  std::vector<char> fresh;  // by camera: whether it has a new frame since the last step
+  std::vector<int> source;  // by camera: number of that frame in its video (FrameSource::number)
 };
 
-// Plain images for a camera that has keypoints but no video, up to the last frame with keypoints.
+// Black images for a camera that has keypoints but no video, on which results can still be drawn:
+// up to the last frame with keypoints.
 FrameSource plain_frames(const SceneCamera& camera);
 
 class SceneVideo {
@@ -43,6 +41,7 @@ class SceneVideo {
   double frame_rate() const { return rate_; }  // of scene steps, Hz
   // Number of scene frames from first_frame on, according to the containers; 0 = unknown.
   int frame_count() const;
+  // Of the step that was read, it has the picture.
   const FrameSource& source(size_t camera) const { return sources_[camera]; }
 
   // Reads the next step. Returns false at the end of the range or of any video; trouble() states

@@ -1,15 +1,16 @@
 #include "io/video/video.h"
 
-#include <cmath>
+#include <algorithm>
 #include <numeric>
 
 #include <fmt/format.h>
-#include <opencv2/core/utility.hpp>
-#include <opencv2/videoio.hpp>
+#include <opencv2/core.hpp>
 
 #include "core/errors.h"
+#include "io/ffmpeg/video_decoder.h"
 #include "io/scene/scene.h"
 #include "io/video/image_files.h"
+#include "observation/shrink.h"
 
 namespace walktrack {
 inline namespace io {
@@ -28,28 +29,19 @@ int smallest_believable_count(int announced) { return announced - 2 - announced 
 
 std::string size_text(cv::Size size) { return fmt::format("{}x{}", size.width, size.height); }
 
-int whole_property(cv::VideoCapture& capture, int property) {
-  const double value = capture.get(property);
-  return std::isfinite(value) && value > 0 && value < 1e9 ? static_cast<int>(value) : 0;
-}
-
-cv::Size frame_size(cv::VideoCapture& capture) {
-  return {whole_property(capture, cv::CAP_PROP_FRAME_WIDTH),
-          whole_property(capture, cv::CAP_PROP_FRAME_HEIGHT)};
-}
-
-// The clockwise rotation that shows the video upright. Only OpenCV 4.6.0 has its sign reversed
-// (opencv issue 22088), which is also why frames are rotated here and not by OpenCV.
-int rotation_deg(cv::VideoCapture& capture) {
-  const int turn = whole_property(capture, cv::CAP_PROP_ORIENTATION_META) % 360;
-  const bool reversed = cv::getVersionString() == "4.6.0";
-  return reversed ? (360 - turn) % 360 : turn;
-}
-
 void turn(const cv::Mat& raw, int clockwise_deg, cv::Mat& turned) {
   if (clockwise_deg == 90) cv::rotate(raw, turned, cv::ROTATE_90_CLOCKWISE);
   if (clockwise_deg == 180) cv::rotate(raw, turned, cv::ROTATE_180);
   if (clockwise_deg == 270) cv::rotate(raw, turned, cv::ROTATE_90_COUNTERCLOCKWISE);
+}
+
+// The part of a raw frame of that size which is `area` after the rotation.
+cv::Rect before_turn(const cv::Rect& area, int clockwise_deg, cv::Size raw) {
+  const int right = area.x + area.width, bottom = area.y + area.height;
+  if (clockwise_deg == 90) return {area.y, raw.height - right, area.height, area.width};
+  if (clockwise_deg == 180)
+    return {raw.width - right, raw.height - bottom, area.width, area.height};
+  return {raw.width - bottom, area.x, area.height, area.width};
 }
 
 }  // namespace
@@ -64,9 +56,9 @@ FrameSource::FrameSource(const fs::path& path, std::optional<cv::Size> expected_
   check_size(expected_px);
 }
 
-FrameSource::FrameSource(cv::Size size_px, int frames) : plain_(cv::Mat::zeros(size_px, CV_8UC3)) {
-  facts_.width_px = size_px.width;
-  facts_.height_px = size_px.height;
+FrameSource::FrameSource(cv::Mat image, int frames) : image_(std::move(image)) {
+  facts_.width_px = image_.cols;
+  facts_.height_px = image_.rows;
   facts_.frame_count = frames;
 }
 
@@ -75,22 +67,21 @@ FrameSource::FrameSource(FrameSource&&) noexcept = default;
 
 void FrameSource::open_video(std::optional<cv::Size> expected_px) {
   if (!fs::is_regular_file(path_)) fail(path_, "no file", "a video, images or a pattern");
-  capture_ = std::make_unique<cv::VideoCapture>();
-  if (!capture_->open(path_.string(), cv::CAP_FFMPEG)) {
+  decoder_ = VideoDecoder::open(path_);
+  if (!decoder_)
     fail(path_, "no video that FFmpeg can decode", "a video file, images or a pattern");
-  }
-  capture_->set(cv::CAP_PROP_ORIENTATION_AUTO, 0);
-  facts_.rotation_deg = rotation_deg(*capture_);
-  cv::Size size = frame_size(*capture_);
+  facts_.rotation_deg = decoder_->rotation_deg();
+  cv::Size size = decoder_->size_px();
   const bool swaps = facts_.rotation_deg % 180 != 0;
   const cv::Size turned = swaps ? cv::Size(size.height, size.width) : size;
   const bool only_raw_fits = expected_px && turned != *expected_px && size == *expected_px;
   facts_.rotated = facts_.rotation_deg != 0 && !only_raw_fits;
   if (facts_.rotated) size = turned;
+  size_px_ = decoder_->size_px();
   facts_.width_px = size.width;
   facts_.height_px = size.height;
-  facts_.frame_count = whole_property(*capture_, cv::CAP_PROP_FRAME_COUNT);
-  const double rate = capture_->get(cv::CAP_PROP_FPS);
+  facts_.frame_count = decoder_->frame_count();
+  const double rate = decoder_->frame_rate();
   facts_.frame_rate = rate > 0 && rate <= kFastestRate ? rate : 0;
 }
 
@@ -118,23 +109,60 @@ void FrameSource::check_size(std::optional<cv::Size> expected_px) const {
                    swapped ? " (width and height are swapped)" : ""));
 }
 
-bool FrameSource::read(cv::Mat& frame) {
+bool FrameSource::advance() {
   if (closed_ || !trouble_.empty()) return false;
-  if (!images_.empty()) return read_image(frame);
-  if (!plain_.empty()) {
-    if (next_frame_ >= facts_.frame_count) return false;
-    plain_.copyTo(frame);
-    ++next_frame_;
-    return true;
-  }
-  cv::Mat& decoded = facts_.rotated ? unturned_ : frame;
-  if (!capture_->read(decoded) || decoded.empty()) {
+  if (!images_.empty()) return advance_image();
+  if (decoder_) return advance_video();
+  if (next_frame_ >= facts_.frame_count) return false;
+  ++next_frame_;
+  return true;
+}
+
+bool FrameSource::advance_video() {
+  if (!decoder_->advance()) {
     note_end();
     return false;
   }
-  if (facts_.rotated) turn(unturned_, facts_.rotation_deg, frame);
+  return is_first_size(path_, decoder_->frame_px(), size_px_);
+}
+
+// Counts the frame if it has the size of the first one.
+bool FrameSource::is_first_size(const fs::path& file, cv::Size size, cv::Size first) {
+  if (size != first) {
+    trouble_ = fmt::format("{}: frame {} is {} px, the first {}", file.string(), next_frame_,
+                           size_text(size), size_text(first));
+    return false;
+  }
   ++next_frame_;
   return true;
+}
+
+bool FrameSource::read(cv::Mat& frame) {
+  if (!advance()) return false;
+  picture(frame);
+  return true;
+}
+
+void FrameSource::picture(cv::Mat& out) const {
+  if (!decoder_) return image_.copyTo(out);
+  if (!facts_.rotated) return decoder_->picture(out);
+  cv::Mat raw;
+  decoder_->picture(raw);
+  turn(raw, facts_.rotation_deg, out);
+}
+
+void FrameSource::picture(int shrink, cv::Mat& out) const {
+  if (shrink == 1) return picture(out);
+  const auto whole = [&](int length) { return length / shrink * shrink; };
+  picture({0, 0, whole(facts_.width_px), whole(facts_.height_px)}, shrink, out);
+}
+
+void FrameSource::picture(const cv::Rect& area, int shrink, cv::Mat& out) const {
+  if (!decoder_) return shrunk(image_(area), shrink).copyTo(out);
+  if (!facts_.rotated) return decoder_->picture(area, shrink, out);
+  cv::Mat raw;
+  decoder_->picture(before_turn(area, facts_.rotation_deg, decoder_->frame_px()), shrink, raw);
+  turn(raw, facts_.rotation_deg, out);
 }
 
 int FrameSource::number() const {
@@ -143,42 +171,32 @@ int FrameSource::number() const {
   return last_number_in(images_[static_cast<size_t>(place)].stem().string()).value_or(place);
 }
 
-bool FrameSource::read_image(cv::Mat& frame) {
+bool FrameSource::advance_image() {
   if (next_frame_ >= std::ssize(images_)) return false;
   const fs::path& file = images_[static_cast<size_t>(next_frame_)];
-  const std::string reason = read_image_file(file, frame);
+  const std::string reason = read_image_file(file, image_);
   if (!reason.empty()) {
     trouble_ = fmt::format("{}: frame {}: {}", file.string(), next_frame_, reason);
     return false;
   }
-  if (frame.cols != facts_.width_px || frame.rows != facts_.height_px) {
-    trouble_ = fmt::format("{}: frame {} is {} px, the first {}x{}", file.string(), next_frame_,
-                           size_text(frame.size()), facts_.width_px, facts_.height_px);
-    return false;
-  }
-  ++next_frame_;
-  return true;
+  return is_first_size(file, image_.size(), {facts_.width_px, facts_.height_px});
 }
 
 void FrameSource::close() {
-  capture_.reset();
-  unturned_.release();
+  decoder_.reset();
+  image_.release();
   closed_ = true;
 }
 
 bool FrameSource::skip(int frames) {
   if (closed_) return false;
-  for (int i = 0; i < frames; ++i) {
-    if (!images_.empty()) {
-      if (next_frame_ >= std::ssize(images_)) return false;
-    } else if (!plain_.empty()) {
-      if (next_frame_ >= facts_.frame_count) return false;
-    } else if (!capture_->grab()) {
-      note_end();
-      return false;
-    }
-    ++next_frame_;
+  if (!images_.empty()) {  // which need not be read
+    const int left = static_cast<int>(images_.size()) - next_frame_;
+    next_frame_ += std::min(frames, left);
+    return frames <= left;
   }
+  for (int i = 0; i < frames; ++i)
+    if (!advance()) return false;
   return true;
 }
 

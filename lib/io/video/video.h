@@ -5,8 +5,10 @@
 // Frame numbers count from 0 at the first frame of the source. There is no seeking, which is
 // inexact in compressed video: frames before the wanted one are decoded and dropped.
 //
-// An image of another size than the first is an error of that frame. If a video changes its size,
-// OpenCV 4.6 silently crops or pads its frames to the first size.
+// A frame of another size than the first is an error of that frame.
+//
+// A frame is decoded by advance() and converted to colours by picture(), at the size that is
+// wanted: who skips it or wants it small pays for no more.
 #pragma once
 
 #include <filesystem>
@@ -19,12 +21,10 @@
 
 #include "io/video/video_facts.h"
 
-namespace cv {
-class VideoCapture;
-}
-
 namespace walktrack {
 inline namespace io {
+
+class VideoDecoder;
 
 class FrameSource {
  public:
@@ -33,8 +33,8 @@ class FrameSource {
   // flag is rotated unless only the raw size matches; if neither matches, that is an InputError.
   explicit FrameSource(const std::filesystem::path& path,
                        std::optional<cv::Size> expected_px = std::nullopt);
-  // Plain images if there is no video, on which results can still be drawn.
-  FrameSource(cv::Size size_px, int frames);
+  // One image in every frame, 8-bit BGR.
+  FrameSource(cv::Mat image, int frames);
   ~FrameSource();
   FrameSource(FrameSource&&) noexcept;
 
@@ -46,9 +46,15 @@ class FrameSource {
   // How many images are missing before each; empty for a video.
   const std::vector<int>& missing_images() const { return missing_before_; }
 
-  // Reads the next frame, 8-bit BGR, into memory that the next call overwrites: clone it to keep
-  // it. Returns false at the end and if a frame cannot be read; trouble() then states which and
-  // why.
+  // Goes to the next frame. Returns false at the end and if a frame cannot be read; trouble() then
+  // states which and why.
+  bool advance();
+  // That frame, 8-bit BGR: all of it; shrunk as by shrunk() of observation/shrink.h; or an area of
+  // it, shrunk. `out` keeps its memory. To be called by one thread at a time.
+  void picture(cv::Mat& out) const;
+  void picture(int shrink, cv::Mat& out) const;
+  void picture(const cv::Rect& area, int shrink, cv::Mat& out) const;
+  // The next frame and all of its picture.
   bool read(cv::Mat& frame);
   // Skips frames; returns false if the source ends before.
   bool skip(int frames);
@@ -61,15 +67,17 @@ class FrameSource {
   void open_video(std::optional<cv::Size> expected_px);
   void open_images();
   void check_size(std::optional<cv::Size> expected_px) const;
-  bool read_image(cv::Mat& frame);
+  bool advance_image();
+  bool advance_video();
+  bool is_first_size(const std::filesystem::path& file, cv::Size size, cv::Size first);
   void note_end();
 
   std::filesystem::path path_;
-  std::unique_ptr<cv::VideoCapture> capture_;  // of a video file, or
+  std::unique_ptr<VideoDecoder> decoder_;      // of a video file, or
   std::vector<std::filesystem::path> images_;  // image files in order, or
   std::vector<int> missing_before_;            // before each of them
-  cv::Mat plain_;                              // a plain image
-  cv::Mat unturned_;                           // the decoded frame if frames are rotated
+  cv::Mat image_;                              // one of them, or that of every frame
+  cv::Size size_px_;                           // of the video as decoded
   VideoFacts facts_;
   int next_frame_ = 0;
   bool closed_ = false;

@@ -6,7 +6,8 @@
 #include <opencv2/videoio.hpp>
 
 #include "io/archive/files.h"
-#include "io/video/h264_file.h"
+#include "io/ffmpeg/h264_file.h"
+#include "io/ffmpeg/video_decoder.h"
 
 namespace walktrack {
 inline namespace io {
@@ -70,8 +71,8 @@ void VideoWriter::close() {
   }
   if (writer_) writer_->release();
   // OpenCV's encoder reports no errors, so the file is opened to check it.
-  cv::VideoCapture check(temporary_.string(), cv::CAP_FFMPEG);
-  const bool complete = check.isOpened() && check.get(cv::CAP_PROP_FRAME_COUNT) == frames_;
+  const auto check = VideoDecoder::open(temporary_);
+  const bool complete = check && check->frame_count() == frames_;
   if (frames_ > 0 && !complete) {
     throw std::runtime_error(fmt::format("{}: cannot be written completely", path_.string()));
   }

@@ -99,10 +99,13 @@ SeenFigures figures_in(const Scene& scene, const JobControl& control) {
   std::vector<MovingFigures> cameras;
   for (const SceneCamera& each : scene.cameras)
     cameras.emplace_back(each.camera.width_px, each.camera.height_px);
-  SceneFrames images;
-  for (int n = 0; n < kMostSyncFrames && !control.stopping() && video.read(images); ++n)
-    for (size_t i = 0; i < cameras.size(); ++i)
-      cameras[i].add(images.fresh[i] ? images.images[i] : Image());
+  SceneFrames frames;
+  for (int n = 0; n < kMostSyncFrames && !control.stopping() && video.read(frames); ++n)
+    for (size_t i = 0; i < cameras.size(); ++i) {
+      Image picture;
+      if (frames.fresh[i]) video.source(i).picture(cameras[i].shrink(), picture);
+      cameras[i].add(picture);
+    }
   for (const MovingFigures& camera : cameras) out.paths.push_back(camera.path());
   return out;
 }

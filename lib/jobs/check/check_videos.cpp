@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "io/video/frame_stamps.h"
+#include "io/ffmpeg/frame_stamps.h"
 #include "io/video/scene_video.h"
 #include "io/video/video.h"
 

@@ -68,11 +68,11 @@ SeenPerson seen_person(const std::filesystem::path& video, const std::optional<d
   std::vector<FigureTrack> tracks;
   std::vector<DetectedPeople> seen;  // by searched frame
   Image frame;
-  for (int n = 0; seen.size() < kMostPersonFrames && !control.stopping() && source.read(frame);
-       ++n) {
+  for (int n = 0; seen.size() < kMostPersonFrames && !control.stopping() && source.advance(); ++n) {
     control.progress("looking for the subject in " + video.filename().string(),
                      static_cast<size_t>(n), static_cast<size_t>(facts.frame_count));
     if (n % every != 0) continue;
+    source.picture(frame);
     seen.push_back(finder.look(net, frame, n / every));
     for (size_t i = 0; i < seen.back().size(); ++i)
       if (auto figure = points_box(seen.back()[i], i)) {

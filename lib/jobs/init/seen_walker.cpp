@@ -35,11 +35,14 @@ int shrink_of(const VideoFacts& facts) {
 BackgroundModel background_of(const InitJob& job, PixelSize size, int shrink, int threads,
                               const JobControl& control) {
   FrameSource source(job.background.empty() ? job.video : job.background, size);
-  BackgroundSampler sampler({}, shrink);
+  BackgroundSampler sampler({});
   const auto total = static_cast<size_t>(source.facts().frame_count);
   Image frame;
-  for (size_t done = 0; source.read(frame); ++done) {
-    sampler.add(frame);
+  for (size_t done = 0; source.advance(); ++done) {
+    if (sampler.takes_next()) {
+      source.picture(shrink, frame);
+      sampler.take(frame);
+    }
     control.progress("learning the background", done, total);
     if (control.stopping()) break;
   }
@@ -111,14 +114,16 @@ SeenWalk seen_walk(const InitJob& job, const JobControl& control) {
   FigureFinder finder(facts, shrink);
   const int every = std::max(1, static_cast<int>(std::lround(out.frame_rate / kLooks_hz)));
   out.looks_hz = out.frame_rate / every;
-  Image frame;
+  Image frame, small;
   std::vector<FigureTrack> tracks;
   size_t looked = 0;
-  for (int n = 0; looked < kMostFrames && !control.stopping() && source.read(frame); ++n) {
+  for (int n = 0; looked < kMostFrames && !control.stopping() && source.advance(); ++n) {
     control.progress("looking for the subject", static_cast<size_t>(n),
                      static_cast<size_t>(facts.frame_count));
     if (n % every != 0) continue;
-    std::vector<SeenFigure> figures = finder.in(frame, foreground.of(frame), n / every);
+    source.picture(frame);
+    source.picture(shrink, small);
+    std::vector<SeenFigure> figures = finder.in(frame, foreground.of(small), n / every);
     looked += !figures.empty();
     for (SeenFigure& figure : figures) {
       figure.frame = n;

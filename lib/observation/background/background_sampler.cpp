@@ -274,25 +274,31 @@ void floor_variances(const BackgroundConfig& config, BackgroundModel& model) {
 
 }  // namespace
 
-BackgroundSampler::BackgroundSampler(const BackgroundConfig& config, int shrink)
-    : config_(config), shrink_(shrink) {}
+BackgroundSampler::BackgroundSampler(const BackgroundConfig& config) : config_(config) {}
 
-void BackgroundSampler::add(const cv::Mat& frame_bgr) {
-  if (seen_++ % stride_ != 0) return;
+bool BackgroundSampler::takes_next() {
+  if (seen_++ % stride_ != 0) return false;
   if (static_cast<int>(kept_.size()) >= std::max(2, config_.samples)) {
     size_t half = 0;
     for (size_t i = 0; i < kept_.size(); i += 2) kept_[half++].swap(kept_[i]);
     kept_.resize(half);
     stride_ *= 2;
-    if ((seen_ - 1) % stride_ != 0) return;
+    if ((seen_ - 1) % stride_ != 0) return false;
   }
-  const cv::Mat small = shrunk(frame_bgr, shrink_);
-  width_ = small.cols;
-  height_ = small.rows;
+  return true;
+}
+
+void BackgroundSampler::take(const cv::Mat& frame_bgr) {
+  width_ = frame_bgr.cols;
+  height_ = frame_bgr.rows;
   kept_.emplace_back();
-  for (int y = 0; y < small.rows; ++y)
-    kept_.back().insert(kept_.back().end(), small.ptr<uint8_t>(y),
-                        small.ptr<uint8_t>(y) + 3 * small.cols);
+  for (int y = 0; y < height_; ++y)
+    kept_.back().insert(kept_.back().end(), frame_bgr.ptr<uint8_t>(y),
+                        frame_bgr.ptr<uint8_t>(y) + 3 * width_);
+}
+
+void BackgroundSampler::add(const cv::Mat& frame_bgr) {
+  if (takes_next()) take(frame_bgr);
 }
 
 cv::Mat BackgroundSampler::frame(int index) const {

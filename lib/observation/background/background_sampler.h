@@ -15,15 +15,17 @@ inline namespace observation {
 // frames, not in all.
 class BackgroundSampler {
  public:
-  // Frames are shrunk by the whole factor `shrink` by area averaging.
-  BackgroundSampler(const BackgroundConfig& config, int shrink);
+  explicit BackgroundSampler(const BackgroundConfig& config);
 
-  // The frames that are kept are spread evenly over all frames that were added, whatever their
-  // number.
+  // To be called for every frame. The frames that are kept are spread evenly over all of them,
+  // whatever their number: whether this one is to be given to take().
+  bool takes_next();
+  void take(const cv::Mat& frame_bgr);
+  // Both.
   void add(const cv::Mat& frame_bgr);
 
   int frames() const { return static_cast<int>(kept_.size()); }
-  // One of the frames that are kept, shrunk, in BGR; valid until the next frame is added.
+  // One of the frames that are kept, in BGR; valid until the next frame is added.
   cv::Mat frame(int index) const;
 
   // Excludes from the model the pixels of a kept frame at which `mask` (8-bit, of that frame's
@@ -36,7 +38,6 @@ class BackgroundSampler {
 
  private:
   BackgroundConfig config_;
-  int shrink_;
   int64_t seen_ = 0, stride_ = 1;
   std::vector<std::vector<uint8_t>> kept_;    // BGR
   std::vector<std::vector<uint8_t>> hidden_;  // by kept frame: 0 = used; empty = all used

@@ -139,17 +139,9 @@ MovingFigures::MovingFigures(int width_px, int height_px)
     // Averages over whole pixels are fast.
     : factor_((std::max(width_px, height_px) + kShrunkSide - 1) / kShrunkSide) {}
 
-// Converts each row of the small image, because a grey copy of a large one is not needed.
 void MovingFigures::add(const cv::Mat& frame) {
   frames_.emplace_back();
-  if (frame.empty()) return;
-  cv::Mat grey(frame.rows / factor_, frame.cols / factor_, CV_8U), strip;
-  for (int y = 0; y < grey.rows; ++y) {
-    cv::cvtColor(frame.rowRange(y * factor_, (y + 1) * factor_), strip, cv::COLOR_BGR2GRAY);
-    cv::Mat row = grey.row(y);
-    cv::resize(strip.colRange(0, grey.cols * factor_), row, row.size(), 0, 0, cv::INTER_AREA);
-  }
-  frames_.back() = grey;
+  if (!frame.empty()) cv::cvtColor(frame, frames_.back(), cv::COLOR_BGR2GRAY);
 }
 
 FigurePath MovingFigures::path() const {

@@ -22,10 +22,12 @@ using FigurePath = std::vector<std::optional<MovingFigure>>;
 // The frames of one camera, grey and small: at most 400 kB each.
 class MovingFigures {
  public:
-  // For frames of this size.
+  // For images of this size.
   MovingFigures(int width_px, int height_px);
 
-  // Adds a frame, 8-bit BGR; empty if the camera had no frame of its own.
+  // The factor by which frames are to be shrunk (shrink.h).
+  int shrink() const { return factor_; }
+  // Adds a frame, 8-bit BGR, shrunk; empty if the camera had no frame of its own.
   void add(const cv::Mat& frame);
   FigurePath path() const;
 

@@ -19,7 +19,8 @@ class ForegroundMask {
   // For images of this size; the background is that of shrunk ones.
   ForegroundMask(int width_px, int height_px, BackgroundModel background, int shrink, int threads);
 
-  // A shrunk mask, 255 where the image differs from the background, without small specks and gaps.
+  // Of a shrunk frame: 255 where the image differs from the background, without small specks and
+  // gaps.
   cv::Mat of(const cv::Mat& frame);
 
  private:

@@ -143,10 +143,11 @@ DetectedPeople Detections::look(size_t camera, const FrameToLookAt& frame) {
 DetectedPeople Detections::seen_by_network(Viewer& viewer, const FrameToLookAt& frame) const {
   if (frame.around) viewer.finder->forget();
   if (frame.scene_frame % every_ != 0) return {};
-  if (!frame.around)
-    return viewer.finder->look(*viewer.net, frame.picture, frame.scene_frame / every_);
-  if (frame.region.area.empty() || !frame.region.points) return {};
-  return {viewer.net->detect(frame.picture, cut_out_around(frame.region, viewer.shrink, height_))};
+  if (frame.around && (frame.region.area.empty() || !frame.region.points)) return {};
+  Image picture;
+  frame.video.picture(picture);
+  if (!frame.around) return viewer.finder->look(*viewer.net, picture, frame.scene_frame / every_);
+  return {viewer.net->detect(picture, cut_out_around(frame.region, viewer.shrink, height_))};
 }
 
 }  // namespace jobs

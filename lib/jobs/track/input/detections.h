@@ -12,6 +12,7 @@
 #include "io/config/config.h"
 #include "io/keypoints/keypoint_file.h"
 #include "io/scene/scene.h"
+#include "io/video/video.h"
 #include "jobs/track/input/person_finder.h"
 #include "observation/image.h"
 
@@ -45,11 +46,11 @@ ObservationConfig decided_terms(const Scene& scene, const Config& config);
 
 // The input for one frame of one camera.
 struct FrameToLookAt {
-  const Image& picture;  // as recorded
-  int source = 0;        // frame number in its video
-  int scene_frame = 0;   // from 0
-  Region region;         // of the shrunk image
-  bool around = false;   // whether the region is around the subject, and not the whole image
+  const FrameSource& video;  // has the picture as recorded
+  int source = 0;            // frame number in its video
+  int scene_frame = 0;       // from 0
+  Region region;             // of the shrunk image
+  bool around = false;       // whether the region is around the subject, and not the whole image
 };
 
 class Detections {

@@ -78,11 +78,14 @@ BackgroundModel learned_background(const SceneCamera& camera, const Config& conf
   const bool from_video = learns_from_video(camera);
   FrameSource source(from_video ? camera.video : camera.background,
                      PixelSize(camera.camera.width_px, camera.camera.height_px));
-  BackgroundSampler sampler(background, scale.shrink);
+  BackgroundSampler sampler(background);
   const auto total = static_cast<size_t>(source.facts().frame_count);
   Image frame;
-  for (size_t done = 0; source.read(frame); ++done) {
-    sampler.add(frame);
+  for (size_t done = 0; source.advance(); ++done) {
+    if (sampler.takes_next()) {
+      source.picture(scale.shrink, frame);
+      sampler.take(frame);
+    }
     control.progress("learning the background", done, total);
     if (control.stopping()) break;  // not before the first frame, without which there is no model
   }

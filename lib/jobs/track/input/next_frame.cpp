@@ -27,6 +27,7 @@ NextFrame::NextFrame(const Scene& scene, SceneVideo& video, std::vector<Observer
       video_(video),
       observers_(observers),
       detections_(detections),
+      pictures_(observers.size()),
       prepared_(observers.size()),
       cpu_seconds_(observers.size()) {}
 
@@ -35,7 +36,7 @@ NextFrame::Cost NextFrame::fetch(std::span<const Region> regions, bool around, i
   Cost cost;
   const Clock::time_point start = Clock::now();
   const double cpu = thread_cpu_seconds();
-  there_ = video_.read(images_);
+  there_ = video_.read(frames_);
   fetched_ = true;
   cost.decode = {seconds_since(start), thread_cpu_seconds() - cpu};
   if (!there_) return cost;
@@ -50,13 +51,12 @@ void NextFrame::prepare(std::span<const Region> regions, bool around, int thread
                         int row_threads) {
   parallel_for(observers_.size(), threads, [&](size_t c) {
     const double start = thread_cpu_seconds();
-    if (images_.fresh[c]) {
-      const FrameToLookAt frame{images_.images[c], images_.source[c], images_.number, regions[c],
-                                around};
-      const Image none;
-      const bool pictures = !scene_.cameras[c].video.empty();
-      observers_[c].prepare(pictures ? images_.images[c] : none, regions[c], row_threads,
-                            prepared_[c], detections_.look(c, frame));
+    if (frames_.fresh[c]) {
+      const FrameSource& source = video_.source(c);
+      const FrameToLookAt frame{source, frames_.source[c], frames_.number, regions[c], around};
+      if (!scene_.cameras[c].video.empty()) source.picture(observers_[c].shrink(), pictures_[c]);
+      observers_[c].prepare(pictures_[c], regions[c], row_threads, prepared_[c],
+                            detections_.look(c, frame));
     }
     cpu_seconds_[c] = thread_cpu_seconds() - start;
   });
@@ -66,7 +66,7 @@ void NextFrame::complete(double time, int threads, SceneEvidence& out) {
   parallel_for(observers_.size(), threads, [&](size_t c) {
     const SceneCamera& camera = scene_.cameras[c];
     if (comes_or_goes(camera)) observers_[c].hide(occluders_at(camera, time));
-    if (images_.fresh[c]) {
+    if (frames_.fresh[c]) {
       observers_[c].complete(prepared_[c], out[c]);
     } else {
       out[c] = CameraEvidence{};  // a repeated frame contains no new evidence
@@ -78,7 +78,7 @@ void NextFrame::complete(double time, int threads, SceneEvidence& out) {
 
 void NextFrame::close() {
   video_.close();
-  images_ = {};
+  for (Image& picture : pictures_) picture = Image();
   for (PreparedFrame& frame : prepared_) frame = PreparedFrame();
   there_ = false;
 }

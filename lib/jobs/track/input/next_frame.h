@@ -49,7 +49,8 @@ class NextFrame {
   SceneVideo& video_;
   std::vector<Observer>& observers_;
   Detections& detections_;
-  SceneFrames images_;
+  SceneFrames frames_;
+  std::vector<Image> pictures_;  // shrunk, by camera; empty without a video
   std::vector<PreparedFrame> prepared_;
   std::vector<double> cpu_seconds_;  // of segmentation, by camera
   bool fetched_ = false, there_ = false;

@@ -67,11 +67,11 @@ class Looker {
         std::max(all / kMostLooks, static_cast<int>(std::lround(kBetween * video.frame_rate())));
     Account account;
     Seen before;
-    SceneFrames images;
-    for (int n = 0; !control.stopping() && video.read(images); ++n) {
+    SceneFrames frames;
+    for (int n = 0; !control.stopping() && video.read(frames); ++n) {
       if (n % std::max(1, step) != 0) continue;
       control.progress("looking again", static_cast<size_t>(n), static_cast<size_t>(all));
-      const SceneEvidence evidence = evidence_of(images);
+      const SceneEvidence evidence = evidence_of(video, frames);
       const Seen seen = best_of(evidence, near_);
       if (std::min(seen.score, before.score) > 0 && seen.score > account.best.score)
         account.speed = (seen.place - before.place).norm() * video.frame_rate() / step;
@@ -84,15 +84,17 @@ class Looker {
   }
 
  private:
-  SceneEvidence evidence_of(const SceneFrames& images) {
+  SceneEvidence evidence_of(const SceneVideo& video, const SceneFrames& frames) {
     SceneEvidence evidence(setup_.observers.size());
     for (size_t c = 0; c < setup_.observers.size(); ++c) {
       const Region& region = searched_.everywhere[c];
       if (searched_.scene.cameras[c].video.empty()) {
-        const FrameToLookAt frame{images.images[c], images.source[c], images.number, region};
+        const FrameToLookAt frame{video.source(c), frames.source[c], frames.number, region};
         setup_.observers[c].observe({}, region, evidence[c], setup_.detections.look(c, frame));
       } else {
-        setup_.observers[c].observe(images.images[c], region, evidence[c]);
+        Image picture;
+        video.source(c).picture(setup_.observers[c].shrink(), picture);
+        setup_.observers[c].observe(picture, region, evidence[c]);
       }
     }
     return evidence;

@@ -80,7 +80,7 @@ class OverlayPictures {
   bool read(size_t i) {
     if (!video_.read(frames_)) return false;
     for (size_t c = 0; c < videos_.size(); ++c)
-      look_through(videos_[c].view(i), frames_.images[c], videos_[c].next);
+      look_through(videos_[c].view(i), video_.source(c), videos_[c].next);
     return true;
   }
   // Makes what was drawn last what is encoded, and what was read last what is drawn into.

@@ -1,8 +1,6 @@
-#include "io/video/h264_file.h"
+#include "io/ffmpeg/h264_file.h"
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <libavutil/opt.h>
 }
 
@@ -11,6 +9,8 @@ extern "C" {
 #include <string>
 
 #include <opencv2/imgproc.hpp>
+
+#include "io/ffmpeg/ffmpeg.h"
 
 namespace walktrack {
 inline namespace io {
@@ -35,26 +35,16 @@ void require(int result) {
 }  // namespace
 
 struct H264File::State {
-  struct FreeCodec {
-    void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
-  };
   struct FreeFile {
     void operator()(AVFormatContext* file) const {
       avio_closep(&file->pb);
       avformat_free_context(file);
     }
   };
-  struct FreeFrame {
-    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-  };
-  struct FreePacket {
-    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-  };
-
   std::unique_ptr<AVFormatContext, FreeFile> file;
-  std::unique_ptr<AVCodecContext, FreeCodec> codec;
-  std::unique_ptr<AVFrame, FreeFrame> frame{av_frame_alloc()};
-  std::unique_ptr<AVPacket, FreePacket> packet{av_packet_alloc()};
+  ffmpeg::Owned<AVCodecContext> codec;
+  ffmpeg::Owned<AVFrame> frame{av_frame_alloc()};
+  ffmpeg::Owned<AVPacket> packet{av_packet_alloc()};
   AVStream* stream = nullptr;  // stream of `file`
   cv::Mat planes;              // of a frame: Y, then U and V at half the size
   int64_t frames = 0;

@@ -1,13 +1,9 @@
-#include "io/video/frame_stamps.h"
-
-extern "C" {
-#include <libavformat/avformat.h>
-}
+#include "io/ffmpeg/frame_stamps.h"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
+#include "io/ffmpeg/ffmpeg.h"
 #include "io/scene/scene.h"
 
 namespace walktrack {
@@ -18,40 +14,6 @@ namespace {
 constexpr double kUneven = 0.25;       // share of the usual step
 constexpr double kRoundedRate = 1e-3;  // relative; containers round their rates by as much
 
-struct CloseFile {
-  void operator()(AVFormatContext* file) const { avformat_close_input(&file); }
-};
-struct FreePacket {
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
-// Silences FFmpeg's messages about broken files: the caller reports them.
-class SilentFfmpeg {
- public:
-  SilentFfmpeg() { av_log_set_level(AV_LOG_QUIET); }
-  ~SilentFfmpeg() { av_log_set_level(before_); }
-  SilentFfmpeg(const SilentFfmpeg&) = delete;
-  SilentFfmpeg& operator=(const SilentFfmpeg&) = delete;
-
- private:
-  int before_ = av_log_get_level();
-};
-using File = std::unique_ptr<AVFormatContext, CloseFile>;
-using Packet = std::unique_ptr<AVPacket, FreePacket>;
-
-File opened(const std::filesystem::path& video) {
-  AVFormatContext* file = nullptr;
-  if (avformat_open_input(&file, video.c_str(), nullptr, nullptr) < 0) return nullptr;
-  return File(file);
-}
-
-// The best video stream, which OpenCV decodes, too. Packets of other streams are discarded.
-const AVStream* video_stream(AVFormatContext& file) {
-  const int best = av_find_best_stream(&file, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  for (unsigned i = 0; i < file.nb_streams; ++i)
-    if (static_cast<int>(i) != best) file.streams[i]->discard = AVDISCARD_ALL;
-  return best < 0 ? nullptr : file.streams[best];
-}
-
 int64_t stamp_of(const AVPacket& packet) {
   return packet.pts != AV_NOPTS_VALUE ? packet.pts : packet.dts;
 }
@@ -60,12 +22,12 @@ int64_t stamp_of(const AVPacket& packet) {
 
 std::vector<double> frame_stamps(const std::filesystem::path& video) {
   if (is_frame_pattern(video)) return {};  // FFmpeg would make up a rate for them
-  const SilentFfmpeg hushed;
+  const ffmpeg::Silence silence;
   std::vector<double> stamps;
-  const File file = opened(video);
-  const AVStream* stream = file ? video_stream(*file) : nullptr;
+  const auto file = ffmpeg::opened(video);
+  const AVStream* stream = file ? ffmpeg::video_stream(*file) : nullptr;
   if (!stream) return stamps;
-  const Packet packet(av_packet_alloc());
+  const ffmpeg::Owned<AVPacket> packet(av_packet_alloc());
   for (; av_read_frame(file.get(), packet.get()) >= 0; av_packet_unref(packet.get())) {
     const bool shown = (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
     if (packet->stream_index != stream->index || !shown) continue;

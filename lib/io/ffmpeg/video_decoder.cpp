@@ -1,0 +1,163 @@
+#include "io/ffmpeg/video_decoder.h"
+
+extern "C" {
+#include <libavutil/display.h>
+}
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/parallel_for.h"
+#include "io/ffmpeg/ffmpeg.h"
+#include "io/ffmpeg/mean_colours.h"
+#include "observation/shrink.h"
+
+namespace walktrack {
+inline namespace io {
+
+namespace {
+
+constexpr int kMostDecoderThreads = 4;  // each holds frames of its own
+// Twice as small as well: means of 2 x 2 converted pixels are as fast.
+constexpr int kLeastMeaned = 3;
+
+double ratio(const AVRational& value) { return value.den == 0 ? 0 : av_q2d(value); }
+
+// 8-bit YUV 4:2:0, what nearly every camera records.
+bool has_plain_planes(const AVFrame& frame) {
+  return frame.format == AV_PIX_FMT_YUV420P || frame.format == AV_PIX_FMT_YUVJ420P;
+}
+
+ColourPlanes planes_of(const AVFrame& frame) {
+  return {{frame.data[0], frame.data[1], frame.data[2]},
+          {frame.linesize[0], frame.linesize[1], frame.linesize[2]},
+          frame.format == AV_PIX_FMT_YUVJ420P};
+}
+
+int rotation_of(const AVStream& stream) {
+  const uint8_t* matrix = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+  if (!matrix) return 0;
+  const double anticlockwise =
+      av_display_rotation_get(reinterpret_cast<const int32_t*>(matrix));  // NaN: it is singular
+  if (!std::isfinite(anticlockwise)) return 0;
+  return ((static_cast<int>(std::lround(-anticlockwise / 90)) % 4 + 4) % 4) * 90;
+}
+
+}  // namespace
+
+struct VideoDecoder::State {
+  ffmpeg::Owned<AVFormatContext> input;
+  ffmpeg::Owned<AVCodecContext> codec;
+  ffmpeg::Owned<AVFrame> frame{av_frame_alloc()};
+  ffmpeg::Owned<AVPacket> packet{av_packet_alloc()};
+  ffmpeg::Owned<SwsContext> converter;
+  cv::Mat padded, whole;  // memory for converted frames
+  const AVStream* stream = nullptr;
+  bool at_end = false;
+
+  bool open(const std::filesystem::path& path) {
+    input = ffmpeg::opened(path);
+    if (!input || avformat_find_stream_info(input.get(), nullptr) < 0) return false;
+    stream = ffmpeg::video_stream(*input);
+    const AVCodec* const decoder =
+        stream ? avcodec_find_decoder(stream->codecpar->codec_id) : nullptr;
+    if (!decoder) return false;
+    codec.reset(avcodec_alloc_context3(decoder));
+    if (avcodec_parameters_to_context(codec.get(), stream->codecpar) < 0) return false;
+    codec->thread_count = std::min(kMostDecoderThreads, hardware_threads());
+    codec->log_level_offset = AV_LOG_TRACE;  // hides what is said of broken frames
+    return avcodec_open2(codec.get(), decoder, nullptr) >= 0;
+  }
+
+  // Passes the next packet of the stream, or the end of the file, to the decoder.
+  void feed() {
+    while (!at_end) {
+      at_end = av_read_frame(input.get(), packet.get()) < 0;
+      const bool ours = !at_end && packet->stream_index == stream->index;
+      if (ours || at_end) avcodec_send_packet(codec.get(), at_end ? nullptr : packet.get());
+      av_packet_unref(packet.get());
+      if (ours) return;
+    }
+  }
+
+  // All of the frame. FFmpeg writes rows in blocks of pixels, beyond the end of one that is short.
+  void convert(cv::Mat& bgr) {
+    const AVFrame& f = *frame;
+    constexpr int kBlock = 32;
+    if (f.width % kBlock != 0) {
+      padded.create(f.height, (f.width / kBlock + 1) * kBlock, CV_8UC3);
+      convert_into(padded);
+      padded.colRange(0, f.width).copyTo(bgr);
+    } else {
+      bgr.create(f.height, f.width, CV_8UC3);
+      convert_into(bgr);
+    }
+  }
+
+  void convert_into(cv::Mat& bgr) {
+    const AVFrame& f = *frame;
+    const auto format = static_cast<AVPixelFormat>(f.format);
+    converter.reset(sws_getCachedContext(converter.release(), f.width, f.height, format, f.width,
+                                         f.height, AV_PIX_FMT_BGR24, SWS_BICUBIC, nullptr, nullptr,
+                                         nullptr));
+    const std::array<uint8_t*, 4> to{bgr.data};
+    const std::array<int, 4> stride{static_cast<int>(bgr.step)};
+    sws_scale(converter.get(), f.data, f.linesize, 0, f.height, to.data(), stride.data());
+  }
+};
+
+VideoDecoder::VideoDecoder(std::unique_ptr<State> state) : state_(std::move(state)) {}
+VideoDecoder::~VideoDecoder() = default;
+
+std::unique_ptr<VideoDecoder> VideoDecoder::open(const std::filesystem::path& path) {
+  const ffmpeg::Silence silence;
+  auto state = std::make_unique<State>();
+  if (!state->open(path)) return nullptr;
+  return std::unique_ptr<VideoDecoder>(new VideoDecoder(std::move(state)));
+}
+
+cv::Size VideoDecoder::size_px() const { return {state_->codec->width, state_->codec->height}; }
+
+double VideoDecoder::frame_rate() const {
+  const double average = ratio(state_->stream->avg_frame_rate);
+  return average > 0 ? average : ratio(state_->stream->r_frame_rate);
+}
+
+int VideoDecoder::frame_count() const {
+  const AVStream& stream = *state_->stream;
+  double count = static_cast<double>(stream.nb_frames);
+  if (count <= 0) {
+    double seconds = static_cast<double>(state_->input->duration) / AV_TIME_BASE;
+    if (seconds <= 0) seconds = static_cast<double>(stream.duration) * ratio(stream.time_base);
+    count = std::floor(seconds * frame_rate() + 0.5);
+  }
+  return count > 0 && count < 1e9 ? static_cast<int>(count) : 0;
+}
+
+int VideoDecoder::rotation_deg() const { return rotation_of(*state_->stream); }
+
+bool VideoDecoder::advance() {
+  for (;;) {
+    const int result = avcodec_receive_frame(state_->codec.get(), state_->frame.get());
+    if (result >= 0)
+      return sws_isSupportedInput(static_cast<AVPixelFormat>(state_->frame->format)) != 0;
+    if (result == AVERROR_EOF || (result == AVERROR(EAGAIN) && state_->at_end)) return false;
+    if (result == AVERROR(EAGAIN)) state_->feed();
+  }
+}
+
+cv::Size VideoDecoder::frame_px() const { return {state_->frame->width, state_->frame->height}; }
+
+void VideoDecoder::picture(cv::Mat& bgr) const { state_->convert(bgr); }
+
+void VideoDecoder::picture(const cv::Rect& area, int shrink, cv::Mat& bgr) const {
+  const AVFrame& frame = *state_->frame;
+  if (has_plain_planes(frame) && shrink >= kLeastMeaned && shrink <= kMostMeaned)
+    return mean_colours(planes_of(frame), area, shrink, bgr);
+  state_->convert(state_->whole);
+  shrunk(state_->whole(area), shrink).copyTo(bgr);
+}
+
+}  // namespace io
+}  // namespace walktrack
