@@ -40,6 +40,16 @@ void predict(const MotionContext& motion, const Streams& streams, bool first,
     outcomes[i] = draw_first_noise(motion, particles[i], rngs[i]);
 }
 
+HistoryShares history_of(std::span<const WalkerParticle> particles,
+                         std::span<const double> weights) {
+  HistoryShares out;
+  for (size_t i = 0; i < particles.size(); ++i) {
+    if (particles[i].continuation == Continuation::kJumped) out.jumped += weights[i];
+    if (particles[i].continuation == Continuation::kCaught) out.caught += weights[i];
+  }
+  return {std::min(1.0, out.jumped), std::min(1.0, out.caught)};
+}
+
 void summarise(const WalkerFilterContext& context, const ParticleSet<WalkerParticle>& set,
                FrameRecord& record) {
   const std::vector<double> weights = normalised_weights(set.log_weights);
@@ -50,6 +60,7 @@ void summarise(const WalkerFilterContext& context, const ParticleSet<WalkerParti
       estimate_frame(context.scene.model, set.states, weights, context.scene.dt, context.threads);
   add_model_error(context.scene.cameras, context.model_error, record.estimate);
   record.modes = stride_modes(set.states, weights);
+  record.history = history_of(set.states, weights);
   std::vector<uint32_t> chosen(static_cast<size_t>(context.samples));
   systematic_resample(set.log_weights, 0.5, chosen);
   const Body& body = context.scene.model.body;

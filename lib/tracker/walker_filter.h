@@ -16,6 +16,12 @@ inline namespace tracker {
 
 using WalkerFilter = ParticleFilter<WalkerParticle>;
 
+// Shares of the particles' weight, given the frame's images, by how walkers came into the frame
+// (Continuation); the rest is the walkers' own motion.
+struct HistoryShares {
+  double jumped = 0, caught = 0;
+};
+
 struct FrameRecord {
   bool tracked = false;
   FrameEstimate estimate;
@@ -24,6 +30,7 @@ struct FrameRecord {
   double mean_log_likelihood = 0;       // mean log-likelihood of the particles, nats
   std::vector<JointPositions> samples;  // a few particles that show the spread
   int fallen = 0, diverged = 0;
+  HistoryShares history;
   StrideModes modes;
   double names = 0;  // log-odds of the legs' labels by this frame's keypoints, nats
   // By camera: log-likelihood of the best particle by term, nats; NaN if a term has no evidence.

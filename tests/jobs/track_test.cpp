@@ -165,6 +165,18 @@ TEST_F(Track, FramesSeenTogetherTrembleLessAndLeaveNoFileOfTheirOwn) {
       EXPECT_GE(mass, 0);
       EXPECT_LE(mass, 1);
     }
+    const nlohmann::json &jumped = run.at("by_frame").at("jumped"),
+                         &caught = run.at("by_frame").at("caught");
+    double simulated = 0, frames = 0;
+    for (size_t i = 0; i < jumped.size(); ++i) {
+      if (jumped[i].is_null()) continue;
+      EXPECT_GE(jumped[i], 0);
+      EXPECT_GE(caught[i], 0);
+      simulated += 1 - jumped[i].get<double>() - caught[i].get<double>();
+      ++frames;
+    }
+    EXPECT_NEAR(run.at("numbers").at("simulated_percent"), 100 * simulated / frames, 1e-6);
+    EXPECT_GT(simulated / frames, 0.8);
     for (const nlohmann::json& measure : run.at("quality"))
       if (measure.at("name") == "jitter_m_s3") return measure.at("value").get<double>();
     throw std::out_of_range("jitter_m_s3");

@@ -1,5 +1,8 @@
 #include "tracker/smooth/model_error.h"
 
+#include <cmath>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "core/conventions.h"
@@ -91,6 +94,27 @@ TEST(AddModelError, WidensEverySpreadAndLeavesMeans) {
   EXPECT_GT(estimate.angles[kKneeAngleL].sd, before.angles[kKneeAngleL].sd);
   // The camera looks along y: the distance is known least.
   EXPECT_GT(estimate.spread[1][1].sd, 3 * estimate.spread[1][0].sd);
+}
+
+// Knees are higher or lower than those of other people of the same stature: percentiles of Gordon
+// et al. 1989 and a correlation with the stature of .84. Ankles are not.
+TEST(AddModelError, KneesHaveTheHeightsThatPeopleHave) {
+  FrameEstimate estimate;
+  estimate.joint_count = kJointCountWithoutArms;
+  estimate.joints[Joint::kHead] = kHead;
+  for (const Joint ankle : {Joint::kLeftAnkle, Joint::kRightAnkle}) estimate.joints[ankle] = kFeet;
+  for (auto& joint : estimate.spread) joint.fill({1, 0.01, 0.99, 1.01});
+  add_model_error(std::vector{camera_from({0, -7, 1})}, 1, estimate);
+  const double among_men = (0.606 - 0.514) / (2 * 1.645);
+  const double of_one_stature = among_men * std::sqrt(1 - 0.84 * 0.84);
+  for (const auto& [knee, ankle] : {std::pair(Joint::kLeftKnee, Joint::kLeftAnkle),
+                                    std::pair(Joint::kRightKnee, Joint::kRightAnkle)}) {
+    const auto variance = [&](Joint joint, size_t axis) {
+      return std::pow(estimate.spread[static_cast<size_t>(joint)][axis].sd, 2);
+    };
+    EXPECT_NEAR(std::sqrt(variance(knee, 2) - variance(ankle, 2)), of_one_stature, 5e-4);
+    for (const size_t axis : {0, 1}) EXPECT_EQ(variance(knee, axis), variance(ankle, axis));
+  }
 }
 
 // If particles agree, the band is that of the model error alone: the 5th and 95th percentile of a

@@ -63,6 +63,25 @@ TEST(PhaseJump, ThePoseStays) {
   EXPECT_GT(other_leg, 2);
 }
 
+// In the frame that it leads into, and no longer.
+TEST(PhaseJump, IsNotedForOneFrame) {
+  const Walking walking;
+  const MotionContext always = walking.context(kDt, with_rephasing(2 / kDt)),
+                      never = walking.context(kDt, with_rephasing(0));
+  int jumped = 0;
+  uint32_t i = 0;
+  for (WalkerParticle& particle : walkers_on_their_way(always, 200)) {
+    Rng rng = stream(i++);
+    propagate(always, particle, rng);
+    jumped += particle.continuation == Continuation::kJumped;
+    if (propagate(never, particle, rng) == Outcome::kAlive) {
+      EXPECT_EQ(particle.continuation, Continuation::kSimulated);
+    }
+  }
+  EXPECT_GT(jumped, 5);
+  EXPECT_LT(jumped, 200);
+}
+
 // Gives the particle residuals, now and one frame ago, from their stationary distribution, and the
 // pose that they make. It is crouched, so that no knee reaches its limit.
 void draw_residuals(const MotionContext& context, WalkerParticle& particle, Rng& rng) {

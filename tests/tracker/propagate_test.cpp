@@ -38,6 +38,7 @@ TEST(Propagate, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
   for (int frame = 0; frame < kFrames; ++frame) {
     Rng rng(1, Purpose::kTest, static_cast<uint32_t>(frame));
     ASSERT_EQ(propagate(context, p, rng), Outcome::kAlive) << "frame " << frame;
+    EXPECT_EQ(p.continuation, Continuation::kSimulated);
     silence(p, context);
   }
   const double distance = p.pose.root.x() - start.x();
@@ -155,6 +156,7 @@ TEST(Propagate, AWalkerThatFallsContinuesUpright) {
   p.walker.q[kStanceShank] += 0.9;
   Rng rng(1, Purpose::kTest);
   ASSERT_EQ(propagate(context, p, rng), Outcome::kFallen);
+  EXPECT_EQ(p.continuation, Continuation::kCaught);
   silence(p, context);
   EXPECT_NEAR(p.pose.root.z(), upright, 0.06);  // the hip's vertical motion within a step
   for (uint32_t frame = 1; frame < 60; ++frame) {

@@ -13,6 +13,7 @@ inline namespace io {
 
 constexpr Side last_value(Side) { return Side::kRight; }
 constexpr Regime last_value(Regime) { return Regime::kStanding; }
+constexpr Continuation last_value(Continuation) { return Continuation::kCaught; }
 
 // A count of events.
 template <typename T>
@@ -81,10 +82,10 @@ template <typename Archive, ArchivedAs<WalkerParticle> T>
 void fields(Archive& archive, T& value) {
   auto& [predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_residual, noise,
          walker, stance, ball, residual, residual_before, pose, pose_before, way, first_frame,
-         regime, controls, aim] = value;
+         regime, continuation, controls, aim] = value;
   archive(predicted, velocity_per_impulse, predicted_ball, ball_sigma, predicted_residual, noise,
           walker, stance, ball, residual, residual_before, pose, pose_before, way, first_frame,
-          regime, controls, aim);
+          regime, continuation, controls, aim);
 }
 
 template <typename Archive, ArchivedAs<ParticleSet<WalkerParticle>> T>
@@ -203,6 +204,12 @@ void fields(Archive& archive, T& value) {
   archive(phase, p_legs_swapped, a_share(standing));
 }
 
+template <typename Archive, ArchivedAs<HistoryShares> T>
+void fields(Archive& archive, T& value) {
+  auto& [jumped, caught] = value;
+  archive(a_share(jumped), a_share(caught));
+}
+
 template <typename Archive, ArchivedAs<FigureFit> T>
 void fields(Archive& archive, T& value) {
   auto& [overlap, better_beside] = value;
@@ -229,11 +236,11 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
-  auto& [tracked, estimate, images, filter, mean_log_likelihood, samples, fallen, diverged, modes,
-         names, evidence, keypoints, fit, moving] = value;
+  auto& [tracked, estimate, images, filter, mean_log_likelihood, samples, fallen, diverged, history,
+         modes, names, evidence, keypoints, fit, moving] = value;
   archive(tracked, estimate, images, filter, any_number(mean_log_likelihood), samples,
-          a_count(fallen), a_count(diverged), modes, names, any_number(evidence), keypoints, fit,
-          moving);
+          a_count(fallen), a_count(diverged), history, modes, names, any_number(evidence),
+          keypoints, fit, moving);
 }
 
 }  // namespace io

@@ -46,8 +46,9 @@ class MotionModel {
   virtual void initialise(const MotionContext& context, std::span<const double> phases,
                           std::span<WalkerParticle> particles) const = 0;
 
-  // Before a frame: a particle may jump to another phase that explains its pose.
-  virtual void jump_phase(const MotionContext&, WalkerParticle&, Rng&) const {}
+  // Before a frame: a particle may jump to another phase that explains its pose. Returns whether it
+  // did.
+  virtual bool jump_phase(const MotionContext&, WalkerParticle&, Rng&) const { return false; }
 
   // Predicts a frame without its noise: the walkers move and feet come down. outcomes[i] is never
   // kDead. The result for a particle does not depend on the others. All spans have the same size.

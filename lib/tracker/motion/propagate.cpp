@@ -160,13 +160,15 @@ void propagate(const MotionContext& context, std::span<WalkerParticle> particles
     WalkerParticle& p = particles[i];
     const bool came = std::exchange(p.first_frame, false);
     if (turn && !came) update_travel_velocity(context, p);
-    context.moves.jump_phase(context, p, rngs[i]);
+    p.continuation = context.moves.jump_phase(context, p, rngs[i]) ? Continuation::kJumped
+                                                                   : Continuation::kSimulated;
     predict_residuals(context, p);
     if (turn) relax_heading_to_travel(context, p);
   }
   context.moves.predict(context, particles, rngs, outcomes);
   for (size_t i = 0; i < particles.size(); ++i) {
     particles[i].pose_before = particles[i].pose;
+    if (outcomes[i] != Outcome::kAlive) particles[i].continuation = Continuation::kCaught;
     if (!predict(context, particles[i], rngs[i])) outcomes[i] = Outcome::kDead;
   }
 }

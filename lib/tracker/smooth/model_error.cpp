@@ -28,7 +28,13 @@ struct JointError {
   double level, upright;
 };
 
-// Beyond the figure's; left and right alike. Pelvis, knees and ankles have no error beyond it.
+// Standard deviation of the height of knees among people of one stature: 2.8 cm among all men (5 to
+// 95 % of them: 51.4 to 60.6 cm, Gordon et al. 1989, NATICK/TR-89/044), of which a correlation of
+// .84 with the stature leaves 1.5. All people of the walks that the other errors were measured on
+// had the same skeleton.
+constexpr double kKneeHeight = 0.015;  // m
+
+// Beyond the figure's; left and right alike. Pelvis and ankles have no error beyond it.
 JointError joint_error(size_t joint) {
   switch (static_cast<Joint>(joint)) {
     case Joint::kNeck:
@@ -38,6 +44,9 @@ JointError joint_error(size_t joint) {
     case Joint::kLeftHip:
     case Joint::kRightHip:
       return {0.009, 0.005};
+    case Joint::kLeftKnee:
+    case Joint::kRightKnee:
+      return {0, kKneeHeight};
     case Joint::kLeftToe:
     case Joint::kRightToe:
       return {0.010, 0};

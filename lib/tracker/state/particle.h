@@ -33,6 +33,10 @@ enum class Path { kSpatial, kSagittal };
 // The regime of a particle (tracker/motion/standing.h).
 enum class Regime : uint8_t { kWalking, kStanding };
 
+// How a walker came from the frame before: by its own motion; by a jump to another moment of a step
+// (tracker/moves/phase_jump.h) or between the regimes; or because it was caught (Outcome).
+enum class Continuation : uint8_t { kSimulated, kJumped, kCaught };
+
 // The coordinates on which the noise of a frame acts.
 enum NoiseIndex {
   kTorqueNoise,                   // 5: torso, hip, stance knee, swing knee, stance ankle
@@ -78,6 +82,7 @@ struct WalkerParticle {
   // Whether this is the first frame: there is no frame before, and residual angles start at rest.
   bool first_frame = false;
   Regime regime = Regime::kWalking;
+  Continuation continuation = Continuation::kSimulated;  // into this frame
 
   KneedControls controls;
   StepAim aim;

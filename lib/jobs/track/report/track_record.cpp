@@ -84,6 +84,17 @@ std::vector<double> pelvis_speeds(const TrackedFrames& frames) {
   return out;
 }
 
+// Of the tracked history, the share that is the walker's own motion; NaN if nobody was tracked.
+double simulated_percent(const TrackedFrames& frames) {
+  double sum = 0, count = 0;
+  for (const FrameRecord& record : frames.records) {
+    if (!record.tracked) continue;
+    sum += 1 - record.history.jumped - record.history.caught;
+    ++count;
+  }
+  return 100 * sum / count;
+}
+
 bool is_paced(const TrackJob& job) { return job.config.values.budget.frame_ms > 0; }
 
 std::string pace_note(const BudgetConfig& budget) {
@@ -116,6 +127,7 @@ RunNumbers numbers_of(const TrackJob& job, const TrackRun& run, const TrackedFra
                  {"foot_changes", double(foot_changes(frames))},
                  {"fallen_particles", double(counts.fallen)},
                  {"diverged_particles", double(counts.diverged)},
+                 {"simulated_percent", simulated_percent(frames)},
                  {"distance_m", totals.distance},
                  {"positive_work_j", totals.positive_work},
                  {"negative_work_j", totals.negative_work},
@@ -151,6 +163,8 @@ RunSeries series_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
       {"log_evidence",
        by_frame(frames, [](const FrameRecord& r) { return r.filter.log_evidence; })},
       {"layers", by_frame(frames, [](const FrameRecord& r) { return double(r.filter.layers); })},
+      {"jumped", by_frame(frames, [](const FrameRecord& r) { return r.history.jumped; })},
+      {"caught", by_frame(frames, [](const FrameRecord& r) { return r.history.caught; })},
       {"left_stance",
        by_frame(frames, [](const FrameRecord& r) { return r.estimate.left_stance; })},
       {"stride_phase", by_frame(frames, [](const FrameRecord& r) { return r.modes.phase; })},

@@ -96,12 +96,12 @@ void KneedMotion::initialise(const MotionContext& context, std::span<const doubl
   walk_to(context.model.walker, times, particles);
 }
 
-void KneedMotion::jump_phase(const MotionContext& context, WalkerParticle& particle,
+bool KneedMotion::jump_phase(const MotionContext& context, WalkerParticle& particle,
                              Rng& rng) const {
-  if (context.standing != nullptr && change_regime(context, steps_, particle, rng)) return;
-  if (particle.regime == Regime::kStanding) return;
-  if (rng.uniform() < context.config.phase_jump_rate * context.dt)
-    try_phase_jump(context, steps_, particle, rng);
+  if (context.standing != nullptr && change_regime(context, steps_, particle, rng)) return true;
+  if (particle.regime == Regime::kStanding) return false;
+  return rng.uniform() < context.config.phase_jump_rate * context.dt &&
+         try_phase_jump(context, steps_, particle, rng);
 }
 
 void KneedMotion::predict(const MotionContext& context, std::span<WalkerParticle> particles,

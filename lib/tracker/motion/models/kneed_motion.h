@@ -23,7 +23,7 @@ class KneedMotion : public MotionModel {
   MarkovConstants constants(const MotionConfig& config, ResidualAngle residual) const override;
   void initialise(const MotionContext& context, std::span<const double> phases,
                   std::span<WalkerParticle> particles) const override;
-  void jump_phase(const MotionContext& context, WalkerParticle& particle, Rng& rng) const override;
+  bool jump_phase(const MotionContext& context, WalkerParticle& particle, Rng& rng) const override;
   void predict(const MotionContext& context, std::span<WalkerParticle> particles,
                std::span<Rng> rngs, std::span<Outcome> outcomes) const override;
   bool linearise_noise(const MotionContext& context, WalkerParticle& particle) const override;
