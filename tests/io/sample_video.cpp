@@ -94,6 +94,20 @@ void turn_video(const std::string& path, int clockwise_deg) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
+void trim_video(const std::string& path, int frames) {
+  std::string bytes = bytes_of(path);
+  const auto number = [&](size_t at) {
+    uint32_t value = 0;
+    for (size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<uint8_t>(bytes[at + i]);
+    return value;
+  };
+  const uint32_t ticks = number(bytes.find("mdhd") + 16) / 25;  // of a frame
+  const size_t at = bytes.find("elst") + 16;                    // media time of the first entry
+  const uint32_t begin = number(at) + static_cast<uint32_t>(frames) * ticks;
+  for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(begin >> (24 - 8 * i));
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
 void write_sample_images(const std::string& folder, const std::vector<int>& numbers) {
   std::filesystem::create_directories(folder);
   for (const int number : numbers) {

@@ -22,6 +22,9 @@ void write_timed_video(const std::string& path, const std::vector<cv::Mat>& fram
                        const std::vector<double>& durations);
 // Sets a rotation flag, clockwise, in an MP4 file: 90, 180 or 270.
 void turn_video(const std::string& path, int clockwise_deg);
+// Lets an MP4 file of 25 Hz begin some frames later without encoding it again, as telephones trim
+// videos: by its edit list.
+void trim_video(const std::string& path, int frames);
 // frame<number>.png
 void write_sample_images(const std::string& folder, const std::vector<int>& numbers);
 

@@ -189,6 +189,22 @@ TEST(FrameSource, RefusesAVideoThatChangesItsSize) {
       << source.trouble();
 }
 
+// Its first frames are in the file, and are neither shown nor missing at the end.
+TEST(FrameSource, BeginsWhereATrimmedVideoBegins) {
+  const TemporaryFolder folder;
+  write_sample_video(folder / "v.mp4", 20);
+  trim_video(folder / "v.mp4", 6);
+  FrameSource source(folder / "v.mp4");
+  EXPECT_EQ(source.facts().frame_count, 14);
+  cv::Mat frame;
+  for (int i = 6; i < 20; ++i) {
+    ASSERT_TRUE(source.read(frame)) << i;
+    EXPECT_EQ(shown_number(frame), i);
+  }
+  EXPECT_FALSE(source.advance());
+  EXPECT_EQ(source.trouble(), "");
+}
+
 TEST(VideoDecoder, OpensNothingThatHasNoVideo) {
   const TemporaryFolder folder;
   EXPECT_FALSE(VideoDecoder::open(folder / "absent.mp4"));

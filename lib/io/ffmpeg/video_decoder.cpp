@@ -7,6 +7,7 @@ extern "C" {
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "core/parallel_for.h"
 #include "io/ffmpeg/ffmpeg.h"
@@ -33,6 +34,17 @@ ColourPlanes planes_of(const AVFrame& frame) {
   return {{frame.data[0], frame.data[1], frame.data[2]},
           {frame.linesize[0], frame.linesize[1], frame.linesize[2]},
           frame.format == AV_PIX_FMT_YUVJ420P};
+}
+
+// Frames that a video which was cut without encoding it again still holds, and does not show.
+int64_t frames_not_shown(const AVFormatContext& input, const AVStream& stream) {
+  if (std::string_view(input.iformat->name).substr(0, 3) != "mov") return 0;  // has no edit lists
+  // Its index has the frames that are decoded, of which some are not shown.
+  int64_t shown = 0;
+  for (int i = 0; i < avformat_index_get_entries_count(&stream); ++i)
+    shown += (avformat_index_get_entry(const_cast<AVStream*>(&stream), i)->flags &
+              AVINDEX_DISCARD_FRAME) == 0;
+  return shown > 0 ? std::max<int64_t>(0, stream.nb_frames - shown) : 0;
 }
 
 int rotation_of(const AVStream& stream) {
@@ -127,7 +139,9 @@ double VideoDecoder::frame_rate() const {
 int VideoDecoder::frame_count() const {
   const AVStream& stream = *state_->stream;
   double count = static_cast<double>(stream.nb_frames);
-  if (count <= 0) {
+  if (count > 0) {
+    count -= static_cast<double>(frames_not_shown(*state_->input, stream));
+  } else {
     double seconds = static_cast<double>(state_->input->duration) / AV_TIME_BASE;
     if (seconds <= 0) seconds = static_cast<double>(stream.duration) * ratio(stream.time_base);
     count = std::floor(seconds * frame_rate() + 0.5);
