@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kMostDecoderThreads = 4;  // each holds frames of its own
 // Twice as small as well: means of 2 x 2 converted pixels are as fast.
-constexpr int kLeastMeaned = 3;
+constexpr int kLeastPlaneMeans = 3;
 
 double ratio(const AVRational& value) { return value.den == 0 ? 0 : av_q2d(value); }
 
@@ -167,7 +167,7 @@ void VideoDecoder::picture(cv::Mat& bgr) const { state_->convert(bgr); }
 
 void VideoDecoder::picture(const cv::Rect& area, int shrink, cv::Mat& bgr) const {
   const AVFrame& frame = *state_->frame;
-  if (has_plain_planes(frame) && shrink >= kLeastMeaned && shrink <= kMostMeaned)
+  if (has_plain_planes(frame) && shrink >= kLeastPlaneMeans && shrink <= kMostMeaned)
     return mean_colours(planes_of(frame), area, shrink, bgr);
   state_->convert(state_->whole);
   shrunk(state_->whole(area), shrink).copyTo(bgr);

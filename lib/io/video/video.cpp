@@ -27,6 +27,11 @@ int smallest_believable_count(int announced) { return announced - 2 - announced 
   throw InputError(describe({path.string(), 0, ""}, found, allowed));
 }
 
+// From this factor on, pictures are shrunk before they are converted. It saves little for smaller
+// factors, with which two telephones (factor 5) had a foot plant on the wrong side in three of
+// eighteen runs, and in none of pictures that are converted first: not enough to tell them apart.
+constexpr int kLeastMeaned = 8;
+
 std::string size_text(cv::Size size) { return fmt::format("{}x{}", size.width, size.height); }
 
 void turn(const cv::Mat& raw, int clockwise_deg, cv::Mat& turned) {
@@ -153,6 +158,10 @@ void FrameSource::picture(cv::Mat& out) const {
 
 void FrameSource::picture(int shrink, cv::Mat& out) const {
   if (shrink == 1) return picture(out);
+  if (shrink < kLeastMeaned) {
+    picture(whole_);
+    return shrunk(whole_, shrink).copyTo(out);
+  }
   const auto whole = [&](int length) { return length / shrink * shrink; };
   picture({0, 0, whole(facts_.width_px), whole(facts_.height_px)}, shrink, out);
 }
@@ -185,6 +194,7 @@ bool FrameSource::advance_image() {
 void FrameSource::close() {
   decoder_.reset();
   image_.release();
+  whole_.release();
   closed_ = true;
 }
 

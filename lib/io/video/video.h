@@ -50,7 +50,8 @@ class FrameSource {
   // states which and why.
   bool advance();
   // That frame, 8-bit BGR: all of it; shrunk as by shrunk() of observation/shrink.h; or an area of
-  // it, shrunk. `out` keeps its memory. To be called by one thread at a time.
+  // it, shrunk (within rounding the same). `out` keeps its memory. To be called by one thread at a
+  // time.
   void picture(cv::Mat& out) const;
   void picture(int shrink, cv::Mat& out) const;
   void picture(const cv::Rect& area, int shrink, cv::Mat& out) const;
@@ -77,6 +78,7 @@ class FrameSource {
   std::vector<std::filesystem::path> images_;  // image files in order, or
   std::vector<int> missing_before_;            // before each of them
   cv::Mat image_;                              // one of them, or that of every frame
+  mutable cv::Mat whole_;                      // memory for a picture before it is shrunk
   cv::Size size_px_;                           // of the video as decoded
   VideoFacts facts_;
   int next_frame_ = 0;
