@@ -139,7 +139,7 @@ TEST(VideoDecoder, ConvertsTheFrameItIsAt) {
   ASSERT_TRUE(source.advance());
   ASSERT_TRUE(source.skip(3));
   ASSERT_TRUE(source.advance());
-  for (const int factor : {1, 2, 4}) {
+  for (const int factor : {1, 2, 4, 8}) {
     source.picture(factor, frame);
     EXPECT_EQ(frame.size(), cv::Size(64 / factor, 48 / factor));
     EXPECT_EQ(shown_number(frame), 4);
@@ -165,7 +165,7 @@ TEST(FrameSource, ShrinksTurnedFramesAsTheyAreShown) {
                : clockwise_deg == 180 ? cv::ROTATE_180
                                       : cv::ROTATE_90_COUNTERCLOCKWISE);
     EXPECT_LT(cv::norm(whole, expected, cv::NORM_L1) / double(whole.total() * 3), 3);
-    for (const int factor : {3, 7}) {
+    for (const int factor : {3, 7, 9}) {
       source.picture(factor, small);
       EXPECT_LE(largest_difference(small, shrunk(whole, factor)), kRounding)
           << clockwise_deg << factor;

@@ -68,11 +68,16 @@ TEST(FigureCovariance, ACameraThatLooksAwayTellsNothing) {
   EXPECT_EQ(figure_covariance(one, kHead, kFeet), figure_covariance(two, kHead, kFeet));
 }
 
-TEST(AddModelError, WidensEverySpreadAndLeavesMeans) {
+FrameEstimate upright_estimate() {
   FrameEstimate estimate;
   estimate.joint_count = kJointCountWithoutArms;
   estimate.joints[Joint::kHead] = kHead;
   for (const Joint ankle : {Joint::kLeftAnkle, Joint::kRightAnkle}) estimate.joints[ankle] = kFeet;
+  return estimate;
+}
+
+TEST(AddModelError, WidensEverySpreadAndLeavesMeans) {
+  FrameEstimate estimate = upright_estimate();
   // Skewed, with few outliers that pull the mean out of its band.
   for (auto& joint : estimate.spread) joint.fill({1, 0.01, 0.99, 1.03});
   estimate.spread[0][0] = {1, 0.01, 1.001, 1.004};
@@ -99,10 +104,7 @@ TEST(AddModelError, WidensEverySpreadAndLeavesMeans) {
 // Knees are higher or lower than those of other people of the same stature: percentiles of Gordon
 // et al. 1989 and a correlation with the stature of .84. Ankles are not.
 TEST(AddModelError, KneesHaveTheHeightsThatPeopleHave) {
-  FrameEstimate estimate;
-  estimate.joint_count = kJointCountWithoutArms;
-  estimate.joints[Joint::kHead] = kHead;
-  for (const Joint ankle : {Joint::kLeftAnkle, Joint::kRightAnkle}) estimate.joints[ankle] = kFeet;
+  FrameEstimate estimate = upright_estimate();
   for (auto& joint : estimate.spread) joint.fill({1, 0.01, 0.99, 1.01});
   add_model_error(std::vector{camera_from({0, -7, 1})}, 1, estimate);
   const double among_men = (0.606 - 0.514) / (2 * 1.645);
@@ -120,10 +122,7 @@ TEST(AddModelError, KneesHaveTheHeightsThatPeopleHave) {
 // If particles agree, the band is that of the model error alone: the 5th and 95th percentile of a
 // normal distribution (Abramowitz & Stegun 1964, table 26.5), with its standard deviation.
 TEST(AddModelError, BandsHoldNineTenthsOfANormalError) {
-  FrameEstimate estimate;
-  estimate.joint_count = kJointCountWithoutArms;
-  estimate.joints[Joint::kHead] = kHead;
-  for (const Joint ankle : {Joint::kLeftAnkle, Joint::kRightAnkle}) estimate.joints[ankle] = kFeet;
+  FrameEstimate estimate = upright_estimate();
   for (auto& joint : estimate.spread) joint.fill({1, 0, 1, 1});
   estimate.angles.fill({0.2, 0, 0.2, 0.2});
   add_model_error(std::vector<Camera>{camera_from({0, -7, 1})}, 1, estimate);

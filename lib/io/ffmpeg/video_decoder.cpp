@@ -20,7 +20,7 @@ inline namespace io {
 namespace {
 
 constexpr int kMostDecoderThreads = 4;  // each holds frames of its own
-// Twice as small as well: means of 2 x 2 converted pixels are as fast.
+// Below this factor it is as fast to convert pixels first.
 constexpr int kLeastPlaneMeans = 3;
 
 double ratio(const AVRational& value) { return value.den == 0 ? 0 : av_q2d(value); }

@@ -27,10 +27,9 @@ int smallest_believable_count(int announced) { return announced - 2 - announced 
   throw InputError(describe({path.string(), 0, ""}, found, allowed));
 }
 
-// From this factor on, pictures are shrunk before they are converted. It saves little for smaller
-// factors, with which two telephones (factor 5) had a foot plant on the wrong side in three of
-// eighteen runs, and in none of pictures that are converted first: not enough to tell them apart.
-constexpr int kLeastMeaned = 8;
+// Videos are shrunk before they are converted from this factor on. Below it little time is saved,
+// and the tracker was measured with pictures that are converted first (tests/bench/README.md).
+constexpr int kShrunkFirst = 8;
 
 std::string size_text(cv::Size size) { return fmt::format("{}x{}", size.width, size.height); }
 
@@ -158,7 +157,7 @@ void FrameSource::picture(cv::Mat& out) const {
 
 void FrameSource::picture(int shrink, cv::Mat& out) const {
   if (shrink == 1) return picture(out);
-  if (shrink < kLeastMeaned) {
+  if (decoder_ && shrink < kShrunkFirst) {
     picture(whole_);
     return shrunk(whole_, shrink).copyTo(out);
   }
