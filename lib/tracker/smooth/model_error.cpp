@@ -29,9 +29,9 @@ struct JointError {
 };
 
 // Standard deviation of the height of knees among people of one stature: 2.8 cm among all men (5 to
-// 95 % of them: 51.4 to 60.6 cm, Gordon et al. 1989, NATICK/TR-89/044), of which a correlation of
-// .84 with the stature leaves 1.5. All people of the walks that the other errors were measured on
-// had the same skeleton.
+// 95 % of them: 51.4 to 60.6 cm, Gordon et al. 1989, NATICK/TR-89/044). A correlation of .84 with
+// the stature, by hand, leaves 1.5. All people that the other errors were measured on had one
+// skeleton.
 constexpr double kKneeHeight = 0.015;  // m
 
 // Beyond the figure's; left and right alike. Pelvis and ankles have no error beyond it.
