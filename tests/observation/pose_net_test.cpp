@@ -120,6 +120,24 @@ TEST(PoseNet, FollowsThePicture) {
   }
 }
 
+// The part of a frame under the cut-out says what the frame says, also at its border.
+TEST(PoseNet, NeedsOnlyThePixelsOfTheCutOut) {
+  if (!has_pose_net()) GTEST_SKIP() << "built without OpenCV's dnn module";
+  const cv::Mat frame = side_view();
+  if (frame.empty()) GTEST_SKIP() << "no ../shared/data/sports2d_side";
+  const Threads one(1);
+  PoseNet net(shipped(), "net");
+  for (const CutOut& cut_out : {kWoman, CutOut{kWoman.x0, kWoman.y0 + 300, kWoman.side_px}}) {
+    const DetectedPerson whole = net.detect(frame, cut_out);
+    const cv::Rect there = part_within(cut_out, frame.cols, frame.rows);
+    const DetectedPerson part = net.detect(frame(there), cut_out, there.tl());
+    for (size_t k = 0; k < kCocoPoints; ++k) {
+      EXPECT_EQ(part.points[k].x_px, whole.points[k].x_px);
+      EXPECT_EQ(part.points[k].y_px, whole.points[k].y_px);
+    }
+  }
+}
+
 TEST(PoseNet, SaysTheSameTwice) {
   if (!has_pose_net()) GTEST_SKIP() << "built without OpenCV's dnn module";
   const cv::Mat frame = side_view();

@@ -22,6 +22,8 @@ namespace {
 constexpr int kMostDecoderThreads = 4;  // each holds frames of its own
 // Below this factor it is as fast to convert pixels first.
 constexpr int kLeastPlaneMeans = 3;
+constexpr int kStripRows = 32;  // of the frame, which are converted and shrunk at a time
+constexpr int kRowBlock = 32;   // FFmpeg writes rows in blocks of pixels
 
 double ratio(const AVRational& value) { return value.den == 0 ? 0 : av_q2d(value); }
 
@@ -35,6 +37,25 @@ ColourPlanes planes_of(const AVFrame& frame) {
           {frame.linesize[0], frame.linesize[1], frame.linesize[2]},
           frame.format == AV_PIX_FMT_YUVJ420P};
 }
+
+// Whether every two rows are converted from their own planes alone.
+bool has_independent_rows(const AVFrame& frame) {
+  return has_plain_planes(frame) && frame.height % 2 == 0;
+}
+
+// The planes of such a frame from row `first` on, an even number.
+auto rows_from(const AVFrame& frame, int first) {
+  std::array<const uint8_t*, AV_NUM_DATA_POINTERS> planes{};
+  for (size_t p = 0; p < 3; ++p) {
+    const ptrdiff_t row = p == 0 ? first : first / 2;
+    planes[p] = frame.data[p] + row * frame.linesize[p];
+  }
+  return planes;
+}
+
+int even(int rows) { return (rows + 1) / 2 * 2; }
+
+int whole_blocks(int width) { return (width + kRowBlock - 1) / kRowBlock * kRowBlock; }
 
 // Frames that a video which was cut without encoding it again still holds, and does not show.
 int64_t frames_not_shown(const AVFormatContext& input, const AVStream& stream) {
@@ -63,8 +84,8 @@ struct VideoDecoder::State {
   ffmpeg::Owned<AVCodecContext> codec;
   ffmpeg::Owned<AVFrame> frame{av_frame_alloc()};
   ffmpeg::Owned<AVPacket> packet{av_packet_alloc()};
-  ffmpeg::Owned<SwsContext> converter;
-  cv::Mat padded, whole;  // memory for converted frames
+  ffmpeg::Owned<SwsContext> converter, strip_converter;
+  cv::Mat padded, whole, strip;  // memory for converted frames
   const AVStream* stream = nullptr;
   bool at_end = false;
 
@@ -93,29 +114,29 @@ struct VideoDecoder::State {
     }
   }
 
-  // All of the frame. FFmpeg writes rows in blocks of pixels, beyond the end of one that is short.
+  // All of the frame. A row that is short is written beyond its end.
   void convert(cv::Mat& bgr) {
     const AVFrame& f = *frame;
-    constexpr int kBlock = 32;
-    if (f.width % kBlock != 0) {
-      padded.create(f.height, (f.width / kBlock + 1) * kBlock, CV_8UC3);
-      convert_into(padded);
-      padded.colRange(0, f.width).copyTo(bgr);
-    } else {
-      bgr.create(f.height, f.width, CV_8UC3);
-      convert_into(bgr);
-    }
+    const bool is_short = f.width % kRowBlock != 0;
+    cv::Mat& into = is_short ? padded : bgr;
+    into.create(f.height, whole_blocks(f.width), CV_8UC3);
+    convert_rows(converter, 0, f.height, f.height, into);
+    if (is_short) padded.colRange(0, f.width).copyTo(bgr);
   }
 
-  void convert_into(cv::Mat& bgr) {
+  // Rows of the frame, which `owner` converts as part of a picture that is `height` rows high.
+  void convert_rows(ffmpeg::Owned<SwsContext>& owner, int first, int rows, int height,
+                    cv::Mat& bgr) {
     const AVFrame& f = *frame;
     const auto format = static_cast<AVPixelFormat>(f.format);
-    converter.reset(sws_getCachedContext(converter.release(), f.width, f.height, format, f.width,
-                                         f.height, AV_PIX_FMT_BGR24, SWS_BICUBIC, nullptr, nullptr,
-                                         nullptr));
+    owner.reset(sws_getCachedContext(owner.release(), f.width, height, format, f.width, height,
+                                     AV_PIX_FMT_BGR24, SWS_BICUBIC, nullptr, nullptr, nullptr));
+    std::array<const uint8_t*, AV_NUM_DATA_POINTERS> from{};
+    std::copy_n(f.data, from.size(), from.begin());
+    if (first > 0) from = rows_from(f, first);
     const std::array<uint8_t*, 4> to{bgr.data};
     const std::array<int, 4> stride{static_cast<int>(bgr.step)};
-    sws_scale(converter.get(), f.data, f.linesize, 0, f.height, to.data(), stride.data());
+    sws_scale(owner.get(), from.data(), f.linesize, 0, rows, to.data(), stride.data());
   }
 };
 
@@ -169,8 +190,28 @@ void VideoDecoder::picture(const cv::Rect& area, int shrink, cv::Mat& bgr) const
   const AVFrame& frame = *state_->frame;
   if (has_plain_planes(frame) && shrink >= kLeastPlaneMeans && shrink <= kMostMeaned)
     return mean_colours(planes_of(frame), area, shrink, bgr);
-  state_->convert(state_->whole);
-  shrunk(state_->whole(area), shrink).copyTo(bgr);
+  means_of_pixels(area, shrink, bgr);
+}
+
+void VideoDecoder::means_of_pixels(const cv::Rect& area, int shrink, cv::Mat& bgr) const {
+  State& state = *state_;
+  if (!has_independent_rows(*state.frame)) {
+    state.convert(state.whole);
+    return shrunk(state.whole(area), shrink).copyTo(bgr);
+  }
+  const int width = area.width / shrink, height = area.height / shrink;
+  const int most = std::max(1, kStripRows / shrink);  // rows of the result
+  const int most_rows = even(most * shrink) + 2;      // of the frame
+  bgr.create(height, width, CV_8UC3);
+  state.strip.create(most_rows, whole_blocks(state.frame->width), CV_8UC3);
+  for (int row = 0; row < height; row += most) {
+    const int count = std::min(most, height - row);
+    const int begin = area.y + row * shrink, first = begin / 2 * 2;
+    const int rows = even(begin + count * shrink) - first;
+    state.convert_rows(state.strip_converter, first, rows, most_rows, state.strip);
+    const cv::Rect seen(area.x, begin - first, width * shrink, count * shrink);
+    shrunk(state.strip(seen), shrink).copyTo(bgr.rowRange(row, row + count));
+  }
 }
 
 }  // namespace io

@@ -30,9 +30,12 @@ class VideoDecoder {
   // The size of the frame that was decoded.
   cv::Size frame_px() const;
   // That frame, 8-bit BGR, not turned: all of it, or an area of it, shrunk by an integer factor as
-  // by shrunk() of observation/shrink.h. `bgr` keeps its memory.
+  // by shrunk() of observation/shrink.h (within rounding). `bgr` keeps its memory.
   void picture(cv::Mat& bgr) const;
   void picture(const cv::Rect& area, int shrink, cv::Mat& bgr) const;
+  // The latter with every pixel converted before it is shrunk: the same bytes as shrunk(). An
+  // 8-bit YUV 4:2:0 frame is converted and shrunk strip by strip, without a full-size copy.
+  void means_of_pixels(const cv::Rect& area, int shrink, cv::Mat& bgr) const;
 
  private:
   struct State;

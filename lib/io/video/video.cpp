@@ -157,19 +157,26 @@ void FrameSource::picture(cv::Mat& out) const {
 
 void FrameSource::picture(int shrink, cv::Mat& out) const {
   if (shrink == 1) return picture(out);
-  if (decoder_ && shrink < kShrunkFirst) {
-    picture(whole_);
-    return shrunk(whole_, shrink).copyTo(out);
-  }
   const auto whole = [&](int length) { return length / shrink * shrink; };
-  picture({0, 0, whole(facts_.width_px), whole(facts_.height_px)}, shrink, out);
+  shrunk_picture({0, 0, whole(facts_.width_px), whole(facts_.height_px)}, shrink,
+                 shrink < kShrunkFirst, out);
 }
 
 void FrameSource::picture(const cv::Rect& area, int shrink, cv::Mat& out) const {
+  shrunk_picture(area, shrink, false, out);
+}
+
+// `converted`: every pixel is converted to colours before it is shrunk.
+void FrameSource::shrunk_picture(const cv::Rect& area, int shrink, bool converted,
+                                 cv::Mat& out) const {
   if (!decoder_) return shrunk(image_(area), shrink).copyTo(out);
-  if (!facts_.rotated) return decoder_->picture(area, shrink, out);
+  const auto make = [&](const cv::Rect& part, cv::Mat& made) {
+    if (converted) return decoder_->means_of_pixels(part, shrink, made);
+    decoder_->picture(part, shrink, made);
+  };
+  if (!facts_.rotated) return make(area, out);
   cv::Mat raw;
-  decoder_->picture(before_turn(area, facts_.rotation_deg, decoder_->frame_px()), shrink, raw);
+  make(before_turn(area, facts_.rotation_deg, decoder_->frame_px()), raw);
   turn(raw, facts_.rotation_deg, out);
 }
 
@@ -193,7 +200,6 @@ bool FrameSource::advance_image() {
 void FrameSource::close() {
   decoder_.reset();
   image_.release();
-  whole_.release();
   closed_ = true;
 }
 

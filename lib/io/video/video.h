@@ -72,13 +72,13 @@ class FrameSource {
   bool advance_video();
   bool is_first_size(const std::filesystem::path& file, cv::Size size, cv::Size first);
   void note_end();
+  void shrunk_picture(const cv::Rect& area, int shrink, bool converted, cv::Mat& out) const;
 
   std::filesystem::path path_;
   std::unique_ptr<VideoDecoder> decoder_;      // of a video file, or
   std::vector<std::filesystem::path> images_;  // image files in order, or
   std::vector<int> missing_before_;            // before each of them
   cv::Mat image_;                              // one of them, or that of every frame
-  mutable cv::Mat whole_;                      // memory for a picture before it is shrunk
   cv::Size size_px_;                           // of the video as decoded
   VideoFacts facts_;
   int next_frame_ = 0;

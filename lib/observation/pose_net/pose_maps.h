@@ -13,6 +13,8 @@
 
 #include <span>
 
+#include <opencv2/core/types.hpp>
+
 #include "observation/keypoints/keypoints.h"
 
 namespace walktrack {
@@ -30,6 +32,15 @@ struct PoseMaps {
 struct CutOut {
   int x0 = 0, y0 = 0, side_px = 0;
 };
+
+inline cv::Rect rectangle(const CutOut& cut_out) {
+  return {cut_out.x0, cut_out.y0, cut_out.side_px, cut_out.side_px};
+}
+
+// The part of it that is in an image of that size.
+inline cv::Rect part_within(const CutOut& cut_out, int width_px, int height_px) {
+  return rectangle(cut_out) & cv::Rect(0, 0, width_px, height_px);
+}
 
 // In pixels of the image.
 DetectedPerson decoded(const PoseMaps& maps, const CutOut& cut_out);

@@ -22,15 +22,11 @@ constexpr std::array<int, 4> kChannels{1, 17, 34, 34};
       describe({name, 0, ""}, found, "MoveNet SinglePose as scripts/make_pose_net.py writes it"));
 }
 
-cv::Rect rectangle(const CutOut& cut_out) {
-  return {cut_out.x0, cut_out.y0, cut_out.side_px, cut_out.side_px};
-}
-
-// The cut-out at the network's size, black outside of the image.
-cv::Mat cut(const cv::Mat& picture, const CutOut& cut_out, int side_px) {
-  const cv::Rect wanted = rectangle(cut_out);
-  const cv::Rect there = wanted & cv::Rect(0, 0, picture.cols, picture.rows);
-  cv::Mat piece = cv::Mat::zeros(wanted.size(), picture.type());
+// The cut-out at the network's size, black outside of the picture, whose first pixel is `first`.
+cv::Mat cut(const cv::Mat& picture, const CutOut& cut_out, const cv::Point& first, int side_px) {
+  const cv::Rect wanted = rectangle(cut_out) - first;
+  const cv::Rect there = wanted & cv::Rect({}, picture.size());
+  cv::Mat piece = cv::Mat::zeros(wanted.size(), CV_8UC3);
   if (!there.empty()) picture(there).copyTo(piece(there - wanted.tl()));
   cv::Mat out;
   cv::resize(piece, out, {side_px, side_px}, 0, 0,
@@ -86,8 +82,9 @@ PoseNet::PoseNet(PoseNet&&) noexcept = default;
 PoseNet& PoseNet::operator=(PoseNet&&) noexcept = default;
 PoseNet::~PoseNet() = default;
 
-DetectedPerson PoseNet::detect(const cv::Mat& picture, const CutOut& cut_out) {
-  net_->run(cut(picture, cut_out, net_->side_px));
+DetectedPerson PoseNet::detect(const cv::Mat& picture, const CutOut& cut_out,
+                               const cv::Point& first) {
+  net_->run(cut(picture, cut_out, first, net_->side_px));
   const std::vector<cv::Mat>& maps = net_->maps;
   return decoded({net_->side_px / kCell_px, values(maps[0]), values(maps[1]), values(maps[2]),
                   values(maps[3])},

@@ -28,9 +28,10 @@ class PoseNet {
   PoseNet& operator=(PoseNet&&) noexcept;
   ~PoseNet();
 
-  // The person nearest to the cut-out's middle, in pixels of the image (8-bit BGR), which is
-  // continued in black. There is always a result, which has low confidences if nobody is there.
-  DetectedPerson detect(const cv::Mat& picture, const CutOut& cut_out);
+  // The person nearest to the cut-out's middle, in pixels of an image (8-bit BGR), which is
+  // continued in black. `picture` is the image or a part of it, whose first pixel is `first`. There
+  // is always a result, which has low confidences if nobody is there.
+  DetectedPerson detect(const cv::Mat& picture, const CutOut& cut_out, const cv::Point& first = {});
 
  private:
   struct Net;

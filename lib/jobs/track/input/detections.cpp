@@ -145,9 +145,15 @@ DetectedPeople Detections::seen_by_network(Viewer& viewer, const FrameToLookAt& 
   if (frame.scene_frame % every_ != 0) return {};
   if (frame.around && (frame.region.area.empty() || !frame.region.points)) return {};
   Image picture;
-  frame.video.picture(picture);
-  if (!frame.around) return viewer.finder->look(*viewer.net, picture, frame.scene_frame / every_);
-  return {viewer.net->detect(picture, cut_out_around(frame.region, viewer.shrink, height_))};
+  if (!frame.around) {
+    frame.video.picture(picture);
+    return viewer.finder->look(*viewer.net, picture, frame.scene_frame / every_);
+  }
+  const CutOut wanted = cut_out_around(frame.region, viewer.shrink, height_);
+  const VideoFacts& facts = frame.video.facts();
+  const auto there = part_within(wanted, facts.width_px, facts.height_px);
+  if (!there.empty()) frame.video.picture(there, 1, picture);
+  return {viewer.net->detect(picture, wanted, there.tl())};
 }
 
 }  // namespace jobs
