@@ -1,6 +1,8 @@
 // The configuration of the tracker. The configurations of its parts are defined beside the parts.
 #pragma once
 
+#include <cstddef>
+
 #include "filter/particle_filter.h"
 #include "tracker/detect/detector.h"
 #include "tracker/modes/monitor.h"
@@ -13,6 +15,14 @@ inline namespace tracker {
 // The pose that is reported for a frame: the particles' mean, or the most probable pose near it
 // (tracker/smooth/refinement.h).
 enum class EstimateKind { kFilter, kMap };
+
+// Particles that suffice (reports/particles.md): several cameras leave less open than one.
+struct ParticleCounts {
+  int filter = 0, start = 0;  // of a filter, and of each start hypothesis
+};
+inline constexpr ParticleCounts particles_for(size_t cameras) {
+  return cameras > 1 ? ParticleCounts{100, 75} : ParticleCounts{200, 150};
+}
 
 struct TrackerConfig {
   MotionConfig motion;

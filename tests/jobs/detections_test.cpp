@@ -111,29 +111,48 @@ TEST_F(DetectionsTest, AutoIsForTwoCamerasWithoutPicturesOfTheEmptyScene) {
     for (SceneCamera& camera : out.cameras) camera.camera = level_camera(480);
     return out;
   };
-  const auto decided = [&](const std::string& more) {
-    const ObservationConfig terms = decided_terms(two(more), config);
+  const auto asked = [&](const std::string& more) {
+    const ObservationConfig terms = decided(two(more), config).observation;
     EXPECT_EQ(terms.background.without_people, terms.keypoints.enabled);
     return terms.keypoints.enabled == TermSetting::kOn;
   };
-  EXPECT_EQ(decided(""), has_pose_net());
-  EXPECT_FALSE(decided(", background: a.mp4"));
+  EXPECT_EQ(asked(""), has_pose_net());
+  EXPECT_FALSE(asked(", background: a.mp4"));
   config.observation.keypoints.enabled = TermSetting::kOff;
-  EXPECT_FALSE(decided(""));
+  EXPECT_FALSE(asked(""));
   config.observation.background.without_people = TermSetting::kOn;
-  EXPECT_EQ(decided_terms(two(""), config).background.without_people, TermSetting::kOn);
+  EXPECT_EQ(decided(two(""), config).observation.background.without_people, TermSetting::kOn);
 }
 
 TEST_F(DetectionsTest, FlowIsForThoseWhoAskForIt) {
   const Scene one = scene("  - {name: a, video: a.mp4, calibration: a.yaml, keypoints: points}\n");
   Config config;
-  const auto decided = [&] { return decided_terms(one, config).flow.enabled; };
-  EXPECT_EQ(decided(), TermSetting::kOff) << "by default, which is auto";
+  const auto flow = [&] { return decided(one, config).observation.flow.enabled; };
+  EXPECT_EQ(flow(), TermSetting::kOff) << "by default, which is auto";
   config.observation.flow.enabled = TermSetting::kOn;
-  EXPECT_EQ(decided(), TermSetting::kOn);
+  EXPECT_EQ(flow(), TermSetting::kOn);
   config.observation.flow.enabled = TermSetting::kOff;
-  EXPECT_EQ(decided(), TermSetting::kOff);
-  EXPECT_EQ(decided_terms(one, config).keypoints.enabled, TermSetting::kOn);
+  EXPECT_EQ(flow(), TermSetting::kOff);
+  EXPECT_EQ(decided(one, config).observation.keypoints.enabled, TermSetting::kOn);
+}
+
+// Unless the configuration states them.
+TEST_F(DetectionsTest, SeveralCamerasNeedFewerParticles) {
+  const Scene one = scene("  - {name: a, video: a.mp4, calibration: a.yaml}\n");
+  const Scene two = scene(
+      "  - {name: a, video: a.mp4, calibration: a.yaml}\n"
+      "  - {name: b, video: a.mp4, calibration: a.yaml}\n");
+  Config config;
+  const auto particles = [&](const Scene& scene) {
+    const TrackerConfig tracker = decided(scene, config).tracker;
+    return std::pair(tracker.filter.particles, tracker.start.particles);
+  };
+  EXPECT_EQ(particles(one), std::pair(200, 150));
+  EXPECT_EQ(particles(two), std::pair(100, 75));
+  config.tracker.filter.particles = 30;
+  config.tracker.start.particles = 20;
+  EXPECT_EQ(particles(one), std::pair(30, 20));
+  EXPECT_EQ(particles(two), std::pair(30, 20));
 }
 
 TEST_F(DetectionsTest, SaysThatTheModelIsMissing) {

@@ -51,7 +51,7 @@ TEST(SweepParameters, MistakesAreNamed) {
       {{"filter.particle=3"}, "did you mean 'filter.particles'?"},
       {{"path=flat"}, "motion.path: found 'flat', allowed: spatial, sagittal"},
       {{"model=legs"}, "motion.model: found 'legs', allowed: kneed, anthropomorphic, markov"},
-      {{"particles=0"}, "filter.particles: found '0', allowed: a whole number from 1"},
+      {{"particles=-1"}, "filter.particles: found '-1', allowed: a whole number from 0"},
       {{"particles=10::20"}, "filter.particles: found ''"},
       {{"particles=10:10"}, "particles: found '10', allowed: every value once"},
       {{"particles=10,filter.particles=20"}, "allowed: every parameter once"},

@@ -72,12 +72,20 @@ struct CheckpointConfig {
   double seconds = 10;  // between checkpoints, or longer if they would cost too much; 0: each frame
 };
 
+// The value of a number of particles that leaves it to the number of cameras (particles_for()).
+inline constexpr int kParticlesByCameras = 0;
+inline TrackerConfig particles_by_cameras() {
+  TrackerConfig out;
+  out.filter.particles = out.start.particles = kParticlesByCameras;
+  return out;
+}
+
 struct Config {
   uint64_t seed = 1;  // of all random numbers
   int threads = 0;    // 0 = all that the process may use
   BodyGroups body;
   ObservationConfig observation;
-  TrackerConfig tracker;
+  TrackerConfig tracker = particles_by_cameras();
   SmoothingConfig smoothing;
   KineticsConfig kinetics;
   QualityConfig quality;

@@ -117,7 +117,8 @@ void add_filter(ParameterTable& table) {
   using F = FilterConfig;
   ParameterGroup<F> f(table, "filter", "the particle filter", &Config::tracker,
                       &TrackerConfig::filter);
-  f.integer("particles", &F::particles, 1, 10'000'000, "number of particles");
+  f.integer("particles", &F::particles, 0, 10'000'000,
+            "number of particles; 0 = 200 with one camera, 100 with more");
   f.number("resample_below", &F::resample_below, 0, 1,
            "effective share of the particles below which they are resampled");
   f.number("layer_ess", &F::layer_ess, 0, 1,
@@ -150,7 +151,8 @@ void add_search(ParameterTable& table) {
   ParameterGroup<A> a(table, "start", "the first particles", &Config::tracker,
                       &TrackerConfig::start);
   a.integer("phases", &A::phases, 1, 1000, "start hypotheses over the phase of each foot's step");
-  a.integer("particles", &A::particles, 1, 10'000'000, "particles of each start hypothesis");
+  a.integer("particles", &A::particles, 0, 10'000'000,
+            "particles of each start hypothesis; 0 = 150 with one camera, 75 with more");
   a.number("seconds", &A::seconds, 0, 10, "time in which the start hypotheses compete, s");
   a.number("heading_deg", &A::heading_deg, 0, 180,
            "standard deviation of the first heading, degrees");

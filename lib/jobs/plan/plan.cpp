@@ -288,7 +288,7 @@ std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& c
         fmt::format("Scale: more than {:g} px of person height gain little accuracy; "
                     "observation.person_px={:g} {}.",
                     usual, usual, without(fmt::format("observation.person_px={:g}", usual))));
-  const int usual_particles = FilterConfig{}.particles;
+  const int usual_particles = particles_for(scene.cameras.size()).filter;
   if (values.tracker.filter.particles > usual_particles)
     out.push_back(fmt::format("Particles: filter.particles={} {}.", usual_particles,
                               without(fmt::format("filter.particles={}", usual_particles))));
@@ -300,7 +300,7 @@ std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& c
 
 Plan plan_scene(const Scene& scene, const ConfigWithOrigin& given) {
   ConfigWithOrigin config = given;
-  config.values.observation = decided_terms(scene, given.values);
+  config.values = decided(scene, given.values);
   Plan plan;
   plan.scene = scene.file;
   plan.frame_rate = SceneVideo(scene).frame_rate();

@@ -48,7 +48,7 @@ std::vector<std::string> lines_of(const CheckReport& report, const TrackJob& job
 
 CheckedJob checked_job(const TrackJob& given, const JobControl& control) {
   CheckedJob out{given, {}, {}};
-  out.job.config.values.observation = decided_terms(given.scene, given.config.values);
+  out.job.config.values = decided(given.scene, given.config.values);
   require_a_term(out.job.config.values.observation);
   const CheckReport report = look_at_scene(given.scene, control);
   out.findings = lines_of(report, given, control);

@@ -73,7 +73,7 @@ Origin origin_of(const ConfigWithOrigin& config, const Origin& inputs) {
 }
 
 Origin origin_of_track(const Scene& scene, ConfigWithOrigin config) {
-  config.values.observation = decided_terms(scene, config.values);
+  config.values = decided(scene, config.values);
   return origin_of(config, input_digests(scene, config.values.observation.keypoints));
 }
 

@@ -91,12 +91,16 @@ bool flow_wanted(const Config& config) {
   return config.observation.flow.enabled == TermSetting::kOn;
 }
 
-ObservationConfig decided_terms(const Scene& scene, const Config& config) {
-  ObservationConfig out = config.observation;
+Config decided(const Scene& scene, const Config& config) {
+  Config out = config;
   const auto setting = [](bool on) { return on ? TermSetting::kOn : TermSetting::kOff; };
-  out.flow.enabled = setting(flow_wanted(config));
-  out.keypoints.enabled = setting(keypoints_wanted(scene, config));
-  out.background.without_people = setting(leaves_people_out(scene, config));
+  out.observation.flow.enabled = setting(flow_wanted(config));
+  out.observation.keypoints.enabled = setting(keypoints_wanted(scene, config));
+  out.observation.background.without_people = setting(leaves_people_out(scene, config));
+  const ParticleCounts enough = particles_for(scene.cameras.size());
+  int &particles = out.tracker.filter.particles, &at_start = out.tracker.start.particles;
+  if (particles == kParticlesByCameras) particles = enough.filter;
+  if (at_start == kParticlesByCameras) at_start = enough.start;
   return out;
 }
 
