@@ -241,6 +241,15 @@ void copy_part(const Sums& whole, size_t from, size_t to, Sums& out) {
   std::copy(whole.count.begin() + b, whole.count.begin() + e, out.count.begin() + b);
 }
 
+// Before the change at one lag, and from then on at another one.
+Sums changing(const std::vector<Sums>& lags, const Change& change) {
+  const size_t frames = lags[0].sum.size();
+  Sums out{std::vector<double>(frames), std::vector<double>(frames)};
+  copy_part(lags[change.before], 0, change.at, out);
+  copy_part(lags[change.after], change.at, frames, out);
+  return out;
+}
+
 // For each frame, the best agreement at any other lag than the overall best.
 Sums otherwise(const std::vector<Sums>& lags, const Change& change, size_t best) {
   const size_t frames = lags[0].sum.size();
@@ -324,10 +333,15 @@ std::optional<PairLag> find_pair_lag(const std::vector<Camera>& cameras,
   const bool lost = apart(change.before, change.after) &&
                     std::abs(lag_of(change.before) - lag_of(change.after)) <= most_lost;
   if (lost && is_clear(gain(otherwise(lags, change, best), lags[best], moment)))
-    return PairLag{lag_of(change.before), lag_of(change.after), static_cast<int>(change.at)};
+    return PairLag{.before = lag_of(change.before),
+                   .after = lag_of(change.after),
+                   .changes_at = static_cast<int>(change.at),
+                   .agreement = changing(lags, change).mean()};
   if (!apart(best, none) || !is_clear(gain(lags[best], lags[none], moment))) return PairLag{};
-  return PairLag{lag_of(best), lag_of(best), 0, lag_sd(lags, best, moment),
-                 may_be_steps(cameras, paths, lag_of(best), frame_rate)};
+  return PairLag{.before = lag_of(best),
+                 .after = lag_of(best),
+                 .sd = lag_sd(lags, best, moment),
+                 .may_be_steps = may_be_steps(cameras, paths, lag_of(best), frame_rate)};
 }
 
 }  // namespace observation

@@ -18,6 +18,7 @@ struct PairLag {
   int before = 0, after = 0;  // frames by which the second camera lags behind the first
   int changes_at = 0;         // frame from which `after` holds; equal lags: no change
   double sd = 0;              // frames, of `after` if there is no change
+  double agreement = 0;       // of the outlines' ends with a change, 0 to 1
   // The lag is about the time of one or more steps: a camera at a wrong position, a step further
   // along the walk, would give the same. Also set if the time of a step is unknown and the lag is
   // not shorter than a step can be.
