@@ -16,7 +16,12 @@ TrackedSubject::TrackedSubject(TrackerScene stated_scene, const GaitPrior& gait,
       threads(thread_count),
       model(scene.model, prior, config.motion, scene.dt) {
   config.detector = detector_for(scene, config.detector);
-  if (must_lead(scene.observation.keypoints)) let_keypoints_lead(scene.observation);
+  if (must_lead(scene.observation.keypoints)) let_keypoints_lead();
+}
+
+void TrackedSubject::let_keypoints_lead() {
+  walktrack::let_keypoints_lead(scene.observation);
+  config.detector.least_score = config.detector.least_points_score;
 }
 
 void TrackedSubject::set_height(double height, const std::optional<Stature>& estimate) {

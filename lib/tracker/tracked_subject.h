@@ -21,6 +21,8 @@ struct TrackedSubject {
   void set_height(double height, const std::optional<Stature>& estimate);
   // Whether keypoints count for more than outlines (tracker/start/keypoint_lead.h).
   bool keypoints_lead() const { return scene.observation.outline_share < 1; }
+  // From now on. A walk is then found by as little evidence as if there were keypoints alone.
+  void let_keypoints_lead();
 
   TrackerScene scene;
   const GaitPrior& prior;

@@ -101,7 +101,7 @@ void Tracker::resume(TrackerState state) {
   starts_ = state.starts;
   losses_ = state.losses;
   if (state.stature) subject_.set_height(state.stature->height, state.stature);
-  if (state.keypoints_lead) let_keypoints_lead(subject_.scene.observation);
+  if (state.keypoints_lead) subject_.let_keypoints_lead();
 }
 
 }  // namespace tracker

@@ -5,6 +5,7 @@
 #include "fixture.h"
 #include "made_evidence.h"
 #include "tests/observation/scenes.h"
+#include "tracker/tracked_subject.h"
 
 namespace walktrack {
 namespace {
@@ -84,6 +85,17 @@ TEST_F(Lead, OutlinesThenCountForANinth) {
   scene.observation.keypoints.weight = 3;
   let_keypoints_lead(scene.observation);
   EXPECT_EQ(scene.observation.keypoints.weight, 3) << "more than that stays";
+}
+
+// A walk of 6 nats a frame by outlines has less than one by a ninth of them.
+TEST_F(Lead, AWalkIsFoundByLessEvidence) {
+  const GaitPrior prior = load_gait_prior();
+  TrackedSubject subject(scene, prior, TrackerConfig{}, 1, 1);
+  const DetectorConfig& detector = subject.config.detector;
+  EXPECT_EQ(detector.least_score, DetectorConfig{}.least_score);
+  subject.let_keypoints_lead();
+  EXPECT_TRUE(subject.keypoints_lead());
+  EXPECT_EQ(detector.least_score, DetectorConfig{}.least_points_score);
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ std::optional<WindowStart> start_in_window(TrackedSubject& subject, WalkSearch& 
   SearchedWindow window{subject, search, first_frame, starts, mode};
   std::optional<WindowStart> start = start_with_walk(window);
   if (start || !window.outlines_misled) return start;
-  let_keypoints_lead(subject.scene.observation);
+  subject.let_keypoints_lead();
   search.forget_scores();
   window.outlines_misled = false;
   return start_with_walk(window);
