@@ -9,6 +9,8 @@ already is not done again. --quick: one seed. Standard library only.
 """
 import argparse
 import pathlib
+import re
+import shutil
 import sys
 
 from measure_gates import measured
@@ -20,6 +22,7 @@ OLD, TURN, STRAIGHT = "bandai_1_walk_old_001", "bandai_2_walk-turn-left_normal_0
 SEEN_PATIENTS = ("SubjectA11_Cycle1", "SubjectA1_Cycle1", "SubjectA2_Cycle1")
 PATIENTS_UNSEEN = ("SubjectB11_Cycle1", "SubjectC12_Cycle1", "SubjectD4_Cycle1")
 THREE, ONE = "scene.yaml", "scene_one_camera.yaml"
+PAIR = "with cam0 and cam1"  # of scene.yaml: the side camera and the one in front
 
 # Video, what is measured, scenes, seeds, and whether anything was ever chosen by that video.
 ROWS = [
@@ -30,6 +33,8 @@ ROWS = [
     ("patients by another renderer, three cameras, three people", "joints",
      [PATIENTS / s / THREE for s in ("SubjectA11_Cycle1", "SubjectB11_Cycle1", "SubjectD4_Cycle1")], 3,
      "by the trajectory's constants"),
+    ("the old man, the turn, the two straight walks, and three patients, two cameras: from the side and from the front", "joints",
+     [RENDERED / s / PAIR for s in (OLD, TURN, *STRAIGHT)] + [PATIENTS / s / PAIR for s in PATIENTS_UNSEEN], 3, "not with two cameras"),
     ("the two straight walks (the floor of the second one climbs) and three patients, the side camera alone", "joints",
      [RENDERED / s / ONE for s in STRAIGHT] + [PATIENTS / s / ONE for s in PATIENTS_UNSEEN], 3, "by the trajectory's constants"),
     ("the old man, the turn, three other patients, the side camera alone", "joints",
@@ -53,6 +58,18 @@ def cell(row):
     return text if row["green"] else f"({text})"
 
 
+def pair_of(folder, out):
+    """A scene with the first two cameras of FOLDER/scene.yaml, in OUT."""
+    lines = (folder / THREE).read_text().splitlines(keepends=True)
+    lines = [line for line in lines if "name: cam2" not in line]
+    files = r"\b(video|calibration|background|truth): ([^\s,}]+)"
+    text = "".join(re.sub(files, lambda found: f"{found[1]}: {folder / found[2]}", line) for line in lines)
+    out.mkdir(parents=True, exist_ok=True)
+    (out / THREE).write_text(text)
+    shutil.copyfile(folder / "truth.csv", out / "truth.csv")
+    return out / THREE
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("walktrack", type=pathlib.Path)
@@ -67,6 +84,8 @@ def main():
             continue
         cells = []
         for scene in scenes:
+            if scene.name == PAIR and scene.parent.exists():
+                scene = pair_of(scene.parent, arguments.out / "pairs" / f"{scene.parent.name}_pair")
             if not scene.exists():
                 print(f"skipped, not there: {scene}", file=sys.stderr)
                 continue

@@ -16,12 +16,12 @@ inline namespace tracker {
 // (tracker/smooth/refinement.h).
 enum class EstimateKind { kFilter, kMap };
 
-// Particles that suffice (reports/particles.md): several cameras leave less open than one.
+// Particles that suffice (reports/particles.md): three cameras leave less open than one or two.
 struct ParticleCounts {
   int filter = 0, start = 0;  // of a filter, and of each start hypothesis
 };
 inline constexpr ParticleCounts particles_for(size_t cameras) {
-  return cameras > 1 ? ParticleCounts{100, 75} : ParticleCounts{200, 150};
+  return cameras > 2 ? ParticleCounts{100, 75} : ParticleCounts{200, 150};
 }
 
 struct TrackerConfig {

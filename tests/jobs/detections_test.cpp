@@ -137,22 +137,23 @@ TEST_F(DetectionsTest, FlowIsForThoseWhoAskForIt) {
 }
 
 // Unless the configuration states them.
-TEST_F(DetectionsTest, SeveralCamerasNeedFewerParticles) {
+TEST_F(DetectionsTest, ThreeCamerasNeedFewerParticles) {
   const Scene one = scene("  - {name: a, video: a.mp4, calibration: a.yaml}\n");
-  const Scene two = scene(
-      "  - {name: a, video: a.mp4, calibration: a.yaml}\n"
-      "  - {name: b, video: a.mp4, calibration: a.yaml}\n");
+  Scene two = one, three = one;
+  two.cameras.resize(2, one.cameras[0]);
+  three.cameras.resize(3, one.cameras[0]);
   Config config;
   const auto particles = [&](const Scene& scene) {
     const TrackerConfig tracker = decided(scene, config).tracker;
     return std::pair(tracker.filter.particles, tracker.start.particles);
   };
   EXPECT_EQ(particles(one), std::pair(200, 150));
-  EXPECT_EQ(particles(two), std::pair(100, 75));
+  EXPECT_EQ(particles(two), std::pair(200, 150));
+  EXPECT_EQ(particles(three), std::pair(100, 75));
   config.tracker.filter.particles = 30;
   config.tracker.start.particles = 20;
   EXPECT_EQ(particles(one), std::pair(30, 20));
-  EXPECT_EQ(particles(two), std::pair(30, 20));
+  EXPECT_EQ(particles(three), std::pair(30, 20));
 }
 
 TEST_F(DetectionsTest, SaysThatTheModelIsMissing) {

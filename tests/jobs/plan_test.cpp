@@ -104,12 +104,11 @@ TEST(CostModel, HasTheShapeOfTheWork) {
   one_camera.cameras.resize(1);
   // It would be asked for keypoints otherwise.
   const std::string no_points = "observation.keypoints.enabled=off";
-  const std::string particles = "filter.particles=100";  // as many as with two cameras
-  const Plan alone = plan_with({no_points, particles, "motion.turning_yaw_rate_sd=0"}, one_camera);
+  const Plan alone = plan_with({no_points, "motion.turning_yaw_rate_sd=0"}, one_camera);
   EXPECT_LT(alone.cost.sum(), plan_with({}).cost.sum());
   EXPECT_EQ(alone.cost.walker, plan_with({}).cost.walker);
   // With two components that turn, which make half of the moves.
-  const Plan turning = plan_with({no_points, particles}, one_camera);
+  const Plan turning = plan_with({no_points}, one_camera);
   EXPECT_NEAR(turning.cost.walker, 3 * alone.cost.walker, 1e-9);
   EXPECT_GT(turning.cost.poses, 1.9 * alone.cost.poses);
   EXPECT_LT(turning.cost.poses, 2.2 * alone.cost.poses);

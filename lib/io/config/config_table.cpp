@@ -118,7 +118,7 @@ void add_filter(ParameterTable& table) {
   ParameterGroup<F> f(table, "filter", "the particle filter", &Config::tracker,
                       &TrackerConfig::filter);
   f.integer("particles", &F::particles, 0, 10'000'000,
-            "number of particles; 0 = 200 with one camera, 100 with more");
+            "number of particles; 0 = 200 with one or two cameras, 100 with more");
   f.number("resample_below", &F::resample_below, 0, 1,
            "effective share of the particles below which they are resampled");
   f.number("layer_ess", &F::layer_ess, 0, 1,
@@ -152,7 +152,7 @@ void add_search(ParameterTable& table) {
                       &TrackerConfig::start);
   a.integer("phases", &A::phases, 1, 1000, "start hypotheses over the phase of each foot's step");
   a.integer("particles", &A::particles, 0, 10'000'000,
-            "particles of each start hypothesis; 0 = 150 with one camera, 75 with more");
+            "particles of each start hypothesis; 0 = 150 with one or two cameras, 75 with more");
   a.number("seconds", &A::seconds, 0, 10, "time in which the start hypotheses compete, s");
   a.number("heading_deg", &A::heading_deg, 0, 180,
            "standard deviation of the first heading, degrees");

@@ -100,6 +100,15 @@ Attempt with_labelled_legs(const WindowFrames& window, Attempt first) {
   return first;
 }
 
+// From two sides outlines tell the legs apart, but perhaps not in the half second in which a start
+// is decided: the window is tracked with swapped legs as well, and the better track is taken.
+Attempt with_better_legs(const WindowFrames& window, Attempt first) {
+  Attempt other = with_mirrored_legs(window, first);
+  const bool swapped =
+      is_tracking(other.mode) && total_log_likelihood(other) > total_log_likelihood(first);
+  return swapped ? std::move(other) : std::move(first);
+}
+
 WalkerFilter filter_of(TrackMode mode) {
   if (Searching* searching = std::get_if<Searching>(&mode)) return std::move(searching->filter);
   if (Starting* start = std::get_if<Starting>(&mode)) return std::move(start->before.filter);
@@ -116,6 +125,8 @@ Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& wi
       .mode = start_around(context, walk, likely_ranges(context, window, walk), number, before)};
   follow_rest(frames, attempt);
   if (attempt.legs != 0) attempt = with_labelled_legs(frames, std::move(attempt));
+  if (is_tracking(attempt.mode) && context.scene.cameras.size() == 2)
+    attempt = with_better_legs(frames, std::move(attempt));
   const double walk_score = walk.score * static_cast<double>(window.size());
   const double log_likelihood = total_log_likelihood(attempt);
   if (is_searching(attempt.mode) || log_likelihood < walk_score)
