@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "tracker/start/keypoint_lead.h"
+#include "tracker/start/new_start.h"
 #include "tracker/start/window_start.h"
 
 namespace walktrack {
@@ -29,6 +30,7 @@ std::vector<FrameRecord> Tracker::finish() {
     look_for_walk(out);
   }
   if (std::holds_alternative<Starting>(mode_)) report(settle(mode_), {}, out);
+  if (holding(mode_)) report(decide_held(subject_.context(), waiting_, starts_, mode_), {}, out);
   if (Tracking* now = std::get_if<Tracking>(&mode_))
     report(decide_turning(subject_.context(), frame_ - 1, *now), {}, out);
   out.resize(out.size() + search_.waiting() + search_.window().size());
@@ -41,6 +43,7 @@ void Tracker::consume(const SceneEvidence& evidence, Records& out) {
   const bool tracked = tracking();
   Records records = follow(subject_.context(), evidence, frame_++, mode_);
   if (records.size() <= waiting_.size()) waiting_.push_back(evidence);  // this frame waits as well
+  if (held_enough(mode_)) records = decide_held(subject_.context(), waiting_, starts_, mode_);
   report(std::move(records), evidence, out);
   if (tracked && !tracking()) ++losses_;
 }
@@ -73,6 +76,12 @@ void Tracker::look_for_walk(Records& out) {
     out.resize(out.size() + start->untracked);
     frame_ = start->first_frame + static_cast<uint32_t>(start->frames.size());
     waiting_ = std::move(start->frames);
+    Tracking* now = std::get_if<Tracking>(&mode_);
+    if (now && holds_frames(subject_.context())) {
+      now->held = held_start(subject_.context(), start->first_frame, std::move(start->records),
+                             start->legs_in_doubt);
+      return;
+    }
     return report(std::move(start->records), {}, out);
   }
   ++frame_;

@@ -7,13 +7,15 @@
 //   starting   hypotheses over phase and side compete for a while
 //              (tracker/start/start_hypotheses.h)
 //   tracking   for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h);
-//              before one camera, components that turn compete with it (tracker/modes/turning.h)
+//              before one camera, components that turn compete with it (tracker/modes/turning.h);
+//              before several, frames are held back for a new start (tracker/start/new_start.h)
 //   lost when the monitor decides so (tracker/modes/monitor.h); searching again, for a while only
 //   where the subject can be
 //
 // Modes are values (tracker/modes/track_mode.h). Frames before the walk was found, and while it was
 // lost, are reported as not tracked. Searching needs a whole window, so that records come out late
-// at first and one for each frame afterwards; before one camera they are up to 1.25 s late.
+// at first and one for each frame afterwards; before one camera they are up to 1.25 s late, before
+// several up to 2.5 s.
 #pragma once
 
 #include <deque>
@@ -86,7 +88,7 @@ class Tracker {
   // A tracker of the same scene, configuration and seed that resumes the state of another one
   // continues like that one. There is a state only while has_state(): the data of a search, and of
   // frames that are not reported yet, are large and short-lived.
-  bool has_state() const { return tracking() && !tracked().turning; }
+  bool has_state() const { return tracking() && !tracked().turning && !tracked().held; }
   TrackerState state() const;
   void resume(TrackerState state);
 

@@ -45,6 +45,7 @@ class Resume : public testing::Test {
     config.observation.person_px = 50;  // small images, for speed
     config.checkpoint.seconds = 0;
     config.tracker.motion.turning_yaw_rate_sd = 0;  // every frame leaves a checkpoint
+    config.tracker.start_again = false;             // the same with several cameras
     job.output = folder_.path() / name;
     job.overlay = false;
     if (change_) change_(config);
@@ -133,6 +134,18 @@ constexpr int kDecided = 6 + 38;  // frames: tracked since the sixth
 TEST_F(Resume, WithComponentsThatTurn) {
   video_frames_ = 60;
   change_ = [](Config& config) { config.tracker.motion.turning_yaw_rate_sd = 0.6; };
+  track_scene(job("whole"), {});
+  kill(job("killed"), 55);
+  resume(job("killed"));
+  EXPECT_EQ(resumed_at("killed"), kDecided);
+  EXPECT_EQ(result("killed"), result("whole"));
+}
+
+// Nor while several cameras hold frames back.
+TEST_F(Resume, WithFramesThatAreHeld) {
+  cameras_ = 2;
+  video_frames_ = 60;
+  change_ = [](Config& config) { config.tracker.start_again = true; };
   track_scene(job("whole"), {});
   kill(job("killed"), 55);
   resume(job("killed"));

@@ -119,6 +119,37 @@ TEST_P(MirroredLegs, OfARecordAreThoseOfItsParticles) {
   EXPECT_NEAR(std::remainder(record.modes.phase - modes.phase, 1.0), 0, 1e-9);
 }
 
+// What is explained later decides: half a stride is a switch, a quarter may be one.
+TEST_P(MirroredLegs, OfRecordsBeforeASwitchAreMirrored) {
+  const std::vector<double> weights(set.size(), 1.0 / double(set.size()));
+  FrameRecord record;
+  record.tracked = true;
+  record.estimate = estimate_frame(walking.model, set, weights, kDt, 1);
+  record.modes.phase = 0.2;
+  const double knee = record.estimate.pose.legs[0].knee_flexion;
+  ASSERT_NE(knee, record.estimate.pose.legs[1].knee_flexion);
+  const auto after = [&](double phase) {
+    std::vector<FrameRecord> records(3, record);
+    records.back().modes.phase = phase;
+    const bool doubt = relabel_before_switch(walking.model.body, records);
+    EXPECT_EQ(records.back().estimate.pose.legs[0].knee_flexion, knee) << phase;
+    EXPECT_EQ(records[0].modes.phase, records[1].modes.phase);
+    return std::pair(doubt, records[0].modes.phase == record.modes.phase
+                                ? records[0].estimate.pose.legs[0].knee_flexion == knee
+                                : records[0].estimate.pose.legs[1].knee_flexion != knee);
+  };
+  using Outcome = std::pair<bool, bool>;  // doubtful, unchanged
+  EXPECT_EQ(after(0.24), Outcome(false, true));
+  EXPECT_EQ(after(0.50), Outcome(true, true));
+  EXPECT_EQ(after(0.60), Outcome(true, false));
+  EXPECT_EQ(after(0.79), Outcome(true, false));
+  EXPECT_EQ(after(0.93), Outcome(true, true));
+  record.modes.standing = 1;
+  EXPECT_EQ(after(0.79), Outcome(false, true)) << "who stands has no phase";
+  std::vector<FrameRecord> one(1, record);
+  EXPECT_FALSE(relabel_before_switch(walking.model.body, one));
+}
+
 TEST_P(MirroredLegs, OfAFilterAreThoseOfItsParticles) {
   WalkerFilter filter({}, 3, 1);
   filter.start(set);

@@ -34,10 +34,13 @@ TrackSetup timed_set_up(const TrackJob& job, double frame_rate,
   return setup;
 }
 
-// Within a time budget the track is alone: components would make it late.
+// Within a time budget the track is alone: components and new starts would make it late.
 TrackerConfig tracker_config(const Config& config) {
   TrackerConfig out = config.tracker;
-  if (config.budget.frame_ms > 0) out.motion.turning_yaw_rate_sd = 0;
+  if (config.budget.frame_ms > 0) {
+    out.motion.turning_yaw_rate_sd = 0;
+    out.start_again = false;
+  }
   return out;
 }
 

@@ -11,6 +11,8 @@ inline namespace tracker {
 
 namespace {
 
+constexpr double kEighth = 0.125;  // of a stride
+
 double whole_turns_off(double phase) { return phase - std::floor(phase); }
 
 // Strides from `a` to `b`, by the shorter way.
@@ -42,6 +44,10 @@ double leading_phase(std::span<const double> phases, std::span<const double> wei
 }
 
 bool apart(double phase, double other) { return std::abs(strides_between(phase, other)) > 0.25; }
+
+bool mirrored(double phase, double other) {
+  return std::abs(strides_between(phase, other)) > 0.5 - kEighth;
+}
 
 double mass_apart(double phase, std::span<const double> phases, std::span<const double> weights) {
   double mass = 0;
@@ -82,10 +88,10 @@ double phase_ahead(std::span<const WalkerParticle> particles, std::span<const do
 }
 
 bool label_switched(double expected, double phase) {
-  constexpr double kNear = 0.125;  // strides: half of the distance between the modes
-  const auto legs_pass = [](double at) { return std::abs(std::remainder(at - 0.25, 0.5)) < kNear; };
-  return legs_pass(expected) && legs_pass(phase) &&
-         std::abs(strides_between(expected, phase)) > 0.5 - kNear;
+  const auto legs_pass = [](double at) {
+    return std::abs(std::remainder(at - 0.25, 0.5)) < kEighth;
+  };
+  return legs_pass(expected) && legs_pass(phase) && mirrored(expected, phase);
 }
 
 }  // namespace tracker

@@ -34,6 +34,9 @@ double leading_phase(std::span<const double> phases, std::span<const double> wei
 // Whether two phases are more than a quarter of a stride apart.
 bool apart(double phase, double other);
 
+// Whether two phases are half a stride apart, give or take an eighth.
+bool mirrored(double phase, double other);
+
 // Weight of the particles that are more than a quarter of a stride from `phase`.
 double mass_apart(double phase, std::span<const double> phases, std::span<const double> weights);
 

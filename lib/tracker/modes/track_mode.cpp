@@ -25,7 +25,12 @@ std::vector<FrameRecord> start_frame(const TrackContext& context, const SceneEvi
     mode = Searching(std::move(now.before));
     return untracked;
   }
-  return hypotheses.decided() ? settle(mode) : std::vector<FrameRecord>{};
+  if (!hypotheses.decided()) return {};
+  std::vector<FrameRecord> records = settle(mode);
+  if (!holds_frames(context)) return records;
+  const auto first_frame = static_cast<uint32_t>(frame + 1 - records.size());
+  std::get<Tracking>(mode).held = held_start(context, first_frame, std::move(records), false);
+  return {};
 }
 
 // A hypothesis that was rejected at the start is not followed any more, so that its evidence is
@@ -58,8 +63,9 @@ std::vector<FrameRecord> track_frame(const TrackContext& context, const SceneEvi
   Tracking& now = std::get<Tracking>(mode);
   if (!now.turning && components_may_turn(context))
     now.turning = components_that_turn(context, now.filter, frame);
-  FrameRecord record =
+  FilteredFrame filtered =
       filter_frame(context, filter_context(context), evidence, frame, context.seed, now.filter);
+  FrameRecord& record = filtered.record;
   allow_for_start(now.p_legs_swapped, record);
   note_pose(record, now);
   if (is_lost(context, evidence, record, now.monitor)) {
@@ -67,11 +73,17 @@ std::vector<FrameRecord> track_frame(const TrackContext& context, const SceneEvi
     record.evidence.clear();
     std::vector<FrameRecord> out;
     if (now.turning) out = std::move(now.turning->records);
+    if (now.held) out = std::move(now.held->records);
     out.push_back(std::move(record));
     mode = Searching{std::move(now.filter), now.monitor.last_seen};
     return out;
   }
   if (now.monitor.frames_below == 0) see(record.estimate, frame + 1, context.scene.dt, now.monitor);
+  if (holds_frames(context)) {
+    if (!now.held) now.held = held_from(context, frame);
+    hold(context, std::move(filtered), *now.held);
+    return {};
+  }
   if (!now.turning) return {std::move(record)};
   if (!step(context, evidence, frame, std::move(record), *now.turning)) return {};
   return decide_turning(context, frame, now);

@@ -5,7 +5,8 @@
 //       ^------- none explains the images ------'                             |
 //       ^--------------------- the monitor says: lost -----------------------'
 //
-// While Tracking, components that turn may compete with the track (tracker/modes/turning.h).
+// While Tracking, components that turn may compete with the track (tracker/modes/turning.h), and
+// several cameras hold frames back, for a new start among them (tracker/start/new_start.h).
 // A mode that is tried is a copy; to undo the trial, the copy is dropped (tracker/start/trial.h).
 #pragma once
 
@@ -14,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "tracker/modes/held_frames.h"
 #include "tracker/modes/monitor.h"
 #include "tracker/modes/turning.h"
 #include "tracker/start/start_hypotheses.h"
@@ -41,6 +43,7 @@ struct Tracking {
   Pose mean_pose;             // of the newest frame's particles, not of the reported pose
   double speed = 0;           // the same, m/s
   std::optional<TurningTrial> turning{};  // while the frames of the track are not reported
+  std::optional<HeldFrames> held{};
 };
 
 using TrackMode = std::variant<Searching, Starting, Tracking>;
@@ -54,7 +57,8 @@ Starting start_around(const TrackContext& context, const DetectedWalk& walk,
                       const std::vector<PhaseRange>& ranges, uint32_t number, Searching before);
 
 // Advances a mode other than Searching by a frame. Returns the records of all frames that are
-// finished now, in order; while hypotheses, or components that turn, compete there are none.
+// finished now, in order; while hypotheses, or components that turn, compete, and while frames are
+// held back, there are none.
 std::vector<FrameRecord> follow(const TrackContext& context, const SceneEvidence& evidence,
                                 uint32_t frame, TrackMode& mode);
 

@@ -58,7 +58,8 @@ bool step(const TrackContext& context, const SceneEvidence& evidence, uint32_t f
           FrameRecord record, TurningTrial& trial) {
   for (TurningComponent& each : trial.components) {
     const WalkerFilterContext turning = turning_context(context, each.yaw_rate_sd);
-    each.records.push_back(filter_frame(context, turning, evidence, frame, each.seed, each.filter));
+    each.records.push_back(
+        filter_frame(context, turning, evidence, frame, each.seed, each.filter).record);
     each.lead += each.records.back().filter.log_evidence - record.filter.log_evidence;
   }
   std::erase_if(trial.components,

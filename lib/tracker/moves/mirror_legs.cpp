@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tracker/modes/stride_modes.h"
+
 namespace walktrack {
 inline namespace tracker {
 
@@ -112,6 +114,16 @@ void mirror_legs(const Body& body, FrameRecord& record) {
   estimate.left_stance = 1 - estimate.left_stance;
   for (JointPositions& sample : record.samples) swap_legs(sample);
   record.modes.phase = std::fmod(record.modes.phase + 0.5, 1.0);
+}
+
+bool relabel_before_switch(const Body& body, std::span<FrameRecord> records) {
+  if (records.size() < 2 || !records.back().tracked) return false;
+  const std::span before = records.first(records.size() - 1);
+  if (records.back().modes.standing > 0.5 || before.back().modes.standing > 0.5) return false;
+  const double phase = records.back().modes.phase, phase_before = before.back().modes.phase;
+  if (mirrored(phase_before, phase))
+    for (FrameRecord& record : before) mirror_legs(body, record);
+  return apart(phase_before, phase);
 }
 
 }  // namespace tracker

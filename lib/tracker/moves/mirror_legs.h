@@ -5,6 +5,8 @@
 // (tracker/modes/stride_modes.h), and this is the involution that maps one to the other.
 #pragma once
 
+#include <span>
+
 #include "tracker/motion/propagate.h"
 #include "tracker/walker_filter.h"
 
@@ -25,6 +27,12 @@ void mirror_legs(const MotionContext& context, WalkerFilter& filter);
 
 // Swaps the estimate of a frame, its samples, and its phase in the stride.
 void mirror_legs(const Body& body, FrameRecord& record);
+
+// If the newest record is half a stride away from the one before it, swaps the legs of the records
+// before it: several cameras tell left from right, and the newest particles have explained more
+// frames. Returns whether it is more than a quarter of a stride away, so that it may be one or the
+// other. Who stands has no phase.
+bool relabel_before_switch(const Body& body, std::span<FrameRecord> records);
 
 }  // namespace tracker
 }  // namespace walktrack

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/log_weights.h"
+#include "tracker/moves/mirror_legs.h"
 
 namespace walktrack {
 inline namespace tracker {
@@ -14,10 +15,6 @@ namespace {
 // A hypothesis this many nats behind the best has lost (odds of 1 to 3 million).
 // By hand.
 constexpr double kHopeless = 15;
-// The evidence of a few particles is itself uncertain. In 25 starts (side views from near and from
-// afar, two cameras; reports/left_and_right.md) the best hypothesis was wrong as often as if this
-// many nats counted as one.
-constexpr double kEvidenceTemperature = 50;
 
 }  // namespace
 
@@ -54,6 +51,8 @@ bool StartHypotheses::step(const WalkerFilterContext& context, const SceneEviden
   for (Hypothesis& each : hypotheses_) {
     each.records.push_back(advance(context, evidence, frame, each.seed, frames_ == 0, each.filter));
     each.log_evidence += each.records.back().filter.log_evidence;
+    if (context.scene.cameras.size() > 1)
+      relabel_before_switch(context.scene.model.body, each.records);
   }
   ++frames_;
   const double best = leader().log_evidence;

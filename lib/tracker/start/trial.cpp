@@ -19,12 +19,17 @@ namespace {
 // legs are swapped: set on 80 made walks, four of which were swapped correctly and one wrongly
 // (reports/left_and_right.md).
 constexpr double kAgreed = 1.5, kSwapped = 0.75;
+// Nats by which one of two labels has to explain a window better before two cameras. Of 126 starts
+// (reports/left_and_right.md) four were nearer, two of them wrong; in the others the labels were 65
+// to 1,249 apart, and right.
+constexpr double kClearLead = 60;
 
 struct Attempt {
   TrackMode mode;
   std::vector<FrameRecord> records{};
   std::optional<Tracking> settled{};  // when the start was decided
   size_t settled_after = 0;           // frames
+  bool legs_in_doubt = false;         // before several cameras
   double legs = 0;                    // log-odds that the legs have the right labels
 };
 
@@ -60,6 +65,8 @@ void follow_rest(const WindowFrames& window, Attempt& attempt) {
     std::vector<FrameRecord> records =
         follow(context, window.frames[i], window.first + static_cast<uint32_t>(i), attempt.mode);
     std::move(records.begin(), records.end(), std::back_inserter(attempt.records));
+    if (context.scene.cameras.size() > 1 && relabel_before_switch(context.body(), attempt.records))
+      attempt.legs_in_doubt = true;
     if (!is_tracking(attempt.mode) || attempt.settled) continue;
     attempt.settled = std::get<Tracking>(attempt.mode);
     attempt.settled_after = attempt.records.size();
@@ -81,6 +88,11 @@ Attempt with_mirrored_legs(const WindowFrames& window, const Attempt& attempt) {
   return other;
 }
 
+void set_p_legs_swapped(double p, Attempt& attempt) {
+  std::get<Tracking>(attempt.mode).p_legs_swapped = p;
+  for (FrameRecord& record : attempt.records) record.modes.p_legs_swapped = p;
+}
+
 Attempt with_labelled_legs(const WindowFrames& window, Attempt first) {
   double p_swapped = std::get<Tracking>(first.mode).p_legs_swapped, odds = first.legs;
   if (odds < kAgreed) {
@@ -94,9 +106,7 @@ Attempt with_labelled_legs(const WindowFrames& window, Attempt first) {
       odds = -odds;
     }
   }
-  const double p_legs_swapped = updated(p_swapped, odds);
-  std::get<Tracking>(first.mode).p_legs_swapped = p_legs_swapped;
-  for (FrameRecord& record : first.records) record.modes.p_legs_swapped = p_legs_swapped;
+  set_p_legs_swapped(updated(p_swapped, odds), first);
   return first;
 }
 
@@ -104,9 +114,12 @@ Attempt with_labelled_legs(const WindowFrames& window, Attempt first) {
 // is decided: the window is tracked with swapped legs as well, and the better track is taken.
 Attempt with_better_legs(const WindowFrames& window, Attempt first) {
   Attempt other = with_mirrored_legs(window, first);
-  const bool swapped =
-      is_tracking(other.mode) && total_log_likelihood(other) > total_log_likelihood(first);
-  return swapped ? std::move(other) : std::move(first);
+  if (!is_tracking(other.mode)) return first;
+  const double lead = total_log_likelihood(first) - total_log_likelihood(other);
+  Attempt better = lead < 0 ? std::move(other) : std::move(first);
+  if (std::abs(lead) < kClearLead) better.legs_in_doubt = true;
+  set_p_legs_swapped(updated(0.5, std::abs(lead) / kEvidenceTemperature), better);
+  return better;
 }
 
 WalkerFilter filter_of(TrackMode mode) {
@@ -135,7 +148,8 @@ Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& wi
     return {.mode = before, .outlines_misled = true};
   return {.mode = std::move(attempt.mode),
           .records = std::move(attempt.records),
-          .log_likelihood = log_likelihood};
+          .log_likelihood = log_likelihood,
+          .legs_in_doubt = attempt.legs_in_doubt};
 }
 
 }  // namespace tracker

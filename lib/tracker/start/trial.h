@@ -23,6 +23,7 @@ struct Trial {
   std::vector<FrameRecord> records{};  // of the frames that are finished, not refined
   bool outlines_misled = false;        // the reason why the trial has failed
   double log_likelihood = 0;           // of the window's frames together, nats, by the particles
+  bool legs_in_doubt = false;          // before several cameras
 };
 
 // `window`: the frames from number `first_frame` on. `number` counts the starts from 1. `before`:

@@ -50,7 +50,7 @@ std::optional<WindowStart> start_of(SearchedWindow& window, std::optional<Trial>
   window.mode = std::move(trial->mode);
   const size_t untracked = search.waiting();
   return WindowStart{search.take(), window.first_frame - static_cast<uint32_t>(lead),
-                     std::move(trial->records), untracked};
+                     std::move(trial->records), trial->legs_in_doubt, untracked};
 }
 
 std::optional<WindowStart> start_at(SearchedWindow& window, const DetectedWalk& walk, size_t lead) {

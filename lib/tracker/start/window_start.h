@@ -23,6 +23,7 @@ struct WindowStart {
   std::deque<SceneEvidence> frames;  // of the window and of standing before it
   uint32_t first_frame;              // number of the first of them
   std::vector<FrameRecord> records;  // of those that are finished
+  bool legs_in_doubt;                // before several cameras
   size_t untracked;                  // number of frames before them in which nobody was tracked
 };
 
