@@ -47,12 +47,6 @@ DetectedWalk walk_of(const TrackContext& context, std::span<const FrameRecord> r
   return walk;
 }
 
-double total_log_likelihood(std::span<const FrameRecord> records) {
-  double sum = 0;
-  for (const FrameRecord& record : records) sum += record.mean_log_likelihood;
-  return sum;
-}
-
 }  // namespace
 
 bool holding(const TrackMode& mode) { return held_by(mode) != nullptr; }

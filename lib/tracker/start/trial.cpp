@@ -44,12 +44,6 @@ double updated(double probability, double against) {
   return probability / (probability + std::exp(against) * (1 - probability));
 }
 
-double total_log_likelihood(const std::vector<FrameRecord>& records) {
-  double sum = 0;
-  for (const FrameRecord& record : records) sum += record.mean_log_likelihood;
-  return sum;
-}
-
 double total_log_likelihood(const Attempt& attempt) {
   const double finished = total_log_likelihood(attempt.records);
   const Starting* start = std::get_if<Starting>(&attempt.mode);
@@ -129,6 +123,12 @@ WalkerFilter filter_of(TrackMode mode) {
 }
 
 }  // namespace
+
+double total_log_likelihood(std::span<const FrameRecord> records) {
+  double sum = 0;
+  for (const FrameRecord& record : records) sum += record.mean_log_likelihood;
+  return sum;
+}
 
 Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& window,
                 uint32_t first_frame, const DetectedWalk& walk, uint32_t number,

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <deque>
+#include <span>
 #include <vector>
 
 #include "tracker/modes/track_mode.h"
@@ -25,6 +26,9 @@ struct Trial {
   double log_likelihood = 0;           // of the window's frames together, nats, by the particles
   bool legs_in_doubt = false;          // before several cameras
 };
+
+// Of frames together, by the particles, nats.
+double total_log_likelihood(std::span<const FrameRecord> records);
 
 // `window`: the frames from number `first_frame` on. `number` counts the starts from 1. `before`:
 // the mode from which the walk is tried, and that of a trial that was dropped.
