@@ -19,11 +19,6 @@
 namespace walktrack {
 inline namespace tracker {
 
-// The evidence of a few particles is itself uncertain. In 25 starts (side views from near and from
-// afar, two cameras; reports/left_and_right.md) the best hypothesis was wrong as often as if this
-// many nats counted as one.
-inline constexpr double kEvidenceTemperature = 50;
-
 class StartHypotheses {
  public:
   // A hypothesis around a detected walk for each range of phases; one that stands has none.

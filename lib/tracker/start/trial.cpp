@@ -23,6 +23,9 @@ constexpr double kAgreed = 1.5, kSwapped = 0.75;
 // (reports/left_and_right.md) four were nearer, two of them wrong; in the others the labels were 65
 // to 1,249 apart, and right.
 constexpr double kClearLead = 60;
+// So many of these nats count as one: on the same starts the probabilities of swapped legs add up
+// to 1.5, and two were swapped.
+constexpr double kLeadTemperature = 20;
 
 struct Attempt {
   TrackMode mode;
@@ -112,7 +115,7 @@ Attempt with_better_legs(const WindowFrames& window, Attempt first) {
   const double lead = total_log_likelihood(first) - total_log_likelihood(other);
   Attempt better = lead < 0 ? std::move(other) : std::move(first);
   if (std::abs(lead) < kClearLead) better.legs_in_doubt = true;
-  set_p_legs_swapped(updated(0.5, std::abs(lead) / kEvidenceTemperature), better);
+  set_p_legs_swapped(updated(0.5, std::abs(lead) / kLeadTemperature), better);
   return better;
 }
 
