@@ -24,7 +24,7 @@ constexpr double kAgreed = 1.5, kSwapped = 0.75;
 // to 1,249 apart, and right.
 constexpr double kClearLead = 60;
 // So many of these nats count as one: on the same starts the probabilities of swapped legs add up
-// to 1.5, and two were swapped.
+// to 1.3, and two were swapped.
 constexpr double kLeadTemperature = 20;
 
 struct Attempt {
