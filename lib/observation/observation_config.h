@@ -85,9 +85,21 @@ struct ObservationConfig {
   // fold), so that a patch of this side counts as one independent pixel. It is measured on the
   // body, in metres: a figure twice as large in the image does not have four times the evidence.
   double independent_m = .1;
-  // Share of the outlines' evidence that is used: less if keypoints lead (KeypointConfig::lead).
+  // Share of the outlines' evidence that is used: less beside the keypoints of a single camera, and
+  // less still if keypoints lead (KeypointConfig::lead).
   double outline_share = 1;
 };
+
+// What outlines and keypoints count for together.
+struct EvidenceWeights {
+  double outline_share, point_weight;  // ObservationConfig::outline_share, KeypointConfig::weight
+};
+// Several cameras show where a figure's outline is wrong. A single one takes the errors of girth,
+// arms and clothes, which last for strides, for a wrong distance or pose, unless keypoints, whose
+// errors are others, count for as much (reports/weights.md).
+inline constexpr EvidenceWeights weights_for(size_t cameras, bool keypoints) {
+  return cameras == 1 && keypoints ? EvidenceWeights{1.0 / 3, 1} : EvidenceWeights{1, .2};
+}
 
 }  // namespace observation
 }  // namespace walktrack

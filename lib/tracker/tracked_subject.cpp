@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "tracker/start/keypoint_lead.h"
-
 namespace walktrack {
 inline namespace tracker {
 

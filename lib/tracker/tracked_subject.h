@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "tracker/detect/stature.h"
+#include "tracker/start/keypoint_lead.h"
 #include "tracker/subject_model.h"
 
 namespace walktrack {
@@ -20,7 +21,7 @@ struct TrackedSubject {
   // `estimate`: nullopt if the height is not estimated.
   void set_height(double height, const std::optional<Stature>& estimate);
   // Whether keypoints count for more than outlines (tracker/start/keypoint_lead.h).
-  bool keypoints_lead() const { return scene.observation.outline_share < 1; }
+  bool keypoints_lead() const { return walktrack::keypoints_lead(scene.observation); }
   // From now on. A walk is then found by as little evidence as if there were keypoints alone.
   void let_keypoints_lead();
 

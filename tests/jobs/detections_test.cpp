@@ -156,6 +156,27 @@ TEST_F(DetectionsTest, ThreeCamerasNeedFewerParticles) {
   EXPECT_EQ(particles(three), std::pair(30, 20));
 }
 
+// The keypoints of a single camera correct its outlines, unless the configuration states weights.
+TEST_F(DetectionsTest, OutlinesCountForLessBesideTheKeypointsOfOneCamera) {
+  const Scene one = scene("  - {name: a, video: a.mp4, calibration: a.yaml, keypoints: points}\n");
+  Scene two = one;
+  two.cameras.resize(2, one.cameras[0]);
+  Config config;
+  const auto weights = [&](const Scene& scene) {
+    const ObservationConfig terms = decided(scene, config).observation;
+    return std::pair(terms.outline_share, terms.keypoints.weight);
+  };
+  EXPECT_EQ(weights(one), std::pair(1.0 / 3, 1.0));
+  EXPECT_EQ(weights(two), std::pair(1.0, 0.2));
+  config.observation.keypoints.enabled = TermSetting::kOff;
+  EXPECT_EQ(weights(one).first, 1) << "without keypoints";
+  config.observation.keypoints.enabled = TermSetting::kOn;
+  config.observation.outline_share = 0.5;
+  config.observation.keypoints.weight = 0.7;
+  EXPECT_EQ(weights(one), std::pair(0.5, 0.7));
+  EXPECT_EQ(weights(two), std::pair(0.5, 0.7));
+}
+
 TEST_F(DetectionsTest, SaysThatTheModelIsMissing) {
   const Scene without = scene("  - {name: a, video: a.mp4, calibration: a.yaml}\n");
   const KeypointConfig config{.enabled = TermSetting::kOn, .every = 1, .model = "none.onnx"};

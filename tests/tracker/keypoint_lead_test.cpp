@@ -60,6 +60,11 @@ TEST_F(Lead, OnlyOneCameraThatUsesKeypointsAndWhomNobodyHasToldOtherwise) {
   EXPECT_TRUE(may_lead(scene, {.position = {0, 0}, .velocity = {0.2, 1.2}})) << "away from it";
   EXPECT_FALSE(may_lead(scene, {.position = {0, 0}, .velocity = {1, 0.2}})) << "past it";
   TrackerScene other = scene;
+  other.observation.outline_share = weights_for(1, true).outline_share;
+  EXPECT_TRUE(may_lead(other, walk)) << "by default outlines already count for less";
+  let_keypoints_lead(other.observation);
+  EXPECT_FALSE(may_lead(other, walk)) << "they lead already";
+  other = scene;
   other.observation.keypoints.lead = TermSetting::kOff;
   EXPECT_FALSE(may_lead(other, walk));
   other = scene;

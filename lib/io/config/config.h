@@ -80,11 +80,19 @@ inline TrackerConfig particles_by_cameras() {
   return out;
 }
 
+// The value of a weight that leaves it to the cameras and terms of a scene (weights_for()).
+inline constexpr double kWeightByScene = 0;
+inline ObservationConfig weights_by_scene() {
+  ObservationConfig out;
+  out.outline_share = out.keypoints.weight = kWeightByScene;
+  return out;
+}
+
 struct Config {
   uint64_t seed = 1;  // of all random numbers
   int threads = 0;    // 0 = all that the process may use
   BodyGroups body;
-  ObservationConfig observation;
+  ObservationConfig observation = weights_by_scene();
   TrackerConfig tracker = particles_by_cameras();
   SmoothingConfig smoothing;
   KineticsConfig kinetics;

@@ -14,10 +14,13 @@ bool must_lead(const KeypointConfig& keypoints) {
   return is_on(keypoints) && keypoints.lead == TermSetting::kOn;
 }
 
+bool keypoints_lead(const ObservationConfig& observation) {
+  return observation.outline_share <= kLedOutlines;
+}
+
 bool may_lead(const TrackerScene& scene, const DetectedWalk& walk) {
   const KeypointConfig& keypoints = scene.observation.keypoints;
-  const bool undecided =
-      keypoints.lead == TermSetting::kAuto && scene.observation.outline_share == 1;
+  const bool undecided = keypoints.lead == TermSetting::kAuto && !keypoints_lead(scene.observation);
   if (scene.cameras.size() != 1 || !is_on(keypoints) || !undecided) return false;
   const Eigen::Vector2d ray = walk.position - camera_centre(scene.cameras[0]).head<2>();
   return std::abs(ray.stableNormalized().dot(walk.velocity.stableNormalized())) > kAlongRay;

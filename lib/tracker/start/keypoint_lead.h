@@ -34,6 +34,9 @@ inline constexpr double kAlongRay = 0.7;  // cosine
 // Whether keypoints lead from the beginning, as the configuration states.
 bool must_lead(const KeypointConfig& keypoints);
 
+// Whether they lead.
+bool keypoints_lead(const ObservationConfig& observation);
+
 // Whether they may lead and do not yet: there is one camera, keypoints are used, the configuration
 // leaves it open, and the subject walks towards the camera or away from it.
 bool may_lead(const TrackerScene& scene, const DetectedWalk& walk);

@@ -95,7 +95,12 @@ Config decided(const Scene& scene, const Config& config) {
   Config out = config;
   const auto setting = [](bool on) { return on ? TermSetting::kOn : TermSetting::kOff; };
   out.observation.flow.enabled = setting(flow_wanted(config));
-  out.observation.keypoints.enabled = setting(keypoints_wanted(scene, config));
+  const bool keypoints = keypoints_wanted(scene, config);
+  out.observation.keypoints.enabled = setting(keypoints);
+  const EvidenceWeights weights = weights_for(scene.cameras.size(), keypoints);
+  double &outlines = out.observation.outline_share, &points = out.observation.keypoints.weight;
+  if (outlines == kWeightByScene) outlines = weights.outline_share;
+  if (points == kWeightByScene) points = weights.point_weight;
   out.observation.background.without_people = setting(leaves_people_out(scene, config));
   const ParticleCounts enough = particles_for(scene.cameras.size());
   int &particles = out.tracker.filter.particles, &at_start = out.tracker.start.particles;
