@@ -41,8 +41,8 @@ std::string missing_network_note(const Scene& scene, const Config& config);
 // Whether optical flow is used: as configured. `auto` means no, because no improvement was measured
 // (observation/reports/flow.md).
 bool flow_wanted(const Config& config);
-// The configuration with what it leaves to the scene: terms are on or off, evidence has its weights,
-// particles have a number.
+// The configuration with what it leaves to the scene: terms are on or off, evidence has its
+// weights, particles have a number.
 Config decided(const Scene& scene, const Config& config);
 
 // The input for one frame of one camera.
