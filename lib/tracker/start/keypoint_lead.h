@@ -3,11 +3,11 @@
 // Distance and size follow from outlines only if the figure has the subject's shape. Arms, girth
 // and clothes that the figure lacks change the outline, and poses are then found that cover more of
 // it: nearer, crouching, turned. The detector's points have errors of some centimetres whatever
-// somebody wears. Therefore an outline's patch gets less weight and a point more if a start's
-// figure covers the subject badly, points were detected, and the walk is along the viewing ray,
-// where place and steps depend on size. Across the ray outlines determine the place.
-// tracker/reports/one_camera.md has the measurements. This is only done with one camera: several
-// cameras show where an outline is wrong.
+// somebody wears. Therefore an outline's patch gets less weight than one camera's usually has
+// (weights_for()) if a start's figure covers the subject badly, points were detected, and the walk
+// is along the viewing ray, where place and steps depend on size. Across the ray outlines determine
+// the place. tracker/reports/one_camera.md has the measurements. This is only done with one camera:
+// several cameras show where an outline is wrong.
 #pragma once
 
 #include <deque>
@@ -19,10 +19,10 @@
 namespace walktrack {
 inline namespace tracker {
 
-// Factor of the outlines' log-likelihood, and weight of a point, while keypoints lead: a patch of
-// three times the side counts as one pixel, and a point is not tempered. By hand, chosen on the two
-// telephones, each alone; a patch of five times the side, or three times the points' weight, gives
-// equal results.
+// Factor of the outlines' log-likelihood, and least weight of a point, while keypoints lead: a
+// patch of three times the side counts as one pixel, and a point is not tempered. By hand, chosen
+// on the two telephones, each alone; a patch of five times the side, or three times the points'
+// weight, gives equal results.
 inline constexpr double kLedOutlines = 1.0 / 9, kLeadingWeight = 1;
 // A mean overlap (observation/silhouette/overlap.h) below this is bad: the two telephones and the
 // real side view have .67 to .69, walks of two renderers .75 to .84.
