@@ -128,9 +128,10 @@ void KeypointTerm::describe(Groups& groups) {
       "in_doubt_only", &K::in_doubt_only,
       "whether the network is used for a tracked subject only while left and right are uncertain");
   k.text("model", &K::model, "the shipped network, or the ONNX file of one of the same family");
-  k.number("weight", &K::weight, 0, 10,
-           "weight of a point, below 1 because the errors of points and of frames are correlated; "
-           "0 = 1 with one camera, 0.2 with more");
+  k.number(
+      "weight", &K::weight, 0, 10,
+      "weight of a point, the less, the more the errors of points and of frames are correlated; "
+      "0 = 1 with one camera and 0.2 with more");
   k.choice("lead", &K::lead,
            {{"auto", TermSetting::kAuto}, {"on", TermSetting::kOn}, {"off", TermSetting::kOff}},
            "whether keypoints count for more than outlines; auto: with one camera, if the figure "
