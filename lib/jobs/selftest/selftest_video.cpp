@@ -2,7 +2,9 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -125,15 +127,16 @@ double heap_memory() {
   return static_cast<double>(heap.uordblks + heap.hblkhd) / (1 << 20);
 }
 
-// The most memory that tracking took in each half of the video. Searching takes more than following
-// a subject, and both happen in both halves.
+// The least memory that tracking took in each half of the video: what it keeps for good. The most
+// depends on how long the subject was searched for, as frames are held while somebody may stand.
 struct MemoryWatch {
-  double first_half = 0, second_half = 0;  // MB
+  double first_half = std::numeric_limits<double>::infinity(), second_half = first_half;  // MB
 
   void look(const Progress& progress) {
-    if (progress.what != "tracking") return;
+    // Tables are still made in the first frames.
+    if (progress.what != "tracking" || 5 * progress.done < progress.total) return;
     double& half = 2 * progress.done <= progress.total ? first_half : second_half;
-    half = std::max(half, heap_memory());
+    half = std::min(half, heap_memory());
   }
   double growth() const { return second_half - first_half; }
 };
