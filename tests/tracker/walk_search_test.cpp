@@ -53,5 +53,27 @@ TEST_F(Search, WaitsUntilTheSubjectIsWholeAndBeginsWhereTheyWereFirstSeen) {
   EXPECT_LT((begin.position - truth.position).norm(), 0.05);
 }
 
+// A pixel of somebody 4 m away shows 2 cm, and pixels are independent over 10 cm.
+TEST_F(Search, WeighsPixelsByTheDistanceOfAWalkUntilThatIsUndone) {
+  constexpr double kUsual = 0.2, kNear = 0.04;
+  show(0.2, 40, {{0, -4, 0.9}});
+  for (SceneEvidence& frame : window_) frame[0].pixel_weight = kUsual;
+  WalkSearch search;
+  for (const SceneEvidence& frame : window_) search.push(frame);
+  search.let_go(2);
+  const std::optional<LastSeen> nobody;
+  auto found = search.find(subject_->context(), {2, nobody});
+  ASSERT_TRUE(found);
+  const double score = found->walk.score;
+  search.weigh_at(subject_->context(), *found);
+  search.reach_back(2);
+  for (const SceneEvidence& frame : search.window())
+    EXPECT_NEAR(frame[0].pixel_weight, kNear, 0.05 * kNear);
+  // The speed's prior has a share in the score.
+  EXPECT_NEAR(found->walk.score, score * kNear / kUsual, 0.05 * score);
+  search.weigh_as_searched();
+  for (const SceneEvidence& frame : search.window()) EXPECT_EQ(frame[0].pixel_weight, kUsual);
+}
+
 }  // namespace
 }  // namespace walktrack

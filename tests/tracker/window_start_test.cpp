@@ -69,5 +69,20 @@ TEST_F(WindowStartTest, OfSomebodyWhoWasHalfHiddenTheBetterOfTwoWalksIsTaken) {
   }
 }
 
+TEST_F(WindowStartTest, OneCameraWeighsTheFramesOfAStartAtTheSubjectsDistance) {
+  for (const bool one : {true, false}) {
+    show(0.2, kVideoFrames, {{0, -4, 1}, {4, -1, 1}});
+    if (one) subject_->scene.cameras.resize(1);
+    for (SceneEvidence& frame : window_) {
+      frame.resize(subject_->scene.cameras.size());
+      for (CameraEvidence& evidence : frame) evidence.pixel_weight = 0.2;
+    }
+    const auto started = start();
+    ASSERT_TRUE(started);
+    for (const SceneEvidence& frame : started->frames)
+      EXPECT_NEAR(frame[0].pixel_weight, one ? 0.04 : 0.2, 0.002) << one;
+  }
+}
+
 }  // namespace
 }  // namespace walktrack

@@ -1,7 +1,9 @@
 #include "tracker/detect/walk_search.h"
 
+#include <numeric>
 #include <utility>
 
+#include "core/parallel_for.h"
 #include "tracker/detect/half_hidden.h"
 
 namespace walktrack {
@@ -14,6 +16,16 @@ namespace {
 constexpr double kStandingKept = 3;
 // The longest time for which a subject who is half hidden is waited for, s. By hand.
 constexpr double kMostPatience = 0.7;
+
+// Weighs the pixels of a frame as those of a subject at that place.
+void weigh_pixels(const TrackContext& context, const Eigen::Vector2d& place, SceneEvidence& frame) {
+  for (size_t c = 0; c < frame.size(); ++c) {
+    const Region region =
+        person_region(context.scene.cameras[c], place, context.body().subject.height, 0);
+    if (region.area.empty()) continue;  // behind the camera
+    frame[c].pixel_weight = independent_share(context.scene.observation, region.metres_per_px);
+  }
+}
 
 }  // namespace
 
@@ -159,6 +171,42 @@ void WalkSearch::hide_occluders(const TrackContext& context, const FoundWalk& fo
   let_go(found.lead);
 }
 
+double WalkSearch::mean_score(const TrackContext& context, const DetectedWalk& walk) const {
+  const std::optional<LastSeen> nobody;
+  const PlaceGrid nowhere;
+  const SearchWindow window{context, window_, 0, nobody, nowhere};
+  const WindowScore score = window_score(window, context.body(), context.subject.figures);
+  std::vector<double> scores(window_.size());
+  parallel_for(scores.size(), context.threads, [&](size_t i) {
+    scores[i] = score(i, moved(walk, double(i) * context.scene.dt).position, walk.velocity);
+  });
+  return std::accumulate(scores.begin(), scores.end(), 0.0) / double(scores.size());
+}
+
+void WalkSearch::weigh_at(const TrackContext& context, FoundWalk& found) {
+  std::vector<DetectedWalk*> walks{&found.walk};
+  if (found.first) walks.push_back(&*found.first);
+  for (DetectedWalk* walk : walks) walk->score -= mean_score(context, *walk);
+  for (const CameraEvidence& evidence : window_.front())
+    search_weights_.push_back(evidence.pixel_weight);
+  for (SceneEvidence& frame : waiting_) weigh_pixels(context, found.walk.position, frame);
+  for (size_t i = 0; i < window_.size(); ++i) {
+    const DetectedWalk then = moved(found.walk, double(i) * context.scene.dt);
+    weigh_pixels(context, then.position, window_[i]);
+  }
+  for (DetectedWalk* walk : walks) walk->score += mean_score(context, *walk);
+}
+
+void WalkSearch::weigh_as_searched() {
+  for (std::deque<SceneEvidence>* frames : {&waiting_, &window_}) {
+    for (SceneEvidence& frame : *frames) {
+      for (size_t c = 0; c < search_weights_.size(); ++c)
+        frame[c].pixel_weight = search_weights_[c];
+    }
+  }
+  search_weights_.clear();
+}
+
 bool WalkSearch::slide(const TrackContext& context) {
   let_go(1);
   const double kept = context.subject.standing ? kStandingKept : half_hidden_ ? kMostPatience : 0;
@@ -171,6 +219,7 @@ std::deque<SceneEvidence> WalkSearch::take() {
   waiting_.clear();
   candidates_.clear();
   half_hidden_.reset();
+  search_weights_.clear();
   return std::exchange(window_, {});
 }
 

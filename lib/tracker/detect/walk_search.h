@@ -69,6 +69,12 @@ class WalkSearch {
   // before it in which the walk begins.
   void hide_occluders(const TrackContext& context, const FoundWalk& found);
 
+  // Weighs the pixels of all frames as those of a subject at the places of a walk, whose score
+  // changes accordingly; frames come with the weights of a subject at a usual distance.
+  void weigh_at(const TrackContext& context, FoundWalk& found);
+  // Undoes this.
+  void weigh_as_searched();
+
   // Moves the beginning of the window forward by a frame. Returns whether the oldest of the frames
   // that wait was dropped.
   bool slide(const TrackContext& context);
@@ -76,6 +82,8 @@ class WalkSearch {
   std::deque<SceneEvidence> take();
 
  private:
+  // Nats a frame, of a walk through the window.
+  double mean_score(const TrackContext& context, const DetectedWalk& walk) const;
   SearchWindow view(const TrackContext& context, const SearchMoment& moment) const;
   const std::vector<Place>& candidates(const SearchWindow& window, size_t index);
   bool walks_clearly(const TrackContext& context, const DetectedWalk& walk);
@@ -93,6 +101,7 @@ class WalkSearch {
   PlaceGrid places_;                                          // of a figure, once computed
   size_t slight_walks_ = 0;  // successive windows in which the person may as well stand
   std::optional<HalfHidden> half_hidden_;
+  std::vector<double> search_weights_;  // by camera, while the frames are weighed at a walk
 };
 
 }  // namespace tracker

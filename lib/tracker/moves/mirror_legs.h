@@ -29,9 +29,8 @@ void mirror_legs(const MotionContext& context, WalkerFilter& filter);
 void mirror_legs(const Body& body, FrameRecord& record);
 
 // If the newest record is half a stride away from the one before it, swaps the legs of the records
-// before it: several cameras tell left from right, and the newest particles have explained more
-// frames. Returns whether it is more than a quarter of a stride away, so that it may be one or the
-// other. Who stands has no phase.
+// before it: the newest particles have explained more frames. Returns whether it is more than a
+// quarter of a stride away, so that it may be one or the other. Who stands has no phase.
 bool relabel_before_switch(const Body& body, std::span<FrameRecord> records);
 
 }  // namespace tracker

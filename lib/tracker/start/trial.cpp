@@ -62,7 +62,7 @@ void follow_rest(const WindowFrames& window, Attempt& attempt) {
     std::vector<FrameRecord> records =
         follow(context, window.frames[i], window.first + static_cast<uint32_t>(i), attempt.mode);
     std::move(records.begin(), records.end(), std::back_inserter(attempt.records));
-    if (context.scene.cameras.size() > 1 && relabel_before_switch(context.body(), attempt.records))
+    if (relabel_before_switch(context.body(), attempt.records) && context.scene.cameras.size() > 1)
       attempt.legs_in_doubt = true;
     if (!is_tracking(attempt.mode) || attempt.settled) continue;
     attempt.settled = std::get<Tracking>(attempt.mode);
