@@ -21,7 +21,8 @@ WalkerFilterContext filter_context(const TrackContext& context) {
   const SubjectModel& subject = context.subject;
   return {context.scene,
           {context.scene.model, context.prior, *subject.moves, subject.motion, subject.frame_scale,
-           subject.markov, context.scene.dt, subject.standing ? &*subject.standing : nullptr},
+           subject.markov, context.scene.dt, subject.standing ? &*subject.standing : nullptr,
+           context.all_set_off},
           context.config.samples,
           context.threads,
           context.config.model_error};

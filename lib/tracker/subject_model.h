@@ -32,6 +32,7 @@ struct TrackContext {
   uint64_t seed;
   int threads;
   bool competing = true;  // whether components may compete with a track (tracker/modes/turning.h)
+  bool all_set_off = false;  // all particles that stand start to walk (tracker/start/set_off.h)
 
   const Body& body() const { return scene.model.body; }
 };

@@ -146,6 +146,14 @@ TEST_P(MirroredLegs, OfRecordsBeforeASwitchAreMirrored) {
   EXPECT_EQ(after(0.93), Outcome(true, true));
   record.modes.standing = 1;
   EXPECT_EQ(after(0.79), Outcome(false, true)) << "who stands has no phase";
+  record.modes.standing = 0;
+  std::vector<FrameRecord> stood(4, record);
+  stood[1].modes.standing = 1;
+  stood[3].modes.phase = 0.7;
+  EXPECT_TRUE(relabel_before_switch(walking.model.body, stood));
+  for (const size_t i : {0u, 1u, 3u})
+    EXPECT_EQ(stood[i].estimate.pose.legs[0].knee_flexion, knee) << i;
+  EXPECT_NE(stood[2].estimate.pose.legs[0].knee_flexion, knee) << "as far back as they walk";
   std::vector<FrameRecord> one(1, record);
   EXPECT_FALSE(relabel_before_switch(walking.model.body, one));
 }

@@ -103,6 +103,16 @@ TEST(Standing, RegimesChangeAndPosesStay) {
   EXPECT_NEAR(left, 200, 60);  // either leg goes first
 }
 
+TEST(Standing, AllSetOffTogetherWhenTold) {
+  Crowd crowd(300);
+  halt(crowd);
+  crowd.frame(0);
+  EXPECT_GT(crowd.standing(), 250);
+  crowd.context.all_set_off = true;
+  crowd.frame(1);
+  EXPECT_LT(crowd.standing(), 30);
+}
+
 // Standing does not explain any pose of a stride as well as walking, so that walks are not
 // interrupted.
 TEST(Standing, WalkersKeepWalking) {

@@ -91,6 +91,7 @@ struct MotionContext {
   MarkovSteps markov;
   double dt;                                  // s
   const StandingProcess* standing = nullptr;  // if the subject may stand
+  bool all_set_off = false;                   // all who stand start to walk in this frame
 };
 
 // The prior's gait at which a particle aims, on the slope of its heading.

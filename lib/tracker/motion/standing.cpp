@@ -19,6 +19,8 @@ constexpr double kSlowestAim = 0.6, kFastestAim = 1.3;
 constexpr double kSlower = -0.25, kSlower_sd = 0.12;  // of kPace, a logarithm
 // Moments of the step at which they begin: before the legs have passed each other. By hand.
 constexpr double kLatest = 0.6;
+// Steps that are tried for a particle that has to set off: two of five fit its pose.
+constexpr int kTries = 5;
 
 bool sets_off(const MotionContext& context, const StepLibrary& steps, WalkerParticle& particle,
               Rng& rng) {
@@ -77,6 +79,11 @@ void stand(WalkerParticle& particle) {
 
 bool change_regime(const MotionContext& context, const StepLibrary& steps, WalkerParticle& particle,
                    Rng& rng) {
+  if (particle.regime == Regime::kStanding && context.all_set_off) {
+    for (int i = 0; i < kTries; ++i)
+      if (sets_off(context, steps, particle, rng)) return true;
+    return false;
+  }
   if (particle.regime == Regime::kStanding)
     return rng.uniform() < kSetsOff * context.dt && sets_off(context, steps, particle, rng);
   return rng.uniform() < kStops * context.dt && stops(context, particle, rng);

@@ -64,6 +64,8 @@ void swap_feet(const MotionContext& context, WalkerParticle& particle) {
   particle.pose_before = swapped_limbs(particle.pose_before);
 }
 
+bool stands(const FrameRecord& record) { return record.modes.standing > 0.5; }
+
 }  // namespace
 
 void swap_legs(JointPositions& joints) {
@@ -119,10 +121,13 @@ void mirror_legs(const Body& body, FrameRecord& record) {
 bool relabel_before_switch(const Body& body, std::span<FrameRecord> records) {
   if (records.size() < 2 || !records.back().tracked) return false;
   const std::span before = records.first(records.size() - 1);
-  if (records.back().modes.standing > 0.5 || before.back().modes.standing > 0.5) return false;
+  if (stands(records.back()) || stands(before.back())) return false;
   const double phase = records.back().modes.phase, phase_before = before.back().modes.phase;
-  if (mirrored(phase_before, phase))
-    for (FrameRecord& record : before) mirror_legs(body, record);
+  if (mirrored(phase_before, phase)) {
+    const auto stood = std::find_if(before.rbegin(), before.rend(), stands);
+    std::for_each(stood.base(), before.end(),
+                  [&](FrameRecord& record) { mirror_legs(body, record); });
+  }
   return apart(phase_before, phase);
 }
 

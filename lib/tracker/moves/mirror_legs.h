@@ -29,8 +29,9 @@ void mirror_legs(const MotionContext& context, WalkerFilter& filter);
 void mirror_legs(const Body& body, FrameRecord& record);
 
 // If the newest record is half a stride away from the one before it, swaps the legs of the records
-// before it: the newest particles have explained more frames. Returns whether it is more than a
-// quarter of a stride away, so that it may be one or the other. Who stands has no phase.
+// before it, as far back as the subject walks: the newest particles have explained more frames, and
+// who stands has no phase. Returns whether it is more than a quarter of a stride away, so that it
+// may be one or the other.
 bool relabel_before_switch(const Body& body, std::span<FrameRecord> records);
 
 }  // namespace tracker

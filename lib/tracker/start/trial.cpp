@@ -1,13 +1,13 @@
 #include "tracker/start/trial.h"
 
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <utility>
 
 #include "tracker/moves/mirror_legs.h"
+#include "tracker/start/attempt.h"
 #include "tracker/start/keypoint_lead.h"
-#include "tracker/start/leg_label_evidence.h"
+#include "tracker/start/set_off.h"
 #include "tracker/start/stride_fit.h"
 
 namespace walktrack {
@@ -27,58 +27,19 @@ constexpr double kClearLead = 60;
 // to 1.3, and two were swapped.
 constexpr double kLeadTemperature = 20;
 
-struct Attempt {
-  TrackMode mode;
-  std::vector<FrameRecord> records{};
-  std::optional<Tracking> settled{};  // when the start was decided
-  size_t settled_after = 0;           // frames
-  bool legs_in_doubt = false;         // before several cameras
-  double legs = 0;                    // log-odds that the legs have the right labels
-};
-
-struct WindowFrames {
-  const TrackContext& context;
-  const std::deque<SceneEvidence>& frames;
-  uint32_t first;
-};
-
 // A probability after evidence against it, nats.
 double updated(double probability, double against) {
   return probability / (probability + std::exp(against) * (1 - probability));
-}
-
-double total_log_likelihood(const Attempt& attempt) {
-  const double finished = total_log_likelihood(attempt.records);
-  const Starting* start = std::get_if<Starting>(&attempt.mode);
-  return start ? finished + total_log_likelihood(start->hypotheses.records()) : finished;
-}
-
-// Continues after the attempt's records.
-void follow_rest(const WindowFrames& window, Attempt& attempt) {
-  TrackContext context = window.context;
-  context.competing = false;
-  for (size_t i = attempt.records.size(); i < window.frames.size() && !is_searching(attempt.mode);
-       ++i) {
-    std::vector<FrameRecord> records =
-        follow(context, window.frames[i], window.first + static_cast<uint32_t>(i), attempt.mode);
-    std::move(records.begin(), records.end(), std::back_inserter(attempt.records));
-    if (relabel_before_switch(context.body(), attempt.records) && context.scene.cameras.size() > 1)
-      attempt.legs_in_doubt = true;
-    if (!is_tracking(attempt.mode) || attempt.settled) continue;
-    attempt.settled = std::get<Tracking>(attempt.mode);
-    attempt.settled_after = attempt.records.size();
-  }
-  if (is_tracking(attempt.mode) && context.scene.cameras.size() == 1)
-    attempt.legs = legs_log_odds(context.scene, window.frames, attempt.records);
 }
 
 // The attempt again, with the legs swapped from the frame on at which its start was decided.
 Attempt with_mirrored_legs(const WindowFrames& window, const Attempt& attempt) {
   const WalkerFilterContext filter = filter_context(window.context);
   const auto start = attempt.records.begin();
-  Attempt other{.mode = *attempt.settled,
-                .records = {start, start + static_cast<long>(attempt.settled_after)},
-                .settled = attempt.settled};
+  const Moment& settled = *attempt.settled;
+  Attempt other{.mode = settled.track,
+                .records = {start, start + static_cast<long>(settled.after)},
+                .settled = settled};
   for (FrameRecord& record : other.records) mirror_legs(window.context.body(), record);
   mirror_legs(filter.motion, std::get<Tracking>(other.mode).filter);
   follow_rest(window, other);
@@ -127,12 +88,6 @@ WalkerFilter filter_of(TrackMode mode) {
 
 }  // namespace
 
-double total_log_likelihood(std::span<const FrameRecord> records) {
-  double sum = 0;
-  for (const FrameRecord& record : records) sum += record.mean_log_likelihood;
-  return sum;
-}
-
 Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& window,
                 uint32_t first_frame, const DetectedWalk& walk, uint32_t number,
                 const Searching& before) {
@@ -140,6 +95,7 @@ Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& wi
   Attempt attempt{
       .mode = start_around(context, walk, likely_ranges(context, window, walk), number, before)};
   follow_rest(frames, attempt);
+  if (context.scene.cameras.size() > 1) attempt = with_best_set_off(frames, std::move(attempt));
   if (attempt.legs != 0) attempt = with_labelled_legs(frames, std::move(attempt));
   if (is_tracking(attempt.mode) && context.scene.cameras.size() == 2)
     attempt = with_better_legs(frames, std::move(attempt));
