@@ -25,8 +25,8 @@ StandingProcess standing_process(const MotionModel& moves, const MotionConfig& c
 // Makes a particle, whose stance and residual angles are set, stand upright and at rest.
 void stand(WalkerParticle& particle);
 
-// Draws whether the particle starts to walk or stops in this frame (`context.all_set_off`: whoever
-// stands starts, if a step fits the pose), and returns whether it did.
+// Draws whether the particle starts to walk or stops in this frame, and returns whether it did.
+// With `context.all_set_off` every particle that stands starts, if a step fits its pose.
 // `context.standing` has to be set.
 bool change_regime(const MotionContext& context, const StepLibrary& steps, WalkerParticle& particle,
                    Rng& rng);

@@ -14,13 +14,13 @@ namespace {
 
 // Moments in which the subject stands are remembered so many seconds apart, the newest of them.
 // By hand.
-constexpr double kApart = 0.15;
+constexpr double kMomentsApart = 0.15;
 constexpr size_t kMoments = 6;
 
 void remember_standing(const TrackContext& context, Attempt& attempt) {
   if (attempt.sets_off > 0 || !is_tracking(attempt.mode)) return;
   const size_t count = attempt.records.size();
-  const auto apart = static_cast<size_t>(frames_in(kApart, context.scene.dt));
+  const auto apart = static_cast<size_t>(frames_in(kMomentsApart, context.scene.dt));
   std::deque<Moment>& stood = attempt.stood;
   if (attempt.records.back().modes.standing <= 0.5) {
     if (!stood.empty()) attempt.sets_off = count;
