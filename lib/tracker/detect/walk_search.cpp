@@ -1,5 +1,6 @@
 #include "tracker/detect/walk_search.h"
 
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -16,6 +17,14 @@ namespace {
 constexpr double kStandingKept = 3;
 // The longest time for which a subject who is half hidden is waited for, s. By hand.
 constexpr double kMostPatience = 0.7;
+
+// Nats, of the figure of a walk whose place is that in the frame.
+double score_at(const TrackContext& context, const SceneEvidence& frame, const DetectedWalk& walk) {
+  const double heading = std::atan2(walk.velocity.y(), walk.velocity.x());
+  return place_score(context.scene, frame, context.body(),
+                     context.subject.figures.at(walk.velocity.norm(), heading), walk.position,
+                     heading);
+}
 
 // Weighs the pixels of a frame as those of a subject at that place.
 void weigh_pixels(const TrackContext& context, const Eigen::Vector2d& place, SceneEvidence& frame) {
@@ -137,14 +146,10 @@ std::optional<StandingStart> WalkSearch::standing_lead(const TrackContext& conte
 
 double WalkSearch::score_with_lead(const TrackContext& context, const DetectedWalk& walk,
                                    size_t lead) const {
-  const std::optional<LastSeen> nobody;
-  const PlaceGrid nowhere;
-  const SearchWindow before{context, waiting_, 0, nobody, nowhere};
-  const WindowScore score = window_score(before, context.body(), context.subject.figures);
   double sum = walk.score * double(window_.size());
   for (size_t back = 1; back <= lead; ++back)
-    sum += score(waiting_.size() - back, moved(walk, -double(back) * context.scene.dt).position,
-                 walk.velocity);
+    sum += score_at(context, waiting_[waiting_.size() - back],
+                    moved(walk, -double(back) * context.scene.dt));
   return sum / double(window_.size() + lead);
 }
 
@@ -172,13 +177,9 @@ void WalkSearch::hide_occluders(const TrackContext& context, const FoundWalk& fo
 }
 
 double WalkSearch::mean_score(const TrackContext& context, const DetectedWalk& walk) const {
-  const std::optional<LastSeen> nobody;
-  const PlaceGrid nowhere;
-  const SearchWindow window{context, window_, 0, nobody, nowhere};
-  const WindowScore score = window_score(window, context.body(), context.subject.figures);
   std::vector<double> scores(window_.size());
   parallel_for(scores.size(), context.threads, [&](size_t i) {
-    scores[i] = score(i, moved(walk, double(i) * context.scene.dt).position, walk.velocity);
+    scores[i] = score_at(context, window_[i], moved(walk, double(i) * context.scene.dt));
   });
   return std::accumulate(scores.begin(), scores.end(), 0.0) / double(scores.size());
 }
