@@ -60,9 +60,8 @@ struct KeypointConfig {
   // (tracker/smooth/leg_labels.h).
   bool in_doubt_only = false;
   std::string model = "movenet_lightning";  // the shipped network, or a file of the same family
-  // Weight of one point: a network's points err together from joint to joint and for several
-  // frames.
-  double weight = .2;
+  // Weight of one point; less than 1 if its errors are taken to last for several frames.
+  double weight = 1;
   // Probability that left and right are swapped in a frame. For clear views it is below one in a
   // hundred, but swapped frames come in runs, each of which would be counted several times.
   double flip = .1;
@@ -85,20 +84,22 @@ struct ObservationConfig {
   // fold), so that a patch of this side counts as one independent pixel. It is measured on the
   // body, in metres: a figure twice as large in the image does not have four times the evidence.
   double independent_m = .1;
-  // Share of the outlines' evidence that is used: less beside the keypoints of a single camera, and
-  // less still if keypoints lead (KeypointConfig::lead).
+  // Share of the outlines' evidence that is used: less beside keypoints, and less still if they
+  // lead (KeypointConfig::lead).
   double outline_share = 1;
 };
 
 // What outlines and keypoints count for together.
 struct EvidenceWeights {
   double outline_share, point_weight;  // ObservationConfig::outline_share, KeypointConfig::weight
+  double flip;                         // KeypointConfig::flip
 };
-// Several cameras show where a figure's outline is wrong. A single one takes the errors of girth,
-// arms and clothes, which last for strides, for a wrong distance or pose, unless keypoints, whose
-// errors are others, count for as much (reports/weights.md).
+// Outlines alone take the errors of girth, arms and clothes, which last for strides, for a wrong
+// distance or pose. Beside keypoints, whose errors are others, they count for less. The outlines of
+// several cameras tell left from right, so that a detector's labels, which are swapped for strides,
+// are not needed there (reports/weights.md).
 inline constexpr EvidenceWeights weights_for(size_t cameras, bool keypoints) {
-  return cameras == 1 && keypoints ? EvidenceWeights{1.0 / 3, 1} : EvidenceWeights{1, .2};
+  return {keypoints ? 1.0 / 3 : 1, 1, cameras == 1 ? .1 : .5};
 }
 
 }  // namespace observation

@@ -156,25 +156,28 @@ TEST_F(DetectionsTest, ThreeCamerasNeedFewerParticles) {
   EXPECT_EQ(particles(three), std::pair(30, 20));
 }
 
-// The keypoints of a single camera correct its outlines, unless the configuration states weights.
-TEST_F(DetectionsTest, OutlinesCountForLessBesideTheKeypointsOfOneCamera) {
+// Keypoints correct outlines, and several cameras' outlines the labels of keypoints, unless the
+// configuration states weights.
+TEST_F(DetectionsTest, OutlinesCountForLessBesideKeypoints) {
   const Scene one = scene("  - {name: a, video: a.mp4, calibration: a.yaml, keypoints: points}\n");
   Scene two = one;
   two.cameras.resize(2, one.cameras[0]);
   Config config;
   const auto weights = [&](const Scene& scene) {
     const ObservationConfig terms = decided(scene, config).observation;
-    return std::pair(terms.outline_share, terms.keypoints.weight);
+    return std::array{terms.outline_share, terms.keypoints.weight, terms.keypoints.flip};
   };
-  EXPECT_EQ(weights(one), std::pair(1.0 / 3, 1.0));
-  EXPECT_EQ(weights(two), std::pair(1.0, 0.2));
+  EXPECT_EQ(weights(one), (std::array{1.0 / 3, 1.0, 0.1}));
+  EXPECT_EQ(weights(two), (std::array{1.0 / 3, 1.0, 0.5}));
   config.observation.keypoints.enabled = TermSetting::kOff;
-  EXPECT_EQ(weights(one).first, 1) << "without keypoints";
+  EXPECT_EQ(weights(one)[0], 1) << "without keypoints";
+  EXPECT_EQ(weights(two)[0], 1) << "without keypoints";
   config.observation.keypoints.enabled = TermSetting::kOn;
   config.observation.outline_share = 0.5;
   config.observation.keypoints.weight = 0.7;
-  EXPECT_EQ(weights(one), std::pair(0.5, 0.7));
-  EXPECT_EQ(weights(two), std::pair(0.5, 0.7));
+  config.observation.keypoints.flip = 0.2;
+  EXPECT_EQ(weights(one), (std::array{0.5, 0.7, 0.2}));
+  EXPECT_EQ(weights(two), (std::array{0.5, 0.7, 0.2}));
 }
 
 TEST_F(DetectionsTest, SaysThatTheModelIsMissing) {

@@ -84,7 +84,7 @@ inline TrackerConfig particles_by_cameras() {
 inline constexpr double kWeightByScene = 0;
 inline ObservationConfig weights_by_scene() {
   ObservationConfig out;
-  out.outline_share = out.keypoints.weight = kWeightByScene;
+  out.outline_share = out.keypoints.weight = out.keypoints.flip = kWeightByScene;
   return out;
 }
 

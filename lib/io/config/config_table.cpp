@@ -41,10 +41,8 @@ void add_observation(ParameterTable& table) {
   o.number("clip", &O::clip, 0, kAnyPositive, "limit of one pixel's log-likelihood ratio, nats");
   o.number("independent_m", &O::independent_m, 1e-3, 1,
            "side of a patch on the body whose pixels count as one independent observation, m");
-  o.number(
-      "outline_share", &O::outline_share, 0, 1,
-      "share of the outlines' evidence that counts; 0 = a third with one camera and keypoints, "
-      "1 otherwise");
+  o.number("outline_share", &O::outline_share, 0, 1,
+           "share of the outlines' evidence that counts; 0 = a third with keypoints, 1 without");
 
   TermGroups groups{table};
   Terms::each([&]<typename Term>() { Term::describe(groups); });

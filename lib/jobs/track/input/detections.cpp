@@ -98,9 +98,12 @@ Config decided(const Scene& scene, const Config& config) {
   const bool keypoints = keypoints_wanted(scene, config);
   out.observation.keypoints.enabled = setting(keypoints);
   const EvidenceWeights weights = weights_for(scene.cameras.size(), keypoints);
-  double &outlines = out.observation.outline_share, &points = out.observation.keypoints.weight;
-  if (outlines == kWeightByScene) outlines = weights.outline_share;
-  if (points == kWeightByScene) points = weights.point_weight;
+  const auto by_scene = [](double& value, double chosen) {
+    if (value == kWeightByScene) value = chosen;
+  };
+  by_scene(out.observation.outline_share, weights.outline_share);
+  by_scene(out.observation.keypoints.weight, weights.point_weight);
+  by_scene(out.observation.keypoints.flip, weights.flip);
   out.observation.background.without_people = setting(leaves_people_out(scene, config));
   const ParticleCounts enough = particles_for(scene.cameras.size());
   int &particles = out.tracker.filter.particles, &at_start = out.tracker.start.particles;
