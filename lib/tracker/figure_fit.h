@@ -11,6 +11,7 @@ inline namespace tracker {
 
 struct FigureFit {
   std::vector<double> overlap;  // by camera (Overlap::share); NaN if it is unknown
+  std::vector<double> seen;     // by camera: share of the figure's pixels that have evidence
   // How much better the best of the figures that stand 5 to 40 cm beside this one, or are turned by
   // 15 or 30 degrees, explains the images than this one, as a share of the log-likelihood of that
   // best figure. 0 if none of them explains the images better, or if none explains them at all.

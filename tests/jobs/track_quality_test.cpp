@@ -137,6 +137,7 @@ TEST_F(QualityOf, UntrackedMotionCountsFromTheFirstFrameOn) {
 TEST_F(QualityOf, AFigureBesideThePersonFailsInTheWorstCamera) {
   FrameRecord beside = still();
   beside.fit.overlap = {0.8, 0.4, std::nan("")};
+  beside.fit.seen = {1, 0.5, 0};
   const Quality quality = quality_of(standing(4, {1}, beside));
   EXPECT_NEAR(named(quality, "overlap_percent").value, 40, 1e-9);
   EXPECT_FALSE(named(quality, "overlap_percent").passed());
@@ -144,6 +145,17 @@ TEST_F(QualityOf, AFigureBesideThePersonFailsInTheWorstCamera) {
   EXPECT_TRUE(named(quality_of(standing(4, {}, beside)), "overlap_percent").passed());
   EXPECT_THROW(named(quality_of(standing(4, {})), "overlap_percent"), std::out_of_range)
       << "no silhouettes";
+}
+
+// While a subject stands before a background that was never seen, hardly anything is known of them.
+TEST_F(QualityOf, FramesInWhichLittleOfTheFigureIsSeenCountForLittle) {
+  FrameRecord hardly = still(), whole = still();
+  hardly.fit = {.overlap = {0.1}, .seen = {0.05}};
+  whole.fit = {.overlap = {0.8}, .seen = {0.95}};
+  TrackedFrames frames = standing(3, {}, hardly);
+  const TrackedFrames later = standing(3, {}, whole);
+  for (const FrameRecord& record : later.records) frames.records.append(record);
+  EXPECT_NEAR(mean_overlaps(frames).at(0), 0.1 * 0.05 + 0.8 * 0.95, 1e-12);
 }
 
 TEST_F(QualityOf, EvidenceForAFigureBesideThisOneFails) {
@@ -230,6 +242,7 @@ TEST(QualityWords, EveryCheckIsExplained) {
 TEST_F(QualityOf, EveryCheckHasAdvice) {
   FrameRecord seen = still();
   seen.fit.overlap = {0.8};
+  seen.fit.seen = {1};
   for (const QualityMeasure& m : quality_of(standing(4, {}, seen))) {
     EXPECT_FALSE(m.meaning.empty()) << m.name;
     EXPECT_EQ(m.limit.has_value(), !m.advice.empty()) << m.name;

@@ -1,6 +1,7 @@
 #include "observation/silhouette/overlap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -56,6 +57,21 @@ LogRatioPlanes somebody_at(double x) {
 TEST(Overlap, IsWholeOnThePersonAndNoneBesideThem) {
   EXPECT_EQ(overlap(somebody_at(60), figure_at(60)).share(), 1);
   EXPECT_EQ(overlap(somebody_at(95), figure_at(30)).share(), 0);
+}
+
+TEST(Overlap, LeavesOutWhatTheFigureLacks) {
+  CapsuleList leg;
+  leg.insert(figure_at(60)[0]);
+  CapsuleList without;
+  for (size_t i = 1; i < figure_at(60).size(); ++i) without.insert(figure_at(60)[i]);
+  EXPECT_LT(overlap(somebody_at(60), without).share(), 0.9);
+  EXPECT_EQ(overlap(somebody_at(60), without, std::array{leg}).share(), 1);
+}
+
+TEST(Overlap, StatesHowMuchOfTheFigureIsSeen) {
+  EXPECT_EQ(overlap(somebody_at(60), figure_at(60)).seen, 1);
+  const auto left = [](const Vector2d& pixel) { return pixel.x() < 60 ? 1.0 : 0.0; };
+  EXPECT_NEAR(overlap(planes_of(left, left), figure_at(60)).seen, 0.5, 0.05);
 }
 
 TEST(Overlap, FallsWithTheDistanceFromThePerson) {

@@ -27,6 +27,7 @@ class Fit : public testing::Test {
 TEST_F(Fit, NothingIsBetterThanThePersonsOwnPose) {
   const FigureFit fit = figure_fit(scene, evidence, striding());
   EXPECT_EQ(fit.overlap, (std::vector<double>{1, 1}));
+  EXPECT_EQ(fit.seen, (std::vector<double>{1, 1}));
   EXPECT_EQ(fit.better_beside, 0);
 }
 
@@ -51,11 +52,27 @@ TEST_F(Fit, AFigureThatFacesElsewhereIsSeen) {
   EXPECT_GT(figure_fit(scene, evidence, pose).better_beside, 0.05);
 }
 
+// The subject has arms, which hang and swing; the figure has none.
+TEST_F(Fit, ArmsThatTheFigureLacksAreNotMissed) {
+  BodyGroups groups = scene.model.body.groups;
+  groups.arms = true;
+  const Body arms = make_body(scene.model.body.subject, groups);
+  for (const double swing : {-25.0, -12.0, 0.0, 12.0, 25.0}) {
+    Pose pose = striding();
+    pose.arms[0] = {rad_from_deg(swing), 0, rad_from_deg(15)};
+    pose.arms[1] = {rad_from_deg(-swing), 0, rad_from_deg(15)};
+    for (size_t c = 0; c < 2; ++c) evidence[c] = evidence_of(scene.cameras[c], arms, pose);
+    for (const double overlap : figure_fit(scene, evidence, striding()).overlap)
+      EXPECT_GT(overlap, 0.9) << swing;
+  }
+}
+
 TEST_F(Fit, ACameraThatSeesNothingSaysNothing) {
   evidence[1] = CameraEvidence{};
   const FigureFit fit = figure_fit(scene, evidence, striding());
   EXPECT_EQ(fit.overlap[0], 1);
   EXPECT_TRUE(std::isnan(fit.overlap[1]));
+  EXPECT_EQ(fit.seen[1], 0);
   evidence[0] = CameraEvidence{};
   EXPECT_EQ(figure_fit(scene, evidence, striding()).better_beside, 0);
   EXPECT_TRUE(figure_fit(unseen(test_model(), 0.1), {}, striding()).overlap.empty());

@@ -212,8 +212,8 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<FigureFit> T>
 void fields(Archive& archive, T& value) {
-  auto& [overlap, better_beside] = value;
-  archive(any_number(overlap), better_beside);
+  auto& [overlap, seen, better_beside] = value;
+  archive(any_number(overlap), seen, better_beside);
 }
 
 template <typename Archive, ArchivedAs<KeypointEvidence::Point> T>

@@ -44,7 +44,8 @@ void best_of_planes(const LogRatioPlanes& planes, const PixelRect& box, int y,
 
 }  // namespace
 
-Overlap overlap(const LogRatioPlanes& planes, const CapsuleList& figure) {
+Overlap overlap(const LogRatioPlanes& planes, const CapsuleList& figure,
+                std::span<const CapsuleList> unmodelled) {
   if (planes.count == 0) return {};
   const std::vector<VisibleRun> runs = visible_runs(planes.area, figure);
   if (runs.empty()) return {};
@@ -54,20 +55,27 @@ Overlap overlap(const LogRatioPlanes& planes, const CapsuleList& figure) {
   const auto row = [&](int y) {
     return std::span(best).subspan(width * static_cast<size_t>(y - box.y0), width);
   };
-  int64_t near = 0, both = 0, against = 0;
-  for (int y = box.y0; y < box.y1; ++y) {
-    best_of_planes(planes, box, y, row(y));
-    for (const int32_t value : row(y)) near += std::max(value, 0);
-  }
+  for (int y = box.y0; y < box.y1; ++y) best_of_planes(planes, box, y, row(y));
+  int64_t both = 0, against = 0, missed = 0, pixels = 0, seen = 0;
+  const auto take = [&](const VisibleRun& run) {
+    return row(run.y).subspan(static_cast<size_t>(run.x0 - box.x0),
+                              static_cast<size_t>(run.x1 - run.x0));
+  };
   for (const VisibleRun& run : runs) {
-    for (const int32_t value : row(run.y).subspan(static_cast<size_t>(run.x0 - box.x0),
-                                                  static_cast<size_t>(run.x1 - run.x0))) {
+    for (int32_t& value : take(run)) {
       both += std::max(value, 0);
       against -= std::min(value, 0);
+      seen += value != 0;
+      ++pixels;
+      value = 0;
     }
   }
+  for (const CapsuleList& parts : unmodelled)
+    for (const VisibleRun& run : visible_runs(box, parts)) std::ranges::fill(take(run), 0);
+  for (const int32_t value : best) missed += std::max(value, 0);
   constexpr double kNat = LogRatioPlanes::kNat;
-  return {double(both) / kNat, double(against) / kNat, double(near - both) / kNat};
+  return {double(both) / kNat, double(against) / kNat, double(missed) / kNat,
+          double(seen) / double(std::max<int64_t>(pixels, 1))};
 }
 
 }  // namespace observation

@@ -31,9 +31,9 @@ constexpr QualityWords kWords[] = {
      "How often the figure's weight moved from one foot to the other.",
      "The tracked figure took no step: is there a person who walks in this video?"},
     {"overlap_percent", "Figure on the person, worst camera", "%", 0,
-     "Overlap of the figure with the foreground near it, mean over the frames of the camera in "
-     "which it is smallest. It never reaches 100, because the figure wears no clothes and has no "
-     "arms.",
+     "Overlap of the figure with the foreground near it, in the camera in which it is smallest: "
+     "mean over the frames, by how much of the figure is in front of a known background. Arms that "
+     "the figure lacks are left out. It never reaches 100, because the figure wears no clothes.",
      "Look at the overlay video of that camera. A figure beside the person means a wrong "
      "calibration, cameras that do not start at the same time, a wrong height, or a wrong start; "
      "state where the walk begins (initial), or run walktrack check."},

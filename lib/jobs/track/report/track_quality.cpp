@@ -128,19 +128,18 @@ std::optional<QualityMeasure> quality_of_keypoints(const KeypointUse& use,
 }
 
 std::vector<double> mean_overlaps(const TrackedFrames& frames) {
-  std::vector<double> sums;
-  std::vector<int> counts;
+  std::vector<double> sums, seen;
   for (const FrameRecord& record : frames.records) {
-    const std::vector<double>& overlaps = record.fit.overlap;
-    sums.resize(std::max(sums.size(), overlaps.size()));
-    counts.resize(sums.size());
-    for (size_t c = 0; record.tracked && c < overlaps.size(); ++c) {
-      if (std::isnan(overlaps[c])) continue;
-      sums[c] += overlaps[c];
-      ++counts[c];
+    const FigureFit& fit = record.fit;
+    sums.resize(std::max(sums.size(), fit.overlap.size()));
+    seen.resize(sums.size());
+    for (size_t c = 0; record.tracked && c < fit.overlap.size(); ++c) {
+      if (std::isnan(fit.overlap[c])) continue;
+      sums[c] += fit.seen[c] * fit.overlap[c];
+      seen[c] += fit.seen[c];
     }
   }
-  for (size_t c = 0; c < sums.size(); ++c) sums[c] /= counts[c];
+  for (size_t c = 0; c < sums.size(); ++c) sums[c] /= seen[c];
   return sums;
 }
 
