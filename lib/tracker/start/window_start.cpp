@@ -82,8 +82,8 @@ std::optional<WindowStart> start_walking(SearchedWindow& window, const FoundWalk
 }
 
 // The frames of a search weigh pixels as if the subject were at a usual distance; the trial weighs
-// them at the walk, as the frames after it. Several cameras keep the weights of the search: with
-// others two telephones started with swapped legs in three of six runs instead of none.
+// them at the walk, as the frames after it. Several cameras keep the weights of the search,
+// with which two telephones are tracked better (observation/reports/weights.md).
 void weigh_at(SearchedWindow& window, FoundWalk& found) {
   if (window.subject.scene.cameras.size() == 1)
     window.search.weigh_at(window.subject.context(), found);
