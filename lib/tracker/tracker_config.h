@@ -33,8 +33,8 @@ struct TrackerConfig {
   int samples = 20;        // particles of every frame that are kept to show the spread
   double model_error = 1;  // factor on the part of the bands that is not the particles' spread
   EstimateKind estimate = EstimateKind::kMap;
-  // Whether frames before several cameras are held back, so that a track whose legs switch can be
-  // started again (tracker/start/new_start.h).
+  // Whether frames before several cameras are held back, so that a track whose legs switch, or
+  // that leaves the legs, can be started again (tracker/start/new_start.h).
   bool start_again = true;
 };
 

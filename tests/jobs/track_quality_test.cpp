@@ -155,7 +155,8 @@ TEST_F(QualityOf, FramesInWhichLittleOfTheFigureIsSeenCountForLittle) {
   TrackedFrames frames = standing(3, {}, hardly);
   const TrackedFrames later = standing(3, {}, whole);
   for (const FrameRecord& record : later.records) frames.records.append(record);
-  EXPECT_NEAR(mean_overlaps(frames).at(0), 0.1 * 0.05 + 0.8 * 0.95, 1e-12);
+  EXPECT_NEAR(named(quality_of(frames), "overlap_percent").value, 100 * (0.1 * 0.05 + 0.8 * 0.95),
+              1e-9);
 }
 
 TEST_F(QualityOf, EvidenceForAFigureBesideThisOneFails) {

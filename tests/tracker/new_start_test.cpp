@@ -10,6 +10,7 @@
 
 #include "core/log_weights.h"
 #include "tracker/moves/mirror_legs.h"
+#include "tracker/overlaps.h"
 #include "tracker/tracker.h"
 #include "walked_scene.h"
 
@@ -84,6 +85,15 @@ TEST_F(NewStart, IsNotTriedWithoutDoubt) {
   const double before = swapped(std::get<Tracking>(mode).held->records);
   EXPECT_EQ(swapped(decide_held(context(), window_, starts_, mode)), before);
   EXPECT_EQ(starts_, 1u);
+}
+
+// Nothing switches, but the overlap is lower than it was before the frames that are held.
+TEST_F(NewStart, IsTriedWhenTheOverlapFalls) {
+  TrackMode mode = track(false, true);
+  std::get<Tracking>(mode).monitor.fits.assign(60, {{1, 1}, {1, 1}, 0});
+  EXPECT_LT(swapped(decide_held(context(), window_, starts_, mode)), 0.05);
+  EXPECT_GT(starts_, 1u);
+  EXPECT_EQ(std::get<Tracking>(mode).monitor.fits.size(), frames_of_fall(kDt));
 }
 
 TEST_F(NewStart, LeavesARightTrackRight) {

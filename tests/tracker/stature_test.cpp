@@ -10,7 +10,7 @@
 namespace walktrack {
 namespace {
 
-constexpr size_t kFrames = 36;
+constexpr size_t kWatched = 36;
 const Eigen::Vector2d kEye(0, -6), kBegin(-0.8, 0.4), kVelocity(1.3, 0);
 
 DetectedWalk walk_off_by(const Eigen::Vector2d& shift) {
@@ -31,7 +31,7 @@ FigureScore person_of(double height, double width) {
 }
 
 SizedWalk sized(double height, double width, const Stature& known = kUsualStature) {
-  return size_up(walk_off_by({0.1, -0.15}), 1.75, known, kFrames, person_of(height, width), kDt,
+  return size_up(walk_off_by({0.1, -0.15}), 1.75, known, kWatched, person_of(height, width), kDt,
                  kEye);
 }
 
@@ -50,7 +50,7 @@ TEST(SizeUp, FindsTheHeightAndItsLine) {
 
 TEST(SizeUp, TheSpreadIsThatOfTheEvidenceOfUsualHeightsAndOfPeople) {
   for (const double width : {0.15, 0.6}) {
-    const double seen = kStrangeFigure * width / std::sqrt(40 * independent_looks(kFrames, kDt));
+    const double seen = kStrangeFigure * width / std::sqrt(40 * independent_looks(kWatched, kDt));
     const double expected = 1 / std::hypot(1 / std::hypot(seen, 0.02), 1 / 0.15);
     // The bell's flanks are less curved than its top: 5 cm are a third of the narrow one's width.
     EXPECT_NEAR(sized(1.7, width).stature.sd, expected, 0.1 * expected) << width;
@@ -62,7 +62,7 @@ TEST(SizeUp, WhereImagesSayNothingItIsAUsualHeight) {
     return [](size_t, const Eigen::Vector2d&, const Eigen::Vector2d&) { return 10.0; };
   };
   const SizedWalk found =
-      size_up(walk_off_by({0, 0}), 1.75, kUsualStature, kFrames, blind, kDt, kEye);
+      size_up(walk_off_by({0, 0}), 1.75, kUsualStature, kWatched, blind, kDt, kEye);
   EXPECT_NEAR(found.stature.height, 1.70, 1e-6);
   EXPECT_NEAR(found.stature.sd, 0.15, 1e-6);
 }

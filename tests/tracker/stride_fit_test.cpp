@@ -11,7 +11,7 @@
 namespace walktrack {
 namespace {
 
-constexpr size_t kFrames = 36;  // 1.2 s
+constexpr size_t kShown = 36;  // 1.2 s
 
 class StrideFit : public WalkedScene {
  protected:
@@ -27,14 +27,14 @@ size_t best(const std::vector<double>& scores) {
 
 TEST_F(StrideFit, ThePhaseThatIsSeenIsTheBest) {
   for (size_t k = 0; k < 12; ++k) {
-    show((static_cast<double>(k) + 0.5) / 12, kFrames, {{0, -4, 1}, {3, -3, 1.5}});
+    show((static_cast<double>(k) + 0.5) / 12, kShown, {{0, -4, 1}, {3, -3, 1.5}});
     EXPECT_EQ(best(scores()), k);
   }
 }
 
 // From the side swapped legs look nearly the same; quarter of a stride away nothing does.
 TEST_F(StrideFit, FromTheSideHalfAStrideAwayIsNextBest) {
-  show(3.5 / 12, kFrames, {{0, -6, 1}});
+  show(3.5 / 12, kShown, {{0, -6, 1}});
   const std::vector<double> found = scores();
   EXPECT_EQ(best(found) % 6, 3u);
   const double range = found[3] - *std::min_element(found.begin(), found.end());
@@ -43,7 +43,7 @@ TEST_F(StrideFit, FromTheSideHalfAStrideAwayIsNextBest) {
 }
 
 TEST_F(StrideFit, RangesNearTheBestOneAndHalfAStrideFromItAreTried) {
-  show(11.5 / 12, kFrames, {{0, -4, 1}, {3, -3, 1.5}});
+  show(11.5 / 12, kShown, {{0, -4, 1}, {3, -3, 1.5}});
   std::vector<std::pair<Side, double>> tried;
   for (const PhaseRange& range : likely_ranges(subject_->context(), window_, walk_))
     tried.emplace_back(range.stance, std::round(6 * range.from));
@@ -54,13 +54,13 @@ TEST_F(StrideFit, RangesNearTheBestOneAndHalfAStrideFromItAreTried) {
 }
 
 TEST_F(StrideFit, WhoStandsFirstHasNoPhase) {
-  show(0, kFrames, {{0, -4, 1}});
+  show(0, kShown, {{0, -4, 1}});
   walk_.standing = true;
   EXPECT_EQ(likely_ranges(subject_->context(), window_, walk_).size(), all().size());
 }
 
 TEST_F(StrideFit, WhoIsHalfHiddenFirstMayHaveEveryPhase) {
-  show(0, kFrames, {{0, -4, 1}});
+  show(0, kShown, {{0, -4, 1}});
   walk_.hidden_frames = 1;
   EXPECT_EQ(likely_ranges(subject_->context(), window_, walk_).size(), all().size());
 }

@@ -115,8 +115,8 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<MonitorState> T>
 void fields(Archive& archive, T& value) {
-  auto& [last_seen, log_likelihoods, below, outscored, off] = value;
-  archive(last_seen, log_likelihoods, a_count(below), a_count(outscored), a_count(off));
+  auto& [last_seen, log_likelihoods, below, outscored, off, fits] = value;
+  archive(last_seen, log_likelihoods, a_count(below), a_count(outscored), a_count(off), fits);
 }
 
 template <typename Archive, ArchivedAs<TrackerState> T>

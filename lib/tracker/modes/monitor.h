@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <vector>
 
+#include "tracker/figure_fit.h"
 #include "tracker/smooth/estimate.h"
 
 namespace walktrack {
@@ -38,6 +40,8 @@ struct MonitorState {
   // Numbers of successive frames that were explained badly, that were explained worse than by a
   // rigid figure, and in which the figure lay on no detected person.
   int frames_below = 0, frames_outscored = 0, frames_off = 0;
+  // With several cameras: of the newest frames that are decided (tracker/start/new_start.h).
+  std::vector<FigureFit> fits;
 };
 
 // Begins a track; the likelihoods are those of its first frames.

@@ -89,6 +89,8 @@ std::vector<FrameRecord> track_frame(const TrackContext& context, const SceneEvi
   return decide_turning(context, frame, now);
 }
 
+bool judged(const FrameRecord& record) { return !record.fit.overlap.empty(); }
+
 }  // namespace
 
 Starting start_around(const TrackContext& context, const DetectedWalk& walk,
@@ -135,7 +137,7 @@ std::vector<FrameRecord> decide_turning(const TrackContext& context, uint32_t fr
 }
 
 void judge(const TrackContext& context, const SceneEvidence& evidence, FrameRecord& record) {
-  if (!record.tracked) return;
+  if (!record.tracked || judged(record)) return;
   if (context.config.estimate == EstimateKind::kMap)
     refine(context.scene, evidence, context.threads, record);
   record.fit = figure_fit(context.scene, evidence, record.estimate.pose);

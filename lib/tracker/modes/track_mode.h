@@ -72,7 +72,8 @@ std::vector<FrameRecord> decide_turning(const TrackContext& context, uint32_t fr
 // Completes the record of a frame: the most probable pose near the particles' mean, if that is
 // wanted (tracker/smooth/refinement.h), and how well it fits the frame's evidence, which no longer
 // exists when frames are smoothed. Frames of a start are completed after the start has been
-// decided; until then trials use the particles' mean.
+// decided; until then trials use the particles' mean. A record that has been judged is left as it
+// is.
 void judge(const TrackContext& context, const SceneEvidence& evidence, FrameRecord& record);
 
 // The mean of the particles over the ground, m.

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "tracker/overlaps.h"
 #include "tracker/start/trial.h"
 
 namespace walktrack {
@@ -18,6 +19,27 @@ constexpr int kTrials = 2;
 // Nats by which it has to be better, as of components that turn (tracker/modes/turning.cpp). Where
 // it corrected a track (reports/left_and_right.md) it was 220 to 2,200 better.
 constexpr double kClearlyBetter = 100;
+
+// The overlap of figure and person falls by more where the track leaves the person's legs
+// (reports/left_and_right.md).
+constexpr double kOverlapFalls = 0.1;
+
+size_t frames_of(const TrackContext& context, double seconds) {
+  return static_cast<size_t>(frames_in(seconds, context.scene.dt));
+}
+
+std::vector<FigureFit> fits_with(std::vector<FigureFit> earlier,
+                                 std::span<const FrameRecord> records) {
+  const std::vector<FigureFit> fits = fits_of(records);
+  earlier.insert(earlier.end(), fits.begin(), fits.end());
+  return earlier;
+}
+
+void remember(const TrackContext& context, std::vector<FigureFit> fits, TrackMode& mode) {
+  const size_t most = std::min(fits.size(), frames_of_fall(context.scene.dt));
+  fits.erase(fits.begin(), fits.end() - static_cast<long>(most));
+  std::get<Tracking>(mode).monitor.fits = std::move(fits);
+}
 
 const HeldFrames* held_by(const TrackMode& mode) {
   const Tracking* now = std::get_if<Tracking>(&mode);
@@ -37,14 +59,52 @@ DetectedWalk walk_of(const TrackContext& context, std::span<const FrameRecord> r
   const auto place = [](const FrameRecord& each) -> Eigen::Vector2d {
     return each.estimate.pose.root.head<2>();
   };
-  const size_t later =
-      std::min(records.size() - 1, static_cast<size_t>(frames_in(kStep, context.scene.dt)));
+  const size_t later = std::min(records.size() - 1, frames_of(context, kStep));
   DetectedWalk walk;
   walk.position = place(records.front());
   walk.velocity =
       (place(records[later]) - walk.position) / (context.scene.dt * static_cast<double>(later));
   walk.score = -std::numeric_limits<double>::infinity();  // the trial is compared with the track
   return walk;
+}
+
+void judge_all(const TrackContext& context, const std::deque<SceneEvidence>& frames,
+               std::vector<FrameRecord>& records) {
+  for (size_t i = 0; i < records.size(); ++i) judge(context, frames[i], records[i]);
+}
+
+struct PossibleStart {
+  size_t record;  // of the held ones, in which it begins
+  DetectedWalk walk;
+};
+
+// By the particles' means, before they are refined.
+std::optional<PossibleStart> possible_start(const TrackContext& context,
+                                            std::span<const FrameRecord> records) {
+  const size_t from = walks_from(records);
+  if (records.size() < from + frames_of(context, context.config.start.seconds) + 1) return {};
+  return PossibleStart{from, walk_of(context, records.subspan(from))};
+}
+
+// Tracks the held frames from a start of their own. If that explains them better, their records and
+// the mode are replaced.
+void start_again(const TrackContext& context, const std::deque<SceneEvidence>& frames,
+                 const PossibleStart& start, uint32_t& starts, HeldFrames& held, TrackMode& mode) {
+  const auto from = static_cast<long>(start.record);
+  const std::span walking = std::span(held.records).subspan(start.record);
+  const std::deque<SceneEvidence> window(frames.begin() + from, frames.end());
+  const auto first_frame = held.first + static_cast<uint32_t>(start.record);
+  const Tracking& now = std::get<Tracking>(mode);
+  const Searching before{now.filter, now.monitor.last_seen};
+  std::optional<Trial> best;
+  for (int i = 0; i < kTrials; ++i) {
+    Trial trial = try_start(context, window, first_frame, start.walk, ++starts, before);
+    if (is_tracking(trial.mode) && (!best || trial.log_likelihood > best->log_likelihood))
+      best = std::move(trial);
+  }
+  if (!best || best->log_likelihood < total_log_likelihood(walking) + kClearlyBetter) return;
+  std::move(best->records.begin(), best->records.end(), walking.begin());
+  mode = std::move(best->mode);
 }
 
 }  // namespace
@@ -61,25 +121,17 @@ std::vector<FrameRecord> decide_held(const TrackContext& context,
                                      TrackMode& mode) {
   Tracking& now = std::get<Tracking>(mode);
   HeldFrames held = *std::exchange(now.held, std::nullopt);
+  std::vector<FigureFit> earlier = std::exchange(now.monitor.fits, {});
   std::vector<FrameRecord>& records = held.records;
-  const size_t from = walks_from(records);
-  const auto least = static_cast<size_t>(frames_in(context.config.start.seconds, context.scene.dt));
-  if (!held.legs_in_doubt || records.size() < from + least + 1) return std::move(records);
-  const std::span walking = std::span(records).subspan(from);
-  const std::deque<SceneEvidence> window(frames.begin() + static_cast<long>(from), frames.end());
-  const DetectedWalk walk = walk_of(context, walking);
-  const auto first_frame = held.first + static_cast<uint32_t>(from);
-  const Searching before{now.filter, now.monitor.last_seen};
-  std::optional<Trial> best;
-  for (int i = 0; i < kTrials; ++i) {
-    Trial trial = try_start(context, window, first_frame, walk, ++starts, before);
-    if (is_tracking(trial.mode) && (!best || trial.log_likelihood > best->log_likelihood))
-      best = std::move(trial);
+  const std::optional<PossibleStart> start = possible_start(context, records);
+  judge_all(context, frames, records);
+  const std::vector<FigureFit> fits = fits_with(earlier, records);
+  const double fall = largest_overlap_fall(fits, context.scene.dt, records.size());
+  if (start && (held.legs_in_doubt || fall > kOverlapFalls)) {
+    start_again(context, frames, *start, starts, held, mode);
+    judge_all(context, frames, records);
   }
-  if (!best || best->log_likelihood < total_log_likelihood(walking) + kClearlyBetter)
-    return std::move(records);
-  std::move(best->records.begin(), best->records.end(), walking.begin());
-  mode = std::move(best->mode);
+  remember(context, fits_with(std::move(earlier), records), mode);
   return std::move(records);
 }
 

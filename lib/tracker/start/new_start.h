@@ -1,8 +1,9 @@
 // A new start beside a track. Before several cameras the images show which leg is which. Particles
 // that suddenly take the left leg for the right one have therefore lost the place in the stride,
-// now or some time ago, and they take a stride to find it again. So the newest frames of a track
-// are held back (HeldFrames). If the legs switch among them, the frames are tracked once more from
-// a start of their own (tracker/start/trial.h), and the track with the larger likelihood is kept.
+// now or some time ago, and they take a stride to find it again. Or nothing switches, but the
+// overlap of figure and person falls (tracker/overlaps.h). So the newest frames of a track are held
+// back (HeldFrames). In both cases they are tracked once more from a start of their own
+// (tracker/start/trial.h), and the track with the larger likelihood is kept.
 // tracker/reports/left_and_right.md has measurements.
 #pragma once
 
@@ -19,8 +20,8 @@ inline namespace tracker {
 bool holding(const TrackMode& mode);
 bool held_enough(const TrackMode& mode);
 
-// Decides the frames that are held back, and returns their records; `mode` continues with the
-// better track. `frames`: their evidence. `starts`: the number of starts so far.
+// Decides the frames that are held back, and returns their judged records; `mode` continues with
+// the better track. `frames`: their evidence. `starts`: the number of starts so far.
 std::vector<FrameRecord> decide_held(const TrackContext& context,
                                      const std::deque<SceneEvidence>& frames, uint32_t& starts,
                                      TrackMode& mode);

@@ -11,6 +11,7 @@
 #include "metrics/gait.h"
 #include "metrics/leg_swaps.h"
 #include "metrics/plausibility.h"
+#include "tracker/overlaps.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -55,7 +56,7 @@ QualityCounts quality_counts(const TrackedFrames& frames) {
 
 // Without silhouettes nothing is measured.
 void add_overlap(const TrackedFrames& frames, const QualityConfig& limits, Quality& out) {
-  std::vector<double> overlaps = mean_overlaps(frames);
+  std::vector<double> overlaps = mean_overlaps(fits_of(frames.records));
   std::erase_if(overlaps, [](double overlap) { return std::isnan(overlap); });
   if (overlaps.empty()) return;
   out.push_back(
@@ -125,22 +126,6 @@ std::optional<QualityMeasure> quality_of_keypoints(const KeypointUse& use,
   if (use.frames < kFewest) return std::nullopt;
   return at_least("on_detected_percent", percent(double(use.matched), double(use.frames)),
                   100 * limits.on_detected);
-}
-
-std::vector<double> mean_overlaps(const TrackedFrames& frames) {
-  std::vector<double> sums, seen;
-  for (const FrameRecord& record : frames.records) {
-    const FigureFit& fit = record.fit;
-    sums.resize(std::max(sums.size(), fit.overlap.size()));
-    seen.resize(sums.size());
-    for (size_t c = 0; record.tracked && c < fit.overlap.size(); ++c) {
-      if (std::isnan(fit.overlap[c])) continue;
-      sums[c] += fit.seen[c] * fit.overlap[c];
-      seen[c] += fit.seen[c];
-    }
-  }
-  for (size_t c = 0; c < sums.size(); ++c) sums[c] /= seen[c];
-  return sums;
 }
 
 Quality failures(const Quality& quality) {

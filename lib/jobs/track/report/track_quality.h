@@ -37,10 +37,6 @@ Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
 std::optional<QualityMeasure> quality_of_keypoints(const KeypointUse& use,
                                                    const QualityConfig& limits);
 
-// By camera, the mean overlap of the figure with the subject (FigureFit::overlap) over the frames
-// in which it is known, weighted by how much of the figure has evidence; NaN if it never is.
-std::vector<double> mean_overlaps(const TrackedFrames& frames);
-
 Quality failures(const Quality& quality);
 
 // The message for a failed check: the measure, its value and what is allowed.

@@ -12,6 +12,7 @@
 #include "jobs/track/report/recording_constants.h"
 #include "jobs/track/report/track_quality.h"
 #include "jobs/track/results/keypoint_results.h"
+#include "tracker/overlaps.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -142,7 +143,7 @@ RunNumbers numbers_of(const TrackJob& job, const TrackRun& run, const TrackedFra
                      outcome.lag->frames);
     out.emplace_back("lag_sd_frames", outcome.lag->sd_frames);
   }
-  const std::vector<double> overlaps = mean_overlaps(frames);
+  const std::vector<double> overlaps = mean_overlaps(fits_of(frames.records));
   for (size_t c = 0; c < overlaps.size(); ++c)
     out.emplace_back(overlap_key(job.scene.cameras[c]), 100 * overlaps[c]);
   for (const auto& number : keypoint_numbers(run.keypoints())) out.push_back(number);
