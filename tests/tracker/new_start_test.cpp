@@ -115,6 +115,41 @@ TEST_F(NewStart, BeginsWhereTheSubjectHasStood) {
   EXPECT_GT(starts_, 1u);
 }
 
+TEST_F(NewStart, BeginsBeforeAShortStop) {
+  TrackMode mode = track(true, true);
+  std::vector<FrameRecord>& held = std::get<Tracking>(mode).held->records;
+  for (size_t t = kFrames - 15; t < kFrames - 6; ++t) held[t].modes.standing = 1;
+  const auto records = decide_held(context(), window_, starts_, mode);
+  EXPECT_GT(starts_, 1u);
+  EXPECT_LT(swapped(records), 0.05);
+}
+
+// The monitor has lost the track in the last of the held frames.
+TEST_F(NewStart, FindsALostTrackAgain) {
+  TrackMode mode = track(false, true);
+  HeldFrames& held = *std::get<Tracking>(mode).held;
+  EXPECT_FALSE(held.enough());
+  held.lost = true;
+  held.records.back().tracked = false;
+  EXPECT_TRUE(held.enough()) << "decided at once";
+  const auto records = decide_held(context(), window_, starts_, mode);
+  EXPECT_TRUE(is_tracking(mode));
+  EXPECT_TRUE(records.back().tracked);
+  EXPECT_LT(swapped(records), 0.05);
+}
+
+TEST_F(NewStart, ALostTrackWithoutABetterStartIsLost) {
+  TrackMode mode = track(false, false);
+  HeldFrames& held = *std::get<Tracking>(mode).held;
+  held.lost = true;
+  held.records.back().tracked = false;
+  const auto records = decide_held(context(), window_, starts_, mode);
+  EXPECT_GT(starts_, 1u);
+  EXPECT_TRUE(is_searching(mode));
+  EXPECT_FALSE(records.back().tracked);
+  EXPECT_TRUE(records[kFrames - 2].tracked);
+}
+
 TEST_F(NewStart, IsNotTriedInFewFrames) {
   TrackMode mode = track(true, true);
   std::vector<FrameRecord>& held = std::get<Tracking>(mode).held->records;

@@ -16,8 +16,9 @@ struct HeldFrames {
   size_t until;                        // so many are held
   std::vector<FrameRecord> records{};  // of these frames so far
   bool legs_in_doubt = false;          // whether left and right may be swapped in some
+  bool lost = false;                   // whether the track was lost in the last one
 
-  bool enough() const { return records.size() >= until; }
+  bool enough() const { return lost || records.size() >= until; }
 };
 
 // Whether a track holds frames back.

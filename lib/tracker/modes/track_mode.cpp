@@ -71,9 +71,13 @@ std::vector<FrameRecord> track_frame(const TrackContext& context, const SceneEvi
   if (is_lost(context, evidence, record, now.monitor)) {
     record.tracked = false;
     record.evidence.clear();
+    if (now.held) {  // a new start among them may know better
+      now.held->records.push_back(std::move(record));
+      now.held->lost = true;
+      return {};
+    }
     std::vector<FrameRecord> out;
     if (now.turning) out = std::move(now.turning->records);
-    if (now.held) out = std::move(now.held->records);
     out.push_back(std::move(record));
     mode = Searching{std::move(now.filter), now.monitor.last_seen};
     return out;

@@ -46,11 +46,16 @@ const HeldFrames* held_by(const TrackMode& mode) {
   return now && now->held ? &*now->held : nullptr;
 }
 
-// The first record after the subject has stood, from which on they walk.
-size_t walks_from(std::span<const FrameRecord> records) {
-  const auto stands = [](const FrameRecord& each) { return each.modes.standing > 0.5; };
-  const auto last = std::find_if(records.rbegin(), records.rend(), stands);
-  return static_cast<size_t>(records.rend() - last);
+// The first record after the subject has stood, from which on they walk. Particles that lose the
+// subject's legs may stand for a moment, too.
+size_t walks_from(const TrackContext& context, std::span<const FrameRecord> records) {
+  constexpr double kStands = 0.5;  // s; less counts at the beginning only
+  size_t from = 0, standing = 0;
+  for (size_t i = 0; i < records.size(); ++i) {
+    standing = records[i].modes.standing > 0.5 ? standing + 1 : 0;
+    if (standing == i + 1 || standing >= frames_of(context, kStands)) from = i + 1;
+  }
+  return from;
 }
 
 // Where the track walks, by its own records: about a step of them says how fast.
@@ -81,7 +86,7 @@ struct PossibleStart {
 // By the particles' means, before they are refined.
 std::optional<PossibleStart> possible_start(const TrackContext& context,
                                             std::span<const FrameRecord> records) {
-  const size_t from = walks_from(records);
+  const size_t from = walks_from(context, records);
   if (records.size() < from + frames_of(context, context.config.start.seconds) + 1) return {};
   return PossibleStart{from, walk_of(context, records.subspan(from))};
 }
@@ -127,11 +132,16 @@ std::vector<FrameRecord> decide_held(const TrackContext& context,
   judge_all(context, frames, records);
   const std::vector<FigureFit> fits = fits_with(earlier, records);
   const double fall = largest_overlap_fall(fits, context.scene.dt, records.size());
-  if (start && (held.legs_in_doubt || fall > kOverlapFalls)) {
+  const bool lost = held.lost;
+  if (start && (held.legs_in_doubt || lost || fall > kOverlapFalls)) {
     start_again(context, frames, *start, starts, held, mode);
     judge_all(context, frames, records);
   }
-  remember(context, fits_with(std::move(earlier), records), mode);
+  if (lost && !records.back().tracked) {
+    mode = Searching{std::move(now.filter), now.monitor.last_seen};
+  } else {
+    remember(context, fits_with(std::move(earlier), records), mode);
+  }
   return std::move(records);
 }
 

@@ -1,9 +1,9 @@
 // A new start beside a track. Before several cameras the images show which leg is which. Particles
 // that suddenly take the left leg for the right one have therefore lost the place in the stride,
 // now or some time ago, and they take a stride to find it again. Or nothing switches, but the
-// overlap of figure and person falls (tracker/overlaps.h). So the newest frames of a track are held
-// back (HeldFrames). In both cases they are tracked once more from a start of their own
-// (tracker/start/trial.h), and the track with the larger likelihood is kept.
+// overlap of figure and person falls (tracker/overlaps.h), or the track is lost. So the newest
+// frames of a track are held back (HeldFrames). In these cases they are tracked once more from a
+// start of their own (tracker/start/trial.h), and the track with the larger likelihood is kept.
 // tracker/reports/left_and_right.md has measurements.
 #pragma once
 
