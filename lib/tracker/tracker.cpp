@@ -1,13 +1,25 @@
 #include "tracker/tracker.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tracker/start/keypoint_lead.h"
 #include "tracker/start/new_start.h"
-#include "tracker/start/window_start.h"
 
 namespace walktrack {
 inline namespace tracker {
+
+namespace {
+
+// Time between two windows in which a walk is searched, s. By hand.
+constexpr double kBetweenWindows = 0.1;
+
+size_t frames_between_windows(double dt) {
+  return static_cast<size_t>(std::max(1L, std::lround(kBetweenWindows / dt)));
+}
+
+}  // namespace
 
 Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig& config,
                  uint64_t seed, int threads)
@@ -27,7 +39,7 @@ std::vector<FrameRecord> Tracker::finish() {
   while (is_searching(mode_) && !given() && search_.lasts(kShortestWindow, subject_.scene.dt)) {
     subject_.config.detector.window =
         subject_.scene.dt * static_cast<double>(search_.window().size());
-    look_for_walk(out);
+    look_for_walk(1, out);
   }
   if (std::holds_alternative<Starting>(mode_)) report(settle(mode_), {}, out);
   if (holding(mode_)) report(decide_held(subject_.context(), waiting_, starts_, mode_), {}, out);
@@ -68,24 +80,39 @@ void Tracker::search(const SceneEvidence& evidence, Records& out) {
   search_.push(evidence);
   const bool needs_window = !given() || subject_.wants_size();
   if (needs_window && !search_.lasts(subject_.config.detector.window, scene.dt)) return;
-  given() ? start_given(out) : look_for_walk(out);
+  if (given()) return start_given(out);
+  look_for_walk(frames_between_windows(scene.dt), out);
 }
 
-void Tracker::look_for_walk(Records& out) {
-  if (auto start = start_in_window(subject_, search_, frame_, starts_, mode_)) {
-    out.resize(out.size() + start->untracked);
-    frame_ = start->first_frame + static_cast<uint32_t>(start->frames.size());
-    waiting_ = std::move(start->frames);
-    Tracking* now = std::get_if<Tracking>(&mode_);
-    if (now && holds_frames(subject_.context())) {
-      now->held = held_start(subject_.context(), start->first_frame, std::move(start->records),
-                             start->legs_in_doubt);
-      return;
+// If the newest window has a walk, the windows before it that were not looked at come first.
+void Tracker::look_for_walk(size_t step, Records& out) {
+  const SearchMoment moment{frame_, std::get<Searching>(mode_).last_seen};
+  if (const auto back = search_.look(subject_.context(), moment, step)) {
+    search_.step_back(*back);
+    for (size_t before = *back;; --before) {
+      const auto first = frame_ - static_cast<uint32_t>(before);
+      if (auto start = start_in_window(subject_, search_, first, starts_, mode_))
+        return begin(std::move(*start), out);
+      if (before == 0) break;
+      search_.step_on();
     }
-    return report(std::move(start->records), {}, out);
   }
   ++frame_;
   if (search_.slide(subject_.context())) out.emplace_back();
+}
+
+void Tracker::begin(WindowStart start, Records& out) {
+  out.resize(out.size() + start.untracked);
+  frame_ = start.first_frame + static_cast<uint32_t>(start.frames.size());
+  waiting_ = std::move(start.frames);
+  Tracking* now = std::get_if<Tracking>(&mode_);
+  if (now && holds_frames(subject_.context())) {
+    now->held = held_start(subject_.context(), start.first_frame, std::move(start.records),
+                           start.legs_in_doubt);
+  } else {
+    report(std::move(start.records), {}, out);
+  }
+  for (const SceneEvidence& each : search_.take_later()) consume(each, out);
 }
 
 // Starts in the window's first frame at the place that the scene states.

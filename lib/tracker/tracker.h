@@ -24,6 +24,7 @@
 
 #include "tracker/detect/walk_search.h"
 #include "tracker/modes/track_mode.h"
+#include "tracker/start/window_start.h"
 #include "tracker/tracked_subject.h"
 
 namespace walktrack {
@@ -96,7 +97,9 @@ class Tracker {
   using Records = std::vector<FrameRecord>;
   void consume(const SceneEvidence& evidence, Records& out);
   void search(const SceneEvidence& evidence, Records& out);
-  void look_for_walk(Records& out);
+  // Of the windows that a walk is searched in, every `step`-th is looked at.
+  void look_for_walk(size_t step, Records& out);
+  void begin(WindowStart start, Records& out);
   void start_given(Records& out);
   void report(Records records, const SceneEvidence& newest, Records& out);
 

@@ -25,7 +25,7 @@ void pose_network(benchmark::State& state) {
   PoseNet net(shipped_network(), WALKTRACK_NETWORK);
   cv::Mat picture(480, 640, CV_8UC3);
   cv::randu(picture, 0, 255);  // the time does not depend on the image
-  for (auto _ : state) benchmark::DoNotOptimize(net.detect(picture, {160, 40, 400}));
+  for (auto _ : state) benchmark::DoNotOptimize(net.detect({picture}, {160, 40, 400}));
   set_items(state, 1);
 }
 BENCHMARK(pose_network);

@@ -1,8 +1,14 @@
 #include "jobs/track/input/person_finder.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <gtest/gtest.h>
+
+#include "io/archive/files.h"
+#include "io/video/video.h"
+#include "jobs/track/input/pose_model.h"
+#include "observation/observation_config.h"
 
 namespace walktrack {
 namespace {
@@ -67,6 +73,30 @@ TEST(Squares, HoldAPersonAnywhere) {
       EXPECT_TRUE(held) << x << " " << y;
     }
   }
+}
+
+// The whole image is asked for until somebody is followed, and then only in every third frame.
+TEST(PersonFinder, LooksForOthersNowAndThen) {
+  const auto model = pose_model_file(KeypointConfig().model);
+  if (!has_pose_net() || !model) GTEST_SKIP() << "without a pose detector";
+  PoseNet net(read_text_file(*model, kMaxModelBytes), model->string());
+  FrameSource video(std::filesystem::path(WALKTRACK_SOURCE_DIR) / "data/demo/side.mp4");
+  PersonFinder finder(video.facts().width_px, video.facts().height_px, 400, 3);
+  constexpr int kLooks = 12, kFramesBefore = 30;  // the subject is inside of the picture
+  size_t asked = 0, wholes = 0, found = 0;
+  Image picture;
+  for (int n = 0; n < kFramesBefore + kLooks && video.read(picture); ++n) {
+    if (n < kFramesBefore) continue;
+    const PartOfFrame part_of_frame = [&](const CutOut& where) {
+      ++asked;
+      wholes += where.side_px >= video.facts().width_px;
+      return ImagePart{picture};
+    };
+    found += finder.look(net, part_of_frame, n - kFramesBefore).size();
+  }
+  EXPECT_EQ(found, size_t{kLooks});
+  EXPECT_EQ(wholes, size_t{kLooks} / 3);
+  EXPECT_EQ(asked, 1 + wholes + kLooks - 1);  // once more after the first sight
 }
 
 TEST(Squares, AreOneForALargePerson) { EXPECT_EQ(squares_over(640, 480, 400).size(), 1u); }

@@ -77,7 +77,7 @@ TEST(PoseNet, SeesNobodyInAnEmptyPicture) {
   const Threads one(1);
   PoseNet net(shipped(), "net");
   const cv::Mat grey(300, 400, CV_8UC3, cv::Scalar::all(90));
-  for (const Keypoint& point : net.detect(grey, {0, 0, 300}).points)
+  for (const Keypoint& point : net.detect({grey}, {0, 0, 300}).points)
     EXPECT_LT(point.confidence, 0.2);
 }
 
@@ -88,7 +88,7 @@ TEST(PoseNet, FindsAPersonsJoints) {
   if (frame.empty()) GTEST_SKIP() << "no ../shared/data/sports2d_side";
   const Threads one(1);
   PoseNet net(shipped(), "net");
-  const DetectedPerson person = net.detect(frame, kWoman);
+  const DetectedPerson person = net.detect({frame}, kWoman);
   struct Row {
     KeypointName name;
     double x_px, y_px;
@@ -110,10 +110,11 @@ TEST(PoseNet, FollowsThePicture) {
   if (frame.empty()) GTEST_SKIP() << "no ../shared/data/sports2d_side";
   const Threads one(1);
   PoseNet net(shipped(), "net");
-  const DetectedPerson here = net.detect(frame, kWoman);
+  const DetectedPerson here = net.detect({frame}, kWoman);
   cv::Mat moved;
   cv::copyMakeBorder(frame, moved, 40, 0, 60, 0, cv::BORDER_CONSTANT);
-  const DetectedPerson there = net.detect(moved, {kWoman.x0 + 60, kWoman.y0 + 40, kWoman.side_px});
+  const DetectedPerson there =
+      net.detect({moved}, {kWoman.x0 + 60, kWoman.y0 + 40, kWoman.side_px});
   for (size_t k = 0; k < kCocoPoints; ++k) {
     EXPECT_FLOAT_EQ(there.points[k].x_px, here.points[k].x_px + 60);
     EXPECT_FLOAT_EQ(there.points[k].y_px, here.points[k].y_px + 40);
@@ -128,9 +129,9 @@ TEST(PoseNet, NeedsOnlyThePixelsOfTheCutOut) {
   const Threads one(1);
   PoseNet net(shipped(), "net");
   for (const CutOut& cut_out : {kWoman, CutOut{kWoman.x0, kWoman.y0 + 300, kWoman.side_px}}) {
-    const DetectedPerson whole = net.detect(frame, cut_out);
+    const DetectedPerson whole = net.detect({frame}, cut_out);
     const cv::Rect there = part_within(cut_out, frame.cols, frame.rows);
-    const DetectedPerson part = net.detect(frame(there), cut_out, there.tl());
+    const DetectedPerson part = net.detect({frame(there), there.tl()}, cut_out);
     for (size_t k = 0; k < kCocoPoints; ++k) {
       EXPECT_EQ(part.points[k].x_px, whole.points[k].x_px);
       EXPECT_EQ(part.points[k].y_px, whole.points[k].y_px);
@@ -144,8 +145,8 @@ TEST(PoseNet, SaysTheSameTwice) {
   if (frame.empty()) GTEST_SKIP() << "no ../shared/data/sports2d_side";
   const Threads one(1);
   PoseNet first(shipped(), "net"), second(shipped(), "net");
-  second.detect(frame, {0, 0, 500});
-  const DetectedPerson a = first.detect(frame, kWoman), b = second.detect(frame, kWoman);
+  second.detect({frame}, {0, 0, 500});
+  const DetectedPerson a = first.detect({frame}, kWoman), b = second.detect({frame}, kWoman);
   EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
 }
 

@@ -53,6 +53,32 @@ TEST_F(Search, WaitsUntilTheSubjectIsWholeAndBeginsWhereTheyWereFirstSeen) {
   EXPECT_LT((begin.position - truth.position).norm(), 0.05);
 }
 
+TEST_F(Search, OfThreeWindowsOneIsLookedAt) {
+  constexpr size_t kEmptyFrames = 20;
+  show(0.2, kEmptyFrames + kVideoFrames, {{0, -4, 1}}, [](size_t frame, CameraEvidence& evidence) {
+    if (frame < kEmptyFrames) hide_left_of(kEvidenceWidth, evidence);
+  });
+  WalkSearch search;
+  const TrackContext context = subject_->context();
+  const std::optional<LastSeen> nobody;
+  uint32_t first = 0;
+  std::optional<size_t> back;
+  for (const SceneEvidence& frame : window_) {
+    search.push(frame);
+    if (!search.lasts(context.config.detector.window, kDt)) continue;
+    back = search.look(context, {first, nobody}, 3);
+    EXPECT_TRUE(first != 0 || back == 0u);  // nothing was passed
+    EXPECT_TRUE(first % 3 == 0 || !back);
+    if (back > 0u) break;
+    search.slide(context);
+    ++first;
+  }
+  EXPECT_EQ(back, 2u);
+  EXPECT_GE(first, kEmptyFrames - 5);
+  EXPECT_LE(first, kEmptyFrames + 2);
+  EXPECT_GE(search.waiting(), 2u);  // the windows before it can still be searched
+}
+
 // A pixel of somebody 4 m away shows 2 cm, and pixels are independent over 10 cm.
 TEST_F(Search, WeighsPixelsByTheDistanceOfAWalkUntilThatIsUndone) {
   constexpr double kUsual = 0.2, kNear = 0.04;

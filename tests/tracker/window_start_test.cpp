@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tracker/tracker.h"
 #include "walked_scene.h"
 
 namespace walktrack {
@@ -66,6 +69,29 @@ TEST_F(WindowStartTest, OfSomebodyWhoWasHalfHiddenTheBetterOfTwoWalksIsTaken) {
     EXPECT_LE(started->first_frame, kHiddenFrames);
     EXPECT_EQ(started->untracked, started->first_frame);
     EXPECT_LT(error(*started), tried.error);
+  }
+}
+
+// A search does not look at every window, but goes back when it has found somebody.
+TEST_F(WindowStartTest, ATrackBeginsWhereASearchOfEveryWindowFindsTheWalk) {
+  for (const size_t empty : {0, 4}) {
+    SCOPED_TRACE(empty);
+    show(0.2, kVideoFrames + empty, {{0, -4, 1}}, [empty](size_t frame, CameraEvidence& evidence) {
+      if (frame < empty) hide_left_of(kEvidenceWidth, evidence);
+    });
+    Tracker tracker(subject_->scene, prior_, subject_->config, 1, 1);
+    std::vector<FrameRecord> records;
+    const auto keep = [&](std::vector<FrameRecord> more) {
+      for (FrameRecord& record : more) records.push_back(std::move(record));
+    };
+    for (const SceneEvidence& frame : window_) keep(tracker.push(frame));
+    keep(tracker.finish());
+    ASSERT_EQ(records.size(), window_.size());
+    const auto tracked = [](const FrameRecord& record) { return record.tracked; };
+    const auto begin = std::find_if(records.begin(), records.end(), tracked);
+    const auto started = start();
+    ASSERT_TRUE(started);
+    EXPECT_EQ(static_cast<size_t>(begin - records.begin()), started->first_frame);
   }
 }
 

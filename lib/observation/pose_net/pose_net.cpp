@@ -82,9 +82,8 @@ PoseNet::PoseNet(PoseNet&&) noexcept = default;
 PoseNet& PoseNet::operator=(PoseNet&&) noexcept = default;
 PoseNet::~PoseNet() = default;
 
-DetectedPerson PoseNet::detect(const cv::Mat& picture, const CutOut& cut_out,
-                               const cv::Point& first) {
-  net_->run(cut(picture, cut_out, first, net_->side_px));
+DetectedPerson PoseNet::detect(const ImagePart& image, const CutOut& cut_out) {
+  net_->run(cut(image.picture, cut_out, image.first, net_->side_px));
   const std::vector<cv::Mat>& maps = net_->maps;
   return decoded({net_->side_px / kCell_px, values(maps[0]), values(maps[1]), values(maps[2]),
                   values(maps[3])},

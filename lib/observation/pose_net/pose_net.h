@@ -19,6 +19,12 @@ inline namespace observation {
 // Whether this program was built with OpenCV's dnn module.
 bool has_pose_net();
 
+// An image, 8-bit BGR, or a part of it, whose first pixel is `first`.
+struct ImagePart {
+  cv::Mat picture;
+  cv::Point first{};
+};
+
 class PoseNet {
  public:
   // From the content of an ONNX file; InputError that names `name` if it is not a network of this
@@ -28,10 +34,9 @@ class PoseNet {
   PoseNet& operator=(PoseNet&&) noexcept;
   ~PoseNet();
 
-  // The person nearest to the cut-out's middle, in pixels of an image (8-bit BGR), which is
-  // continued in black. `picture` is the image or a part of it, whose first pixel is `first`. There
-  // is always a result, which has low confidences if nobody is there.
-  DetectedPerson detect(const cv::Mat& picture, const CutOut& cut_out, const cv::Point& first = {});
+  // The person nearest to the cut-out's middle, in pixels of the image, which is continued in
+  // black. There is always a result, which has low confidences if nobody is there.
+  DetectedPerson detect(const ImagePart& image, const CutOut& cut_out);
 
  private:
   struct Net;

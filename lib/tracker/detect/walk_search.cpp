@@ -55,6 +55,19 @@ SearchWindow WalkSearch::view(const TrackContext& context, const SearchMoment& m
   return {context, window_, moment.first_frame, moment.last_seen, places_};
 }
 
+std::optional<size_t> WalkSearch::look(const TrackContext& context, const SearchMoment& moment,
+                                       size_t step) {
+  if (half_hidden_) return 0;
+  const size_t back = passed_.value_or(0);
+  if (passed_ && back + 1 < step) {
+    passed_ = back + 1;
+    return std::nullopt;
+  }
+  const bool promising = back == 0 || find_here(context, moment);
+  passed_ = 0;
+  return promising ? std::optional(back) : std::nullopt;
+}
+
 std::optional<FoundWalk> WalkSearch::find(const TrackContext& context, const SearchMoment& moment) {
   const double dt = context.scene.dt;
   const uint32_t now = moment.first_frame;
@@ -111,7 +124,7 @@ bool WalkSearch::walks_clearly(const TrackContext& context, const DetectedWalk& 
   // Shares of the score. By hand; sensitivity not measured.
   constexpr double kClearly = 0.15, kSlightly = 0.05;
   if (!context.subject.standing || walk.over_standing >= kClearly) return true;
-  slight_walks_ = walk.over_standing >= kSlightly ? slight_walks_ + 1 : 0;
+  slight_walks_ = walk.over_standing >= kSlightly ? slight_walks_ + 1 + passed_.value_or(0) : 0;
   return slight_walks_ >= window_.size();
 }
 
@@ -127,7 +140,7 @@ SizedWalk WalkSearch::with_size_along(const TrackContext& context, const SearchM
 
 std::optional<StandingStart> WalkSearch::standing_lead(const TrackContext& context,
                                                        const DetectedWalk& walk) const {
-  if (waiting_.empty()) return std::nullopt;
+  if (!context.subject.standing || waiting_.empty()) return std::nullopt;
   const Pose figure = standing_pose(context.scene.model);
   const auto score = [&](size_t back, const Eigen::Vector2d& place,
                          double heading) -> std::optional<double> {
@@ -167,6 +180,21 @@ void WalkSearch::let_go(size_t frames) {
     window_.pop_front();
     candidates_.pop_front();
   }
+}
+
+void WalkSearch::step_back(size_t frames) {
+  reach_back(frames);
+  for (size_t i = 0; i < frames; ++i) {
+    later_.push_front(std::move(window_.back()));
+    window_.pop_back();
+    candidates_.pop_back();
+  }
+}
+
+void WalkSearch::step_on() {
+  let_go(1);
+  push(later_.front());
+  later_.pop_front();
 }
 
 void WalkSearch::hide_occluders(const TrackContext& context, const FoundWalk& found) {
@@ -211,7 +239,8 @@ void WalkSearch::weigh_as_searched() {
 bool WalkSearch::slide(const TrackContext& context) {
   let_go(1);
   const double kept = context.subject.standing ? kStandingKept : half_hidden_ ? kMostPatience : 0;
-  if (static_cast<double>(waiting_.size()) * context.scene.dt <= kept) return false;
+  const bool needed = waiting_.size() <= passed_.value_or(0);
+  if (needed || static_cast<double>(waiting_.size()) * context.scene.dt <= kept) return false;
   waiting_.pop_front();
   return true;
 }
@@ -220,9 +249,12 @@ std::deque<SceneEvidence> WalkSearch::take() {
   waiting_.clear();
   candidates_.clear();
   half_hidden_.reset();
+  passed_.reset();
   search_weights_.clear();
   return std::exchange(window_, {});
 }
+
+std::deque<SceneEvidence> WalkSearch::take_later() { return std::exchange(later_, {}); }
 
 }  // namespace tracker
 }  // namespace walktrack

@@ -41,6 +41,10 @@ class WalkSearch {
   // and whose records have not been returned yet.
   size_t waiting() const { return waiting_.size(); }
 
+  // Looks whether somebody walks through the window. Of a window that slides on by a frame at a
+  // time only every `step`-th is looked at. Returns how many windows back the first one is that may
+  // have a walk and was not looked at; nullopt if none has.
+  std::optional<size_t> look(const TrackContext& context, const SearchMoment& moment, size_t step);
   // The walk through the window; nullopt if nobody walks there, or not clearly enough. If the
   // subject is half hidden at first, the place is uncertain: the walk is searched once more after
   // that. Both walks begin where the first one was found.
@@ -65,6 +69,10 @@ class WalkSearch {
   // Moves the beginning of the window back by some of the frames that wait, or forward again.
   void reach_back(size_t frames);
   void let_go(size_t frames);
+  // Moves the whole window back by some of the frames that wait, and on again by one; the frames
+  // after it are set aside.
+  void step_back(size_t frames);
+  void step_on();
   // Removes what hides the subject at first from the evidence of the window and of the frames
   // before it in which the walk begins.
   void hide_occluders(const TrackContext& context, const FoundWalk& found);
@@ -80,6 +88,8 @@ class WalkSearch {
   bool slide(const TrackContext& context);
   // Returns the window's frames; afterwards no frames wait any more.
   std::deque<SceneEvidence> take();
+  // Returns the frames after the window that were set aside.
+  std::deque<SceneEvidence> take_later();
 
  private:
   // Nats a frame, of a walk through the window.
@@ -95,11 +105,12 @@ class WalkSearch {
     uint32_t search_at;  // number of the frame from which on it is searched again
   };
 
-  std::deque<SceneEvidence> waiting_, window_;
+  std::deque<SceneEvidence> waiting_, window_, later_;
   std::deque<std::optional<std::vector<Place>>> candidates_;  // of the window's frames, once
                                                               // computed
   PlaceGrid places_;                                          // of a figure, once computed
-  size_t slight_walks_ = 0;  // successive windows in which the person may as well stand
+  std::optional<size_t> passed_;  // windows since the last one that was looked at
+  size_t slight_walks_ = 0;       // successive windows in which the person may as well stand
   std::optional<HalfHidden> half_hidden_;
   std::vector<double> search_weights_;  // by camera, while the frames are weighed at a walk
 };

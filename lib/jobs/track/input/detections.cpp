@@ -15,6 +15,10 @@ inline namespace jobs {
 
 namespace {
 
+// One in so many frames that are looked at is searched for others than the followed people. By
+// hand.
+constexpr int kScanEvery = 3;
+
 bool all_have_files(const Scene& scene) {
   return std::all_of(scene.cameras.begin(), scene.cameras.end(),
                      [](const SceneCamera& camera) { return !camera.keypoints.path.empty(); });
@@ -127,7 +131,8 @@ Detections::Detections(const Scene& scene, const KeypointConfig& config,
       if (!has_pose_net() || !file) fail_without_network(config);
       if (model.empty()) model = read_text_file(*file, kMaxModelBytes);
       viewer.net.emplace(model, file->string());
-      viewer.finder.emplace(camera.camera.width_px, camera.camera.height_px, scales[c].person_px);
+      viewer.finder.emplace(camera.camera.width_px, camera.camera.height_px, scales[c].person_px,
+                            kScanEvery);
       network_ = true;
     }
     cameras_.push_back(std::move(viewer));
@@ -156,16 +161,17 @@ DetectedPeople Detections::seen_by_network(Viewer& viewer, const FrameToLookAt& 
   if (frame.around) viewer.finder->forget();
   if (frame.scene_frame % every_ != 0) return {};
   if (frame.around && (frame.region.area.empty() || !frame.region.points)) return {};
-  Image picture;
-  if (!frame.around) {
-    frame.video.picture(picture);
-    return viewer.finder->look(*viewer.net, picture, frame.scene_frame / every_);
-  }
+  const auto part_of_frame = [&](const CutOut& wanted) {
+    const VideoFacts& facts = frame.video.facts();
+    const auto there = part_within(wanted, facts.width_px, facts.height_px);
+    ImagePart part{{}, there.tl()};
+    if (!there.empty()) frame.video.picture(there, 1, part.picture);
+    return part;
+  };
+  if (!frame.around)
+    return viewer.finder->look(*viewer.net, part_of_frame, frame.scene_frame / every_);
   const CutOut wanted = cut_out_around(frame.region, viewer.shrink, height_);
-  const VideoFacts& facts = frame.video.facts();
-  const auto there = part_within(wanted, facts.width_px, facts.height_px);
-  if (!there.empty()) frame.video.picture(there, 1, picture);
-  return {viewer.net->detect(picture, wanted, there.tl())};
+  return {viewer.net->detect(part_of_frame(wanted), wanted)};
 }
 
 }  // namespace jobs

@@ -81,11 +81,17 @@ std::vector<CutOut> squares_over(int width_px, int height_px, double person_px) 
   return out;
 }
 
-DetectedPeople PersonFinder::look(PoseNet& net, const Image& picture, int frame) {
+DetectedPeople PersonFinder::look(PoseNet& net, const Image& frame, int number) {
+  const PartOfFrame all_of_it = [&](const CutOut&) { return ImagePart{frame}; };
+  return look(net, all_of_it, number);
+}
+
+DetectedPeople PersonFinder::look(PoseNet& net, const PartOfFrame& frame, int number) {
   DetectedPeople people;
   std::vector<CutOut> next;
+  const auto person_in = [&](const CutOut& where) { return net.detect(frame(where), where); };
   const auto take = [&](const CutOut& where, bool refine) {
-    DetectedPerson person = net.detect(picture, where);
+    DetectedPerson person = person_in(where);
     std::optional<CutOut> around = cut_out_around(person);
     if (!around) return;
     const auto known = [&] {
@@ -94,7 +100,7 @@ DetectedPeople PersonFinder::look(PoseNet& net, const Image& picture, int frame)
     };
     if (known()) return;
     if (refine) {
-      person = net.detect(picture, *around);
+      person = person_in(*around);
       around = cut_out_around(person);
       if (!around || known()) return;
     }
@@ -102,8 +108,9 @@ DetectedPeople PersonFinder::look(PoseNet& net, const Image& picture, int frame)
     next.push_back(*around);
   };
   for (const CutOut& where : followed_) take(where, false);
-  if (next.size() < kMostFollowed)
-    take(squares_[static_cast<size_t>(frame) % squares_.size()], true);
+  const int every = next.empty() ? 1 : scan_every_;
+  if (next.size() < kMostFollowed && number % every == 0)
+    take(squares_[static_cast<size_t>(number / every) % squares_.size()], true);
   followed_ = std::move(next);
   return people;
 }

@@ -1,10 +1,11 @@
 // Selects the parts of a camera's image on which the pose network is run.
 //
 // While the subject is tracked, it is the square around them. Before, squares with up to two people
-// are moved to the detected points, and one more square in each frame scans the image in turn,
-// beginning with the whole image.
+// are moved to the detected points, and one more square scans the image in turn, beginning with the
+// whole image.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -29,18 +30,24 @@ std::optional<CutOut> cut_out_around(const DetectedPerson& person);
 // `person_px` has a suitable size.
 std::vector<CutOut> squares_over(int width_px, int height_px, double person_px);
 
+// Returns the part of a frame that a cut-out covers, or more.
+using PartOfFrame = std::function<ImagePart(const CutOut&)>;
+
 class PersonFinder {
  public:
-  PersonFinder(int width_px, int height_px, double person_px)
-      : squares_(squares_over(width_px, height_px, person_px)) {}
+  // While somebody is followed, only one in `scan_every` frames is scanned for others.
+  PersonFinder(int width_px, int height_px, double person_px, int scan_every = 1)
+      : squares_(squares_over(width_px, height_px, person_px)), scan_every_(scan_every) {}
 
   // Runs the network on the frame of that number.
-  DetectedPeople look(PoseNet& net, const Image& picture, int frame);
+  DetectedPeople look(PoseNet& net, const PartOfFrame& frame, int number);
+  DetectedPeople look(PoseNet& net, const Image& frame, int number);
   // Forgets the people that were followed.
   void forget() { followed_.clear(); }
 
  private:
   std::vector<CutOut> squares_, followed_;
+  int scan_every_;
 };
 
 }  // namespace jobs
