@@ -31,7 +31,7 @@ struct QualityConfig {
   double least_steps = 1;           // foot changes; without any the subject does not walk
   double overlap = 0.55;            // of figure and foreground, mean over the frames of the worst
                                     // camera
-  double better_beside = 0.005;     // of the evidence, mean over frames (tracker/figure_fit.h)
+  double better_beside = 0.01;      // of the evidence, mean over frames (tracker/figure_fit.h)
   double on_detected = 0.6;    // of the frames with keypoints: the figure agrees with a detected
                                // person
   double legs_swapped = 0.5;   // mean probability
