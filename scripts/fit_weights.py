@@ -14,6 +14,7 @@ tables; what OUT holds already is not done again, so that a fit that was stopped
 """
 import argparse
 import concurrent.futures
+import hashlib
 import pathlib
 import random
 import statistics
@@ -58,7 +59,8 @@ class Tracker:
         self.seeds, self.jobs = range(1, arguments.seeds + 1), arguments.jobs
 
     def run(self, scene, seed, settings):
-        folder = self.out / label(settings).replace(", ", "_") / "_".join(scene.resolve().parts[1:]) / str(seed)
+        of_settings = hashlib.sha256(label(settings).encode()).hexdigest()[:12]
+        folder = self.out / of_settings / "_".join(scene.resolve().parts[1:]) / str(seed)
         words = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
         result = measured(self.walktrack, scene, seed, folder, [*words, *self.options])
         return {"mm": LOST_MM if result["mm"] is None else result["mm"], "green": result["green"], "wrong": result["wrong"]}
