@@ -17,6 +17,10 @@ namespace {
 constexpr double kStandingKept = 3;
 // The longest time for which a subject who is half hidden is waited for, s. By hand.
 constexpr double kMostPatience = 0.7;
+// Shares of the score by which walking explains a window better than standing: clearly; in a window
+// beside one with a clear walk; of somebody who stands and seems to walk slowly. By hand;
+// sensitivity not measured.
+constexpr double kClearly = 0.15, kPromising = 0.1, kSlightly = 0.05;
 
 // Nats, of the figure of a walk whose place is that in the frame.
 double score_at(const TrackContext& context, const SceneEvidence& frame, const DetectedWalk& walk) {
@@ -63,7 +67,7 @@ std::optional<size_t> WalkSearch::look(const TrackContext& context, const Search
     passed_ = back + 1;
     return std::nullopt;
   }
-  const bool promising = back == 0 || find_here(context, moment);
+  const bool promising = back == 0 || find_here(context, moment, kPromising);
   passed_ = 0;
   return promising ? std::optional(back) : std::nullopt;
 }
@@ -73,7 +77,7 @@ std::optional<FoundWalk> WalkSearch::find(const TrackContext& context, const Sea
   const uint32_t now = moment.first_frame;
   const bool last_chance = static_cast<int>(window_.size()) <= frames_in(kShortestWindow, dt);
   if (half_hidden_ && now < half_hidden_->search_at && !last_chance) return std::nullopt;
-  const std::optional<DetectedWalk> walk = find_here(context, moment);
+  const std::optional<DetectedWalk> walk = find_here(context, moment, kClearly);
   if (!half_hidden_ && (!walk || walk->hidden_frames == 0 || last_chance))
     return walk ? std::optional(FoundWalk{*walk}) : std::nullopt;
   if (!half_hidden_) half_hidden_ = HalfHidden{*walk, now, now};
@@ -90,7 +94,7 @@ std::optional<FoundWalk> WalkSearch::find(const TrackContext& context, const Sea
 }
 
 std::optional<DetectedWalk> WalkSearch::find_here(const TrackContext& context,
-                                                  const SearchMoment& moment) {
+                                                  const SearchMoment& moment, double clearly) {
   const TrackerScene& scene = context.scene;
   const DetectorConfig& config = context.config.detector;
   if (places_.places.empty())
@@ -105,7 +109,7 @@ std::optional<DetectedWalk> WalkSearch::find_here(const TrackContext& context,
   const bool believed = walk &&
                         is_within_reach(context.config.monitor, moment.last_seen, walk->position,
                                         moment.first_frame, scene.dt) &&
-                        walks_clearly(context, *walk);
+                        walks_clearly(context, *walk, clearly);
   return believed ? walk : std::nullopt;
 }
 
@@ -120,10 +124,9 @@ const std::vector<Place>& WalkSearch::candidates(const SearchWindow& window, siz
 
 // A person who stands sometimes seems to walk slowly, above all along the viewing ray: such a walk
 // is accepted if it has been seen for as long as the window lasts.
-bool WalkSearch::walks_clearly(const TrackContext& context, const DetectedWalk& walk) {
-  // Shares of the score. By hand; sensitivity not measured.
-  constexpr double kClearly = 0.15, kSlightly = 0.05;
-  if (!context.subject.standing || walk.over_standing >= kClearly) return true;
+bool WalkSearch::walks_clearly(const TrackContext& context, const DetectedWalk& walk,
+                               double clearly) {
+  if (!context.subject.standing || walk.over_standing >= clearly) return true;
   slight_walks_ = walk.over_standing >= kSlightly ? slight_walks_ + 1 + passed_.value_or(0) : 0;
   return slight_walks_ >= window_.size();
 }

@@ -96,8 +96,11 @@ class WalkSearch {
   double mean_score(const TrackContext& context, const DetectedWalk& walk) const;
   SearchWindow view(const TrackContext& context, const SearchMoment& moment) const;
   const std::vector<Place>& candidates(const SearchWindow& window, size_t index);
-  bool walks_clearly(const TrackContext& context, const DetectedWalk& walk);
-  std::optional<DetectedWalk> find_here(const TrackContext& context, const SearchMoment& moment);
+  // `clearly`: the share of the score by which a walk has to explain the window better than
+  // standing.
+  bool walks_clearly(const TrackContext& context, const DetectedWalk& walk, double clearly);
+  std::optional<DetectedWalk> find_here(const TrackContext& context, const SearchMoment& moment,
+                                        double clearly);
 
   struct HalfHidden {
     DetectedWalk walk;
