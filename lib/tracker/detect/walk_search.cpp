@@ -20,7 +20,7 @@ constexpr double kMostPatience = 0.7;
 // Shares of the score by which walking explains a window better than standing: clearly; in a window
 // beside one with a clear walk; of somebody who stands and seems to walk slowly. By hand;
 // sensitivity not measured.
-constexpr double kClearly = 0.15, kPromising = 0.1, kSlightly = 0.05;
+constexpr double kClearWalk = 0.15, kPromisingWalk = 0.1, kSlightWalk = 0.05;
 
 // Nats, of the figure of a walk whose place is that in the frame.
 double score_at(const TrackContext& context, const SceneEvidence& frame, const DetectedWalk& walk) {
@@ -67,7 +67,7 @@ std::optional<size_t> WalkSearch::look(const TrackContext& context, const Search
     passed_ = back + 1;
     return std::nullopt;
   }
-  const bool promising = back == 0 || find_here(context, moment, kPromising);
+  const bool promising = back == 0 || find_here(context, moment, kPromisingWalk);
   passed_ = 0;
   return promising ? std::optional(back) : std::nullopt;
 }
@@ -77,7 +77,7 @@ std::optional<FoundWalk> WalkSearch::find(const TrackContext& context, const Sea
   const uint32_t now = moment.first_frame;
   const bool last_chance = static_cast<int>(window_.size()) <= frames_in(kShortestWindow, dt);
   if (half_hidden_ && now < half_hidden_->search_at && !last_chance) return std::nullopt;
-  const std::optional<DetectedWalk> walk = find_here(context, moment, kClearly);
+  const std::optional<DetectedWalk> walk = find_here(context, moment, kClearWalk);
   if (!half_hidden_ && (!walk || walk->hidden_frames == 0 || last_chance))
     return walk ? std::optional(FoundWalk{*walk}) : std::nullopt;
   if (!half_hidden_) half_hidden_ = HalfHidden{*walk, now, now};
@@ -127,7 +127,7 @@ const std::vector<Place>& WalkSearch::candidates(const SearchWindow& window, siz
 bool WalkSearch::walks_clearly(const TrackContext& context, const DetectedWalk& walk,
                                double clearly) {
   if (!context.subject.standing || walk.over_standing >= clearly) return true;
-  slight_walks_ = walk.over_standing >= kSlightly ? slight_walks_ + 1 + passed_.value_or(0) : 0;
+  slight_walks_ = walk.over_standing >= kSlightWalk ? slight_walks_ + 1 + passed_.value_or(0) : 0;
   return slight_walks_ >= window_.size();
 }
 
