@@ -1,6 +1,7 @@
 #include "tracker/start/new_start.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -101,13 +102,16 @@ void start_again(const TrackContext& context, const std::deque<SceneEvidence>& f
   const auto first_frame = held.first + static_cast<uint32_t>(start.record);
   const Tracking& now = std::get<Tracking>(mode);
   const Searching before{now.filter, now.monitor.last_seen};
+  const double own = total_log_likelihood(walking);
   std::optional<Trial> best;
   for (int i = 0; i < kTrials; ++i) {
     Trial trial = try_start(context, window, first_frame, start.walk, ++starts, before);
-    if (is_tracking(trial.mode) && (!best || trial.log_likelihood > best->log_likelihood))
-      best = std::move(trial);
+    if (!is_tracking(trial.mode)) continue;
+    const bool as_good = std::abs(trial.log_likelihood - own) < kClearlyBetter;
+    if (!best || trial.log_likelihood > best->log_likelihood) best = std::move(trial);
+    if (as_good) break;  // there is nothing to be gained
   }
-  if (!best || best->log_likelihood < total_log_likelihood(walking) + kClearlyBetter) return;
+  if (!best || best->log_likelihood < own + kClearlyBetter) return;
   std::move(best->records.begin(), best->records.end(), walking.begin());
   mode = std::move(best->mode);
 }
