@@ -25,8 +25,8 @@ SHARED = ROOT.parent / "shared/data"
 STAGES = ("checks", "background", "decode", "evidence", "filter", "appearance", "output")
 
 
-def pictures(width):
-    """A walk of two seconds before one camera whose pictures are so wide; the person grows with them."""
+def pictures(width, height=None):
+    """A walk of two seconds before one camera whose pictures are so wide, by default 4:3; the person grows with them."""
     return f"""seed: 5
 frame_rate: 30
 duration: 2
@@ -36,7 +36,7 @@ setting: room
 sensor: {{noise: 0.008}}
 background_frames: 6
 cameras:
-  - {{name: side, azimuth_deg: -90, distance: 5.6, height: 1.2, size: [{width}, {width * 3 // 4}], focal_px: {0.97 * width:.0f}}}
+  - {{name: side, azimuth_deg: -90, distance: 5.6, height: 1.2, size: [{width}, {height or width * 3 // 4}], focal_px: {0.97 * width:.0f}}}
 """
 
 
@@ -90,6 +90,7 @@ def stage_table(walktrack, out, repetitions):
               ("its side camera alone", side_of_demo(out), {"balanced": 100, "fast": 250}),
               ("a rendered walk, three cameras, 640x480", walk / "scene.yaml", {"balanced": 45, "fast": 90}),
               ("a rendered walk, one camera, 3840x2880", rendered(walktrack, out, "wide3840", pictures(3840)), {}),
+              ("the same walk, one camera, 7680x4320", rendered(walktrack, out, "wide7680", pictures(7680, 4320)), {}),
               ("the real side view, 1768x994", SHARED / "sports2d_side/scene.yaml", {"balanced": 50}),
               ("two real telephones, 720x1280, 60 Hz", SHARED / "opencap_two_phones/scene.yaml", {"balanced": 50})]
     print("| video | preset | frames/s of the command (wanted) | in the stride | search and start, s | ms a frame: "
