@@ -10,11 +10,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "core/errors.h"
 #include "io/archive/files.h"
 #include "io/tables/motion_file.h"
 #include "io/video/image_files.h"
+#include "io/video/video.h"
 #include "jobs/track/track_setup.h"
 #include "metrics/joint_error.h"
 #include "tests/data_folders.h"
@@ -120,6 +122,37 @@ TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {
     if (speed.is_null()) continue;
     EXPECT_LT(speed, 3) << "nobody walks so fast, in the first frames either";
   }
+}
+
+// The first frames of a video as images, in an eighth of the light.
+void write_in_the_dark(const fs::path& video, const PixelSize& size, int frames,
+                       const fs::path& folder) {
+  fs::create_directories(folder);
+  FrameSource source(video, size);
+  for (int i = 0; i < frames && source.advance(); ++i) {
+    Image picture;
+    source.picture(picture);
+    cv::imwrite((folder / (std::to_string(1000 + i) + ".png")).string(), picture / 8);
+  }
+}
+
+TEST_F(Track, FindsTheWalkerInTheDarkAndSaysThatItIsDark) {
+  TrackJob dark = job(45, "dark");
+  dark.scene.frame_rate = 30;
+  for (SceneCamera& camera : dark.scene.cameras) {
+    const PixelSize size(camera.camera.width_px, camera.camera.height_px);
+    const fs::path video = folder_ / camera.name, empty = folder_ / (camera.name + "_empty");
+    write_in_the_dark(camera.video, size, 46, video);
+    write_in_the_dark(camera.background, size, 10, empty);
+    camera.video = video;
+    camera.background = empty;
+  }
+  EXPECT_GT(track_scene(dark, {}).tracked, 30);
+  const Motion truth = read_motion(kDemo / "truth.csv");
+  const Motion found = read_motion(folder_ / "dark/joints.csv");
+  EXPECT_LT(joint_errors(truth, found).by_joint[size_t(Joint::kPelvis)].absolute.median, 0.15);
+  EXPECT_THAT(run_json("dark").at("notes").get<std::vector<std::string>>(),
+              testing::Contains(testing::HasSubstr("camera side is dark")));
 }
 
 TEST_F(Track, SaysHowWellTheFigureLiesOnThePerson) {

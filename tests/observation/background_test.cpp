@@ -12,6 +12,7 @@
 #include "core/errors.h"
 #include "core/rng.h"
 #include "observation/background/appearance.h"
+#include "observation/background/brightness.h"
 
 namespace walktrack {
 namespace {
@@ -101,6 +102,57 @@ TEST(Background, ThingsStandOutAndShadowsDoNot) {
   frame = scene(rng, 2);
   scale(frame, kBox, 0.2);  // far too dark for a shadow: dark clothes
   EXPECT_GT(foreground_share(log_ratios(model, frame), kBox), 0.9);
+}
+
+TEST(Brightness, IsRaisedWhereNineTenthsAreDark) {
+  const auto of = [](double share_of_lamps, float rest) {
+    std::vector<float> luma(1000, rest);
+    for (size_t i = 0; static_cast<double>(i) < 1000 * share_of_lamps; ++i) luma[i] = 250;
+    return brightness_for(luma);
+  };
+  EXPECT_EQ(of(0, 200), 1);
+  EXPECT_EQ(of(0, 85), 1);
+  EXPECT_EQ(of(0, 80), 1.6F);
+  EXPECT_EQ(of(0, 32), 4);
+  EXPECT_EQ(of(0.05, 32), 4);  // a lamp in the picture
+  EXPECT_EQ(of(0.2, 32), 1);   // a window
+  EXPECT_EQ(of(0, 0), 8);      // the most
+}
+
+// Values become brighter, and noise does not become larger.
+TEST(Brightness, BlursTheNoiseAway) {
+  Rng rng(11, Purpose::kTest);
+  cv::Mat dark(200, 300, CV_8UC3);
+  for (int y = 0; y < dark.rows; ++y)
+    for (int x = 0; x < dark.cols; ++x)
+      for (int c = 0; c < 3; ++c)
+        dark.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uint8_t>(24 + 3 * rng.normal());
+  cv::Scalar mean, deviation, before;
+  cv::meanStdDev(dark, mean, before);
+  for (const float brightness : {1.5F, 2.5F, 5.0F}) {
+    cv::meanStdDev(brightened(dark, brightness), mean, deviation);
+    EXPECT_NEAR(mean[1], 24 * static_cast<double>(brightness), 1) << brightness;
+    EXPECT_LT(deviation[1], 1.05 * before[1]) << brightness;
+  }
+}
+
+// A seventh of the light: without more of it most of the thing looks like the background.
+TEST(Background, ThingsStandOutInTheDark) {
+  Rng rng(12, Purpose::kTest);
+  std::vector<cv::Mat> frames;
+  for (int i = 0; i < 10; ++i) frames.push_back(scene(rng, 2.5, 0.15));
+  const BackgroundModel model = model_of(frames);
+  EXPECT_GT(model.brightness, 5);
+  cv::Mat frame = scene(rng, 2.5, 0.15);
+  for (int y = kBox.y; y < kBox.y + kBox.height; ++y)
+    for (int x = kBox.x; x < kBox.x + kBox.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        frame.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uint8_t>(
+            0.15 * std::array{60, 70, 150}[static_cast<size_t>(c)] + 2.5 * rng.normal());
+  const std::vector<double> ratios = log_ratios(model, brightened(frame, model.brightness));
+  EXPECT_GT(foreground_share(ratios, kBox), 0.8);
+  EXPECT_LT(foreground_share(ratios, {0, 0, 24, kHeight}), 0.05);
+  EXPECT_EQ(model_of({scene(rng, 2)}).brightness, 1);
 }
 
 TEST(Background, FlickerIsCompensated) {

@@ -84,6 +84,25 @@ struct World {
   }
 };
 
+// In an eighth of the light the true place is as much more probable than one beside it.
+TEST(Observer, SeesInTheDark) {
+  const World world;
+  const ObservationConfig config;
+  const auto contrast = [&](double light) {
+    BackgroundSampler sampler(config.background);
+    sampler.add(world.empty * light);
+    Observer observer(config, {world.camera, 1, appearances_of(world.body), sampler.model(), {}});
+    CameraEvidence evidence;
+    observer.observe(world.frame(world.pose(0)) * light, whole_image(observer.camera(), 0.01),
+                     evidence);
+    const auto ratio = [&](double x) {
+      return silhouette_log_ratio(evidence.planes, world.capsules(world.pose(x)));
+    };
+    return ratio(0) - ratio(0.1);
+  };
+  EXPECT_GT(contrast(0.125), 0.7 * contrast(1));
+}
+
 TEST(Observer, TermsThatAreOffHoldNoMemory) {
   const World world;
   ObservationConfig config;

@@ -37,6 +37,7 @@ constexpr SuiteScene kScenes[] = {
     {"turn_one_camera", false},
     {"slope", false},
     {"low_light", false},
+    {"dark", true},
     {"blur", false},
     {"field", false},
     {"occluder", false},

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "io/archive/state_fields.h"
+#include "observation/background/brightness.h"
 
 namespace walktrack {
 inline namespace io {
@@ -54,6 +55,7 @@ bool all_finite(const T& value) {
 
 bool sound(const BackgroundModel& model) {
   if (model.width < 1 || model.height < 1) return false;
+  if (!(model.brightness >= 1 && model.brightness <= kMostBrightening)) return false;
   const size_t pixels = static_cast<size_t>(model.width) * static_cast<size_t>(model.height);
   return std::ranges::all_of(
       std::array{&model.luma, &model.orange, &model.green, &model.luma_precision,

@@ -145,7 +145,17 @@ std::vector<std::string> TrackRun::notes() const {
   for (size_t c = 0; c < setup_.observers.size(); ++c)
     frames.push_back(job_.scene.cameras[c].video.empty() ? 0
                                                          : video_.source(c).facts().frame_count);
-  return setup_.detections.notes(frames);
+  std::vector<std::string> out = setup_.detections.notes(frames);
+  for (size_t c = 0; c < setup_.observers.size(); ++c) {
+    const float brightness = setup_.observers[c].brightness();
+    if (brightness > 1)
+      out.push_back(
+          fmt::format("camera {} is dark: for tracking its pictures are made {:.1f} times as "
+                      "bright, and blurred "
+                      "against their noise",
+                      job_.scene.cameras[c].name, brightness));
+  }
+  return out;
 }
 
 std::string TrackRun::why_nobody(const JobControl& control) {

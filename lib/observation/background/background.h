@@ -31,6 +31,7 @@ inline bool never_seen(float precision) { return precision <= 2 * kNeverSeen; }
 
 struct BackgroundModel {
   int width = 0, height = 0;
+  float brightness = 1;  // factor on dark pictures (brightness.h); the model is of such pictures
   std::vector<float> luma, orange, green;               // means
   std::vector<float> luma_precision, chroma_precision;  // 1 / variance
 };

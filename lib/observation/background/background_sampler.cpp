@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "core/parallel_for.h"
+#include "observation/background/brightness.h"
 #include "observation/shrink.h"
 
 namespace walktrack {
@@ -70,7 +71,8 @@ float median_of(std::vector<float>& values) {
 }
 
 // Mean and variances of the samples within reach of the densest colour.
-Statistics robust_statistics(std::vector<Sample>& samples, std::vector<float>& scratch) {
+Statistics robust_statistics(std::vector<Sample>& samples, float reach,
+                             std::vector<float>& scratch) {
   const Channel telling = most_distinctive(samples);
   std::sort(samples.begin(), samples.end(),
             [=](const Sample& a, const Sample& b) { return a.*telling < b.*telling; });
@@ -85,9 +87,7 @@ Statistics robust_statistics(std::vector<Sample>& samples, std::vector<float>& s
   float n = 0, s[3] = {}, q[3] = {};
   for (const Sample& x : samples) {
     const float d[3] = {x.luma - mode.luma, x.orange - mode.orange, x.green - mode.green};
-    if (std::abs(d[0]) > kNeighbourhood || std::abs(d[1]) > kNeighbourhood ||
-        std::abs(d[2]) > kNeighbourhood)
-      continue;
+    if (std::abs(d[0]) > reach || std::abs(d[1]) > reach || std::abs(d[2]) > reach) continue;
     n += 1;
     for (int c = 0; c < 3; ++c) {
       s[c] += d[c];
@@ -121,6 +121,7 @@ struct Frames {
   const std::vector<std::vector<uint8_t>>& bgr;
   const std::vector<std::vector<uint8_t>>& hidden;
   std::vector<float> gains;
+  float reach = kNeighbourhood;  // of a pixel's samples
 
   bool counts(size_t frame, size_t pixel) const {
     return hidden[frame].empty() || hidden[frame][pixel] == 0;
@@ -153,9 +154,9 @@ class PixelStatistics {
   Statistics of(size_t pixel) {
     take(pixel, [&](size_t f) { return frames_.counts(f, pixel); });
     if (samples_.size() >= std::min(kFreeFrames, frames_.bgr.size()))
-      return robust_statistics(samples_, scratch_);
+      return robust_statistics(samples_, frames_.reach, scratch_);
     take(pixel, [](size_t) { return true; });
-    Statistics out = robust_statistics(samples_, scratch_);
+    Statistics out = robust_statistics(samples_, frames_.reach, scratch_);
     out.luma_variance = out.chroma_variance = 1 / kNeverSeen;
     return out;
   }
@@ -218,9 +219,8 @@ void fill_row(const Frames& frames, size_t y, BackgroundModel& model) {
   const auto n = static_cast<float>(frames.bgr.size());
   const auto width = static_cast<size_t>(frames.width);
   for (size_t x = 0; x < width; ++x) {
-    const bool still =
-        std::max({luma.range(x), orange.range(x), green.range(x)}) <= kNeighbourhood &&
-        frames.all_count(y * width + x);
+    const bool still = std::max({luma.range(x), orange.range(x), green.range(x)}) <= frames.reach &&
+                       frames.all_count(y * width + x);
     set_pixel(model, y * width + x,
               still ? Statistics{luma.mean(x, n), orange.mean(x, n), green.mean(x, n),
                                  luma.variance(x, n),
@@ -306,6 +306,15 @@ cv::Mat BackgroundSampler::frame(int index) const {
   return {height_, width_, CV_8UC3, const_cast<uint8_t*>(bgr.data())};
 }
 
+float BackgroundSampler::brightness() const {
+  const std::vector<LightPoint> points = light_points(width_, height_);
+  std::vector<float> luma;
+  luma.reserve(kept_.size() * points.size());
+  for (const auto& bgr : kept_)
+    for (const LightPoint& point : points) luma.push_back(sample_at(bgr, point.pixel, 1).luma);
+  return brightness_for(luma);
+}
+
 void BackgroundSampler::hide(int index, const cv::Mat& mask) {
   hidden_.resize(kept_.size());
   auto& hidden = hidden_[static_cast<size_t>(index)];
@@ -318,9 +327,16 @@ BackgroundModel BackgroundSampler::model(int threads) const {
   if (kept_.empty()) throw InputError("background: no frame to learn it from");
   std::vector<std::vector<uint8_t>> hidden = hidden_;
   hidden.resize(kept_.size());
-  Frames frames{width_, height_, kept_, hidden, std::vector<float>(kept_.size(), 1)};
-  if (kept_.size() > 1) measure_light(frames);
   BackgroundModel model = sized(width_, height_);
+  model.brightness = brightness();
+  const bool dark = model.brightness > 1;
+  std::vector<std::vector<uint8_t>> bright;
+  for (int f = 0; dark && f < static_cast<int>(kept_.size()); ++f)
+    brightened(frame(f), model.brightness).reshape(1, 1).copyTo(bright.emplace_back());
+  Frames frames{width_, height_, dark ? bright : kept_, hidden, {}};
+  frames.gains.assign(kept_.size(), 1);
+  frames.reach *= std::sqrt(model.brightness);
+  if (kept_.size() > 1) measure_light(frames);
   parallel_for(static_cast<size_t>(height_), threads,
                [&](size_t y) { fill_row(frames, y, model); });
   floor_variances(config_, model);
