@@ -36,7 +36,8 @@ constexpr QualityWords kWords[] = {
      "the figure lacks are left out. It never reaches 100, because the figure wears no clothes.",
      "Look at the overlay video of that camera. A figure beside the person means a wrong "
      "calibration, cameras that do not start at the same time, a wrong height, or a wrong start; "
-     "state where the walk begins (initial), or run walktrack check."},
+     "state where the walk begins (initial), or run walktrack check. A figure on the person means "
+     "that the empty scene (background) shows other things than the video: leave it out."},
     {"better_beside_percent", "A figure beside this one explains the images better", "%", 1,
      "How much better the same figure 5 to 40 cm beside its place, or turned by 15 or 30 degrees, "
      "explains the images than the figure that is reported; mean over the frames.",
