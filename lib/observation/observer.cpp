@@ -197,8 +197,7 @@ void Observer::prepare(const cv::Mat& frame_bgr, const Region& region, int threa
   if (!frame_bgr.empty()) require_size(frame_bgr, setting.camera);
   PreparedFrame::Content& content = *prepared.content_;
   ObservedFrame& frame = content.frame;
-  const float brightness = state_->brightness;
-  frame.bgr = brightness > 1 && !frame_bgr.empty() ? brightened(frame_bgr, brightness) : frame_bgr;
+  frame.bgr = brightened(frame_bgr, state_->brightness);
   frame.region = region;
   frame.region.area = intersection(region.area, image_area(setting.camera));
   frame.grey = {};

@@ -149,11 +149,10 @@ std::vector<std::string> TrackRun::notes() const {
   for (size_t c = 0; c < setup_.observers.size(); ++c) {
     const float brightness = setup_.observers[c].brightness();
     if (brightness > 1)
-      out.push_back(
-          fmt::format("camera {} is dark: for tracking its pictures are made {:.1f} times as "
-                      "bright, and blurred "
-                      "against their noise",
-                      job_.scene.cameras[c].name, brightness));
+      out.push_back(fmt::format(
+          "camera {} is dark: for tracking its pictures are made {:.1f} times as bright, "
+          "and blurred against their noise",
+          job_.scene.cameras[c].name, brightness));
   }
   return out;
 }

@@ -335,7 +335,7 @@ BackgroundModel BackgroundSampler::model(int threads) const {
     brightened(frame(f), model.brightness).reshape(1, 1).copyTo(bright.emplace_back());
   Frames frames{width_, height_, dark ? bright : kept_, hidden, {}};
   frames.gains.assign(kept_.size(), 1);
-  frames.reach *= std::sqrt(model.brightness);
+  frames.reach *= std::sqrt(model.brightness);  // noise is larger, differences are too; by hand
   if (kept_.size() > 1) measure_light(frames);
   parallel_for(static_cast<size_t>(height_), threads,
                [&](size_t y) { fill_row(frames, y, model); });

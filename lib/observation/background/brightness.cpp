@@ -15,7 +15,8 @@ namespace {
 // was taken by day or with lamps a tenth is brighter than 139 (reports/dark.md).
 constexpr float kDark = 85, kUsuallyBelow = 128;
 // Variance of the blur for each unit of brightness above 1, px^2: with 4 times the values, noise
-// that is independent from pixel to pixel is as large as before. Chosen on reports/dark.md's set.
+// that is independent from pixel to pixel is about as large as before. Chosen on the renders of
+// reports/dark.md.
 constexpr double kBlur = 0.5;
 
 }  // namespace
@@ -28,10 +29,10 @@ float brightness_for(std::span<float> luma) {
 }
 
 cv::Mat brightened(const cv::Mat& bgr, float brightness) {
+  if (bgr.empty() || brightness <= 1) return bgr;
   cv::Mat out;
   bgr.convertTo(out, -1, static_cast<double>(brightness));
-  if (brightness > 1)
-    cv::GaussianBlur(out, out, {}, std::sqrt(kBlur * (static_cast<double>(brightness) - 1)));
+  cv::GaussianBlur(out, out, {}, std::sqrt(kBlur * (static_cast<double>(brightness) - 1)));
   return out;
 }
 

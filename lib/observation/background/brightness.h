@@ -18,7 +18,8 @@ inline constexpr float kMostBrightening = 8;  // leaves 32 grey levels; by hand
 float brightness_for(std::span<float> luma);
 
 // The 8-bit picture with its values multiplied, where what exceeds the range is white. Its noise,
-// which is multiplied as well, is reduced by a blur that grows from 0 at a brightness of 1.
+// which is multiplied as well, is reduced by a blur that grows from 0 at a brightness of 1. With
+// that brightness it is the picture itself, not a copy.
 cv::Mat brightened(const cv::Mat& bgr, float brightness);
 
 }  // namespace observation
