@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/errors.h"
-#include "observation/background/brightness.h"
+#include "observation/background/picture_change.h"
 #include "observation/observed_frame.h"
 
 namespace walktrack {
@@ -93,7 +93,7 @@ struct Observer::State {
       : setting{config, scaled_down(input.camera, input.shrink), input.shrink, input.threads, false,
                 {}},
         unseen(unseen_mask(input.background)),
-        brightness(input.background ? input.background->brightness : 1),
+        change(input.background ? input.background->change : PictureChange{}),
         memories(Terms::make<std::tuple, MemoryOf>(setting, input)) {
     set_mask(input.occluders, unseen, setting);
   }
@@ -105,7 +105,7 @@ struct Observer::State {
 
   ObserverSetting setting;
   cv::Mat unseen;
-  float brightness;  // of the background's model
+  PictureChange change;  // of the background's model
   Terms::map<std::tuple, MemoryOf> memories;
 };
 
@@ -155,7 +155,7 @@ Observer::~Observer() = default;
 
 const Camera& Observer::camera() const { return state_->setting.camera; }
 int Observer::shrink() const { return state_->setting.shrink; }
-float Observer::brightness() const { return state_->brightness; }
+const PictureChange& Observer::change() const { return state_->change; }
 
 void Observer::hide(const std::vector<Polygon>& occluders) {
   set_mask(occluders, state_->unseen, state_->setting);
@@ -197,7 +197,7 @@ void Observer::prepare(const cv::Mat& frame_bgr, const Region& region, int threa
   if (!frame_bgr.empty()) require_size(frame_bgr, setting.camera);
   PreparedFrame::Content& content = *prepared.content_;
   ObservedFrame& frame = content.frame;
-  frame.bgr = brightened(frame_bgr, state_->brightness);
+  frame.bgr = changed(frame_bgr, state_->change);
   frame.region = region;
   frame.region.area = intersection(region.area, image_area(setting.camera));
   frame.grey = {};

@@ -87,8 +87,8 @@ class Observer {
 
   const Camera& camera() const;
   int shrink() const;
-  // Of the model of the background; 1 without one.
-  float brightness() const;
+  // Of the model of the background; none without one.
+  const PictureChange& change() const;
 
   // Computes the evidence of the next frame (8-bit BGR, shrunk, of the size of camera(); empty =
   // there is no image). The previous frame for flow is that of the last call. `out` keeps its

@@ -328,7 +328,8 @@ start: 0.1
 duration: 2.5
 setting: field
 light: {azimuth_deg: 90, elevation_deg: 30, sun: 0.3, ambient: 0.2, shadows: false}
-sensor: {exposure: 0.5, noise: 0.02, flicker: 0.01, blur_samples: 4, shutter: 0.8, jpeg_quality: 40}
+sensor: {exposure: 0.5, noise: 0.02, flicker: 0.01, monochrome: true, blur_samples: 4, shutter: 0.8,
+         jpeg_quality: 40}
 background_frames: 0
 subject: {height: 1.6, mass: 55, clothes: 2, arms: false, shift: [1, 2], turn_deg: 90, delay: 0.3}
 cameras:
@@ -347,6 +348,7 @@ truth: {labels: true, flow: true, depth: true}
   EXPECT_FALSE(read.options.light.shadows);
   EXPECT_NEAR(read.options.light.azimuth, 1.5708, 1e-4);
   EXPECT_EQ(read.options.shutter.blur_samples, 4);
+  EXPECT_TRUE(read.options.sensor.monochrome);
   EXPECT_EQ(read.options.jpeg_quality, 40);
   EXPECT_EQ(read.options.cameras[0].width_px, 320);
   EXPECT_EQ(read.options.cameras[0].start_frame, 3);

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -19,6 +20,7 @@
 #include "io/video/video.h"
 #include "jobs/track/track_setup.h"
 #include "metrics/joint_error.h"
+#include "observation/background/colourless.h"
 #include "tests/data_folders.h"
 #include "tests/message_of.h"
 #include "tests/run_program.h"
@@ -124,35 +126,53 @@ TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {
   }
 }
 
-// The first frames of a video as images, in an eighth of the light.
-void write_in_the_dark(const fs::path& video, const PixelSize& size, int frames,
-                       const fs::path& folder) {
+// The first frames of a video as changed images.
+void write_changed(const fs::path& video, const PixelSize& size, int frames, const fs::path& folder,
+                   const std::function<cv::Mat(const cv::Mat&)>& change) {
   fs::create_directories(folder);
   FrameSource source(video, size);
   for (int i = 0; i < frames && source.advance(); ++i) {
     Image picture;
     source.picture(picture);
-    cv::imwrite((folder / (std::to_string(1000 + i) + ".png")).string(), picture / 8);
+    cv::imwrite((folder / (std::to_string(1000 + i) + ".png")).string(), change(picture));
+  }
+}
+
+// Makes the job's videos, and its pictures of the empty scene, images that are changed.
+void change_videos(const fs::path& out, const std::function<cv::Mat(const cv::Mat&)>& change,
+                   TrackJob& job) {
+  job.scene.frame_rate = 30;
+  for (SceneCamera& camera : job.scene.cameras) {
+    const PixelSize size(camera.camera.width_px, camera.camera.height_px);
+    const fs::path video = out / camera.name, empty = out / (camera.name + "_empty");
+    write_changed(camera.video, size, 46, video, change);
+    write_changed(camera.background, size, 10, empty, change);
+    camera.video = video;
+    camera.background = empty;
   }
 }
 
 TEST_F(Track, FindsTheWalkerInTheDarkAndSaysThatItIsDark) {
   TrackJob dark = job(45, "dark");
-  dark.scene.frame_rate = 30;
-  for (SceneCamera& camera : dark.scene.cameras) {
-    const PixelSize size(camera.camera.width_px, camera.camera.height_px);
-    const fs::path video = folder_ / camera.name, empty = folder_ / (camera.name + "_empty");
-    write_in_the_dark(camera.video, size, 46, video);
-    write_in_the_dark(camera.background, size, 10, empty);
-    camera.video = video;
-    camera.background = empty;
-  }
+  change_videos(
+      folder_, [](const cv::Mat& picture) -> cv::Mat { return picture / 8; }, dark);
   EXPECT_GT(track_scene(dark, {}).tracked, 30);
   const Motion truth = read_motion(kDemo / "truth.csv");
   const Motion found = read_motion(folder_ / "dark/joints.csv");
   EXPECT_LT(joint_errors(truth, found).by_joint[size_t(Joint::kPelvis)].absolute.median, 0.15);
   EXPECT_THAT(run_json("dark").at("notes").get<std::vector<std::string>>(),
               testing::Contains(testing::HasSubstr("camera side is dark")));
+}
+
+TEST_F(Track, FindsTheWalkerWithoutColoursAndSaysThatThereAreNone) {
+  TrackJob grey = job(45, "grey");
+  change_videos(folder_, without_colours, grey);
+  EXPECT_GT(track_scene(grey, {}).tracked, 30);
+  const Motion truth = read_motion(kDemo / "truth.csv");
+  const Motion found = read_motion(folder_ / "grey/joints.csv");
+  EXPECT_LT(joint_errors(truth, found).by_joint[size_t(Joint::kPelvis)].absolute.median, 0.05);
+  EXPECT_THAT(run_json("grey").at("notes").get<std::vector<std::string>>(),
+              testing::Contains(testing::HasSubstr("camera side have no colours")));
 }
 
 TEST_F(Track, SaysHowWellTheFigureLiesOnThePerson) {

@@ -12,7 +12,7 @@
 #include "core/errors.h"
 #include "core/rng.h"
 #include "observation/background/appearance.h"
-#include "observation/background/brightness.h"
+#include "observation/background/picture_change.h"
 
 namespace walktrack {
 namespace {
@@ -46,7 +46,7 @@ BackgroundModel model_of(const std::vector<cv::Mat>& frames, const BackgroundCon
 // Log-ratios of "any colour" to the background over a whole frame.
 std::vector<double> log_ratios(const BackgroundModel& model, const cv::Mat& frame) {
   const ColourBins bins;
-  const ColourTable broad = broad_table(bins);
+  const ColourTable broad = broad_table(bins, model.change.colourless);
   const PixelRect all{0, 0, frame.cols, frame.rows};
   ColourPatch patch;
   read_colours(frame, all, patch);
@@ -142,17 +142,90 @@ TEST(Background, ThingsStandOutInTheDark) {
   std::vector<cv::Mat> frames;
   for (int i = 0; i < 10; ++i) frames.push_back(scene(rng, 2.5, 0.15));
   const BackgroundModel model = model_of(frames);
-  EXPECT_GT(model.brightness, 5);
+  EXPECT_GT(model.change.brightness, 5);
   cv::Mat frame = scene(rng, 2.5, 0.15);
   for (int y = kBox.y; y < kBox.y + kBox.height; ++y)
     for (int x = kBox.x; x < kBox.x + kBox.width; ++x)
       for (int c = 0; c < 3; ++c)
         frame.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uint8_t>(
             0.15 * std::array{60, 70, 150}[static_cast<size_t>(c)] + 2.5 * rng.normal());
-  const std::vector<double> ratios = log_ratios(model, brightened(frame, model.brightness));
+  const std::vector<double> ratios = log_ratios(model, brightened(frame, model.change.brightness));
   EXPECT_GT(foreground_share(ratios, kBox), 0.8);
   EXPECT_LT(foreground_share(ratios, {0, 0, 24, kHeight}), 0.05);
-  EXPECT_EQ(model_of({scene(rng, 2)}).brightness, 1);
+  EXPECT_EQ(model_of({scene(rng, 2)}).change.brightness, 1);
+}
+
+TEST(Colourless, IsWhatHasNoColourInNinetyNineOfAHundredPixels) {
+  const auto of = [](double share_of_red, float rest, float brightness = 1) {
+    std::vector<float> chroma(1000, rest);
+    for (size_t i = 0; static_cast<double>(i) < 1000 * share_of_red; ++i) chroma[i] = 120;
+    return is_colourless(chroma, brightness);
+  };
+  EXPECT_TRUE(of(0, 0));
+  EXPECT_TRUE(of(0, 14));
+  EXPECT_FALSE(of(0, 15));
+  EXPECT_TRUE(of(.005, 3));   // a red lamp
+  EXPECT_FALSE(of(.02, 3));   // a red door
+  EXPECT_FALSE(of(0, 4, 5));  // colours in the dark
+  EXPECT_TRUE(of(0, 3, 8));   // rounding in the dark
+}
+
+// Somebody in grey before a monochrome camera, a little lighter than the wall or darker than a
+// shadow can be. What is as dark as a shadow may be one: it gives little evidence.
+TEST(Background, ThingsStandOutWithoutColours) {
+  Rng rng(13, Purpose::kTest);
+  const auto grey = [&rng] { return without_colours(scene(rng, 2)); };
+  std::vector<cv::Mat> frames;
+  for (int i = 0; i < 10; ++i) frames.push_back(grey());
+  const BackgroundModel model = model_of(frames);
+  EXPECT_TRUE(model.change.colourless);
+  const auto median_ratio = [&](double factor) {
+    cv::Mat frame = grey();
+    scale(frame, kBox, factor);
+    const std::vector<double> all = log_ratios(model, frame);
+    std::vector<double> inside;
+    for (int y = kBox.y + 1; y < kBox.y + kBox.height - 1; ++y)
+      for (int x = kBox.x + 1; x < kBox.x + kBox.width - 1; ++x)
+        inside.push_back(all[static_cast<size_t>(y * kWidth + x)]);
+    std::nth_element(inside.begin(), inside.begin() + std::ssize(inside) / 2, inside.end());
+    return inside[inside.size() / 2];
+  };
+  EXPECT_LT(median_ratio(1), -3);
+  EXPECT_GT(median_ratio(1.15), 4);
+  EXPECT_GT(median_ratio(0.3), 4);
+  for (const double shadow : {0.85, 0.7, 0.55}) {
+    EXPECT_GT(median_ratio(shadow), -1) << shadow;
+    EXPECT_LT(median_ratio(shadow), 3) << shadow;
+  }
+  EXPECT_FALSE(model_of({scene(rng, 2)}).change.colourless);
+}
+
+// Chroma that gives no evidence: it has the same density under both.
+TEST(Background, GreyIsAsProbableUnderPeopleAsUnderTheBackgroundWithoutColours) {
+  const ColourBins bins;
+  const double sd = BackgroundConfig{}.noise;
+  const double background = -std::log(2 * kPi * sd * sd);
+  const auto person = [&](bool colourless) {
+    return static_cast<double>(broad_table(bins, colourless)[bins.bin(100, 0, 0)]) + std::log(256);
+  };
+  EXPECT_NEAR(person(true), background, 0.1);
+  EXPECT_LT(person(false), background - 4);
+}
+
+// Something that changes its colour in every frame: the medians of luma and of chroma are those of
+// different frames, and no frame has a colour near both.
+TEST(Background, IsFiniteWhereNoFrameShowsTheMedianColour) {
+  std::vector<cv::Mat> frames;
+  for (const cv::Scalar& colour :
+       {cv::Scalar(120, 120, 120), cv::Scalar(0, 160, 0), cv::Scalar(160, 240, 160),
+        cv::Scalar(255, 0, 0), cv::Scalar(0, 0, 255), cv::Scalar(0, 60, 255)}) {
+    frames.emplace_back(kHeight, kWidth, CV_8UC3, cv::Scalar(90, 120, 140));
+    frames.back()(kBox) = colour;
+  }
+  const BackgroundModel model = model_of(frames);
+  for (const auto* plane :
+       {&model.luma, &model.orange, &model.green, &model.luma_precision, &model.chroma_precision})
+    EXPECT_TRUE(std::ranges::all_of(*plane, [](float v) { return std::isfinite(v); }));
 }
 
 TEST(Background, FlickerIsCompensated) {

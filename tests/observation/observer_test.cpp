@@ -103,6 +103,28 @@ TEST(Observer, SeesInTheDark) {
   EXPECT_GT(contrast(0.125), 0.7 * contrast(1));
 }
 
+// Without colours the true place is still more probable than one beside it.
+TEST(Observer, SeesWithoutColours) {
+  const World world;
+  const ObservationConfig config;
+  BackgroundSampler sampler(config.background);
+  sampler.add(without_colours(world.empty));
+  Observer observer(config, {world.camera, 1, appearances_of(world.body), sampler.model(), {}});
+  EXPECT_TRUE(observer.change().colourless);
+  CameraEvidence evidence;
+  // Its colours do not count.
+  observer.observe(world.frame(world.pose(0)), whole_image(observer.camera(), 0.01), evidence);
+  const auto ratio = [&](double x) {
+    return silhouette_log_ratio(evidence.planes, world.capsules(world.pose(x)));
+  };
+  EXPECT_GT(ratio(0), 0);
+  EXPECT_GT(ratio(0), ratio(0.1));
+  CameraEvidence grey;
+  Observer same(config, {world.camera, 1, appearances_of(world.body), sampler.model(), {}});
+  same.observe(without_colours(world.frame(world.pose(0))), whole_image(same.camera(), 0.01), grey);
+  EXPECT_EQ(evidence.planes.prefix, grey.planes.prefix);
+}
+
 TEST(Observer, TermsThatAreOffHoldNoMemory) {
   const World world;
   ObservationConfig config;

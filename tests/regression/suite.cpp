@@ -38,6 +38,7 @@ constexpr SuiteScene kScenes[] = {
     {"slope", false},
     {"low_light", false},
     {"dark", true},
+    {"monochrome", true},
     {"blur", false},
     {"field", false},
     {"occluder", false},

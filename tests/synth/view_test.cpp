@@ -274,6 +274,20 @@ TEST(Sensor, NoiseHasItsSizeAndIsKeyedByFrameAndStream) {
   EXPECT_NE(bytes, developed(grey, sensor, 2, 0, 3));
 }
 
+TEST(Sensor, MonochromePicturesHaveOneValueAPixel) {
+  const Plane<Colour> light(32, 24, Colour(0.8f, 0.5f, 0.2f));
+  const auto still =
+      developed(light, {.exposure = 1, .noise = 0, .flicker = 0, .monochrome = true}, 1, 0, 0);
+  EXPECT_EQ(still[0], 142);  // (0.299 * 0.8 + 0.587 * 0.5 + 0.114 * 0.2) * 255 = 141.7
+  const auto noisy =
+      developed(light, {.exposure = 1, .noise = 0.05, .flicker = 0, .monochrome = true}, 1, 0, 0);
+  EXPECT_NE(noisy, still);
+  for (size_t i = 0; i < noisy.size(); i += 3) {
+    EXPECT_EQ(noisy[i], noisy[i + 1]);
+    EXPECT_EQ(noisy[i], noisy[i + 2]);
+  }
+}
+
 TEST(Sensor, ExposureAndFlickerScaleTheLight) {
   const Plane<Colour> grey(4, 4, Colour(0.4f, 0.5f, 0.6f));
   const auto dark = developed(grey, {.exposure = 0.5, .noise = 0, .flicker = 0}, 1, 0, 0);

@@ -55,7 +55,8 @@ bool all_finite(const T& value) {
 
 bool sound(const BackgroundModel& model) {
   if (model.width < 1 || model.height < 1) return false;
-  if (!(model.brightness >= 1 && model.brightness <= kMostBrightening)) return false;
+  const float brightness = model.change.brightness;
+  if (!(brightness >= 1 && brightness <= kMostBrightening)) return false;
   const size_t pixels = static_cast<size_t>(model.width) * static_cast<size_t>(model.height);
   return std::ranges::all_of(
       std::array{&model.luma, &model.orange, &model.green, &model.luma_precision,

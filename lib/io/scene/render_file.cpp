@@ -71,10 +71,12 @@ void read_light(const YamlValue& value, Light& light) {
 }
 
 void read_sensor(const YamlValue& value, RenderOptions& options) {
-  value.only_keys({"exposure", "noise", "flicker", "blur_samples", "shutter", "jpeg_quality"});
+  value.only_keys(
+      {"exposure", "noise", "flicker", "monochrome", "blur_samples", "shutter", "jpeg_quality"});
   take(value, "exposure", 0, 100, options.sensor.exposure);
   take(value, "noise", 0, 1, options.sensor.noise);
   take(value, "flicker", 0, 0.3, options.sensor.flicker);
+  take(value, "monochrome", options.sensor.monochrome);
   take(value, "blur_samples", 1, 64, options.shutter.blur_samples);
   take(value, "shutter", 0, 1, options.shutter.open);
   take(value, "jpeg_quality", 0, 100, options.jpeg_quality);

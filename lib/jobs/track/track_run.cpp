@@ -147,12 +147,17 @@ std::vector<std::string> TrackRun::notes() const {
                                                          : video_.source(c).facts().frame_count);
   std::vector<std::string> out = setup_.detections.notes(frames);
   for (size_t c = 0; c < setup_.observers.size(); ++c) {
-    const float brightness = setup_.observers[c].brightness();
-    if (brightness > 1)
+    const PictureChange& change = setup_.observers[c].change();
+    if (change.brightness > 1)
       out.push_back(fmt::format(
           "camera {} is dark: for tracking its pictures are made {:.1f} times as bright, "
           "and blurred against their noise",
-          job_.scene.cameras[c].name, brightness));
+          job_.scene.cameras[c].name, change.brightness));
+    if (change.colourless)
+      out.push_back(
+          fmt::format("the pictures of camera {} have no colours: only brightness tells "
+                      "the subject from the background",
+                      job_.scene.cameras[c].name));
   }
   return out;
 }

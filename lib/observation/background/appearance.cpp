@@ -17,17 +17,20 @@ constexpr int kAnchorFrames = 10;
 constexpr double kLeastPixels = 8, kLeastShare = .3;
 
 // The chroma of clothes, skin and most other things: a Laplace distribution around grey with this
-// scale, mixed with a uniform one. By hand; sensitivity not measured.
-constexpr double kChromaScale = 25, kAnyChroma = .2;
+// scale, mixed with a uniform one. By hand; sensitivity not measured. Where all chroma is zero, the
+// second scale gives it the density that it has under a background with the least noise
+// (BackgroundConfig::noise), so that chroma is evidence for neither.
+constexpr double kChromaScale = 25, kColourlessScale = 3, kAnyChroma = .2;
 
-double chroma_density(double chroma) {
-  const double laplace = std::exp(-std::abs(chroma) / kChromaScale) / (2 * kChromaScale);
+double chroma_density(double chroma, double scale) {
+  const double laplace = std::exp(-std::abs(chroma) / scale) / (2 * scale);
   return (1 - kAnyChroma) * laplace + kAnyChroma / 511;
 }
 
-double broad_density(const ColourBins& bins, int bin) {
-  return chroma_density(bins.middle(bin / kChromaBins % kChromaBins)) *
-         chroma_density(bins.middle(bin % kChromaBins)) / 256;
+double broad_density(const ColourBins& bins, bool colourless, int bin) {
+  const double scale = colourless ? kColourlessScale : kChromaScale;
+  return chroma_density(bins.middle(bin / kChromaBins % kChromaBins), scale) *
+         chroma_density(bins.middle(bin % kChromaBins), scale) / 256;
 }
 
 // Smooths with [1 2 1] / 4 along one axis of the histogram, whose neighbours are `step` bins apart;
@@ -59,15 +62,16 @@ void blend(std::vector<float>& into, const std::vector<float>& from, double shar
 
 }  // namespace
 
-ColourTable broad_table(const ColourBins& bins) {
+ColourTable broad_table(const ColourBins& bins, bool colourless) {
   ColourTable table(kColourBins);
   for (int bin = 0; bin < kColourBins; ++bin)
-    table[static_cast<size_t>(bin)] = static_cast<float>(std::log(broad_density(bins, bin)));
+    table[static_cast<size_t>(bin)] =
+        static_cast<float>(std::log(broad_density(bins, colourless, bin)));
   return table;
 }
 
 AppearanceModel::AppearanceModel(const ForegroundConfig& config,
-                                 const std::array<bool, kAppearanceCount>& used)
+                                 const std::array<bool, kAppearanceCount>& used, bool colourless)
     : config_(config) {
   std::vector<int> labels;  // of the classes in use, in the order of the appearances
   for (size_t a = 0; a < used.size(); ++a) {
@@ -78,11 +82,11 @@ AppearanceModel::AppearanceModel(const ForegroundConfig& config,
   }
   const ColourBins bins;
   AppearanceState fresh;
-  log_broad_ = broad_table(bins);
+  log_broad_ = broad_table(bins, colourless);
   fresh.log_density = log_broad_;
   states_.assign(labels.size(), fresh);
   for (int bin = 0; bin < kColourBins; ++bin)
-    broad_.push_back(static_cast<float>(broad_density(bins, bin) * bins.volume(bin)));
+    broad_.push_back(static_cast<float>(broad_density(bins, colourless, bin) * bins.volume(bin)));
 }
 
 bool AppearanceModel::any_learned() const {

@@ -26,7 +26,8 @@ inline namespace observation {
 // Logs of densities per cubed grey level, by colour bin.
 using ColourTable = std::vector<float>;
 
-ColourTable broad_table(const ColourBins& bins);
+// The broad model of pictures with colours or without.
+ColourTable broad_table(const ColourBins& bins, bool colourless = false);
 
 // The learned model of one class.
 struct AppearanceState {
@@ -39,7 +40,8 @@ struct AppearanceState {
 class AppearanceModel {
  public:
   // For the appearances in `used` (by Appearance); the others have no table.
-  AppearanceModel(const ForegroundConfig& config, const std::array<bool, kAppearanceCount>& used);
+  AppearanceModel(const ForegroundConfig& config, const std::array<bool, kAppearanceCount>& used,
+                  bool colourless = false);
 
   int classes() const { return static_cast<int>(states_.size()); }
   const std::array<int, kAppearanceCount>& class_of() const { return class_of_; }

@@ -32,18 +32,25 @@ inline float fast_log(float x) {
 // edge of a shadow or of a body. By hand.
 constexpr float kLogEdge = -3.0F;
 
+// Share of the tint of shadows that is left where chroma is zero: without any, shadows explain
+// people in dark clothes; with all of it, people explain shadows (reports/colourless.md).
+constexpr double kTintLeft = .5;
+
 // Constants of the mixture.
 struct Weights {
-  explicit Weights(const BackgroundConfig& c)
+  Weights(const BackgroundConfig& c, bool colourless)
       : log_plain(static_cast<float>(std::log(1 - c.shadow_share - c.unknown_share)) -
                   1.5F * kLogTwoPi),
         log_shadow(
             static_cast<float>(std::log(c.shadow_share / (1 - c.shadow_darkest) / (2 * kPi)))),
         log_unknown(static_cast<float>(std::log(c.unknown_share)) - kLogCube),
         darkest(static_cast<float>(c.shadow_darkest)),
-        tint(static_cast<float>(c.shadow_tint * c.shadow_tint)),
-        sky(static_cast<float>(c.shadow_sky * c.shadow_sky)),
+        tint(tint_share(colourless) * static_cast<float>(c.shadow_tint * c.shadow_tint)),
+        sky(tint_share(colourless) * static_cast<float>(c.shadow_sky * c.shadow_sky)),
         gradient(static_cast<float>(c.gradient_weight)) {}
+  static float tint_share(bool colourless) {
+    return colourless ? static_cast<float>(kTintLeft * kTintLeft) : 1;
+  }
   float log_plain, log_shadow, log_unknown, darkest, tint, sky, gradient;
 };
 
@@ -160,7 +167,7 @@ void background_log_density(const BackgroundModel& model, const BackgroundConfig
                             const ColourPatch& patch, const PixelRect& area, int y, double gain,
                             std::span<float> out) {
   if (area.width() == 0) return;  // a body outside the image covers nothing
-  const Weights w(config);
+  const Weights w(config, model.change.colourless);
   const PixelRect image{0, 0, model.width, model.height};
   const PixelRows rows{rows_of(patch.luma, patch.area, area.x0, y),
                        rows_of(patch.orange, patch.area, area.x0, y).here,

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "observation/background/colour.h"
+#include "observation/background/picture_change.h"
 #include "observation/observation_config.h"
 
 namespace walktrack {
@@ -31,8 +32,8 @@ inline bool never_seen(float precision) { return precision <= 2 * kNeverSeen; }
 
 struct BackgroundModel {
   int width = 0, height = 0;
-  float brightness = 1;  // factor on dark pictures (brightness.h); the model is of such pictures
-  std::vector<float> luma, orange, green;               // means
+  PictureChange change;                    // the model is of pictures that are changed in this way
+  std::vector<float> luma, orange, green;  // means
   std::vector<float> luma_precision, chroma_precision;  // 1 / variance
 };
 

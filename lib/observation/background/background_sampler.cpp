@@ -8,7 +8,6 @@
 
 #include "core/errors.h"
 #include "core/parallel_for.h"
-#include "observation/background/brightness.h"
 #include "observation/shrink.h"
 
 namespace walktrack {
@@ -94,6 +93,8 @@ Statistics robust_statistics(std::vector<Sample>& samples, float reach,
       q[c] += d[c] * d[c];
     }
   }
+  // The medians of the three channels need not be near any sample.
+  if (n == 0) return {mode.luma, mode.orange, mode.green, reach * reach, reach * reach};
   const auto variance = [&](int c) { return (q[c] - s[c] * s[c] / n) / std::max(1.F, n - 1); };
   return {mode.luma + s[0] / n, mode.orange + s[1] / n, mode.green + s[2] / n, variance(0),
           0.5F * (variance(1) + variance(2))};
@@ -306,13 +307,27 @@ cv::Mat BackgroundSampler::frame(int index) const {
   return {height_, width_, CV_8UC3, const_cast<uint8_t*>(bgr.data())};
 }
 
-float BackgroundSampler::brightness() const {
+PictureChange BackgroundSampler::change() const {
   const std::vector<LightPoint> points = light_points(width_, height_);
-  std::vector<float> luma;
+  std::vector<float> luma, chroma;
   luma.reserve(kept_.size() * points.size());
-  for (const auto& bgr : kept_)
-    for (const LightPoint& point : points) luma.push_back(sample_at(bgr, point.pixel, 1).luma);
-  return brightness_for(luma);
+  chroma.reserve(points.size());
+  for (const LightPoint& point : points) {
+    Sample sum{};
+    for (const auto& bgr : kept_) {
+      const Sample sample = sample_at(bgr, point.pixel, 1);
+      luma.push_back(sample.luma);
+      sum.orange += sample.orange;
+      sum.green += sample.green;
+    }
+    // Of the mean, because noise has colours, too.
+    chroma.push_back(std::max(std::abs(sum.orange), std::abs(sum.green)) /
+                     static_cast<float>(kept_.size()));
+  }
+  PictureChange out;
+  out.brightness = brightness_for(luma);
+  out.colourless = is_colourless(chroma, out.brightness);
+  return out;
 }
 
 void BackgroundSampler::hide(int index, const cv::Mat& mask) {
@@ -328,14 +343,15 @@ BackgroundModel BackgroundSampler::model(int threads) const {
   std::vector<std::vector<uint8_t>> hidden = hidden_;
   hidden.resize(kept_.size());
   BackgroundModel model = sized(width_, height_);
-  model.brightness = brightness();
-  const bool dark = model.brightness > 1;
-  std::vector<std::vector<uint8_t>> bright;
-  for (int f = 0; dark && f < static_cast<int>(kept_.size()); ++f)
-    brightened(frame(f), model.brightness).reshape(1, 1).copyTo(bright.emplace_back());
-  Frames frames{width_, height_, dark ? bright : kept_, hidden, {}};
+  model.change = change();
+  const bool changes = model.change.brightness > 1 || model.change.colourless;
+  std::vector<std::vector<uint8_t>> as_compared;
+  for (int f = 0; changes && f < static_cast<int>(kept_.size()); ++f)
+    changed(frame(f), model.change).reshape(1, 1).copyTo(as_compared.emplace_back());
+  Frames frames{width_, height_, changes ? as_compared : kept_, hidden, {}};
   frames.gains.assign(kept_.size(), 1);
-  frames.reach *= std::sqrt(model.brightness);  // noise is larger, differences are too; by hand
+  frames.reach *=
+      std::sqrt(model.change.brightness);  // noise is larger, differences are too; by hand
   if (kept_.size() > 1) measure_light(frames);
   parallel_for(static_cast<size_t>(height_), threads,
                [&](size_t y) { fill_row(frames, y, model); });

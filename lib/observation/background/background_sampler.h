@@ -33,12 +33,13 @@ class BackgroundSampler {
   // the last frame was added.
   void hide(int index, const cv::Mat& mask);
 
-  // Dark frames are made as bright as others (brightness.h). The result does not depend on
-  // `threads`. Throws InputError if no frame was added.
+  // Dark frames are made as bright as others, and frames without colours are compared by luma alone
+  // (picture_change.h). The result does not depend on `threads`. Throws InputError if no frame was
+  // added.
   BackgroundModel model(int threads = 1) const;
 
  private:
-  float brightness() const;
+  PictureChange change() const;
 
   BackgroundConfig config_;
   int64_t seen_ = 0, stride_ = 1;

@@ -77,8 +77,9 @@ void for_bands(const PixelRect& area, int threads, const F& f) {
 
 SilhouetteTerm::Memory::Memory(const ObserverSetting& setting, ObserverInput& input)
     : background_(std::move(input.background)),
-      appearance_(setting.config.foreground, input.appearances),
-      broad_(broad_table(bins_)) {
+      appearance_(setting.config.foreground, input.appearances,
+                  background_ && background_->change.colourless),
+      broad_(broad_table(bins_, background_ && background_->change.colourless)) {
   if (setting.config.background.enabled && input.pictures)
     require_background(background_, setting.camera);
 }

@@ -36,6 +36,11 @@ uint8_t byte_of(float value) {
   return static_cast<uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
 }
 
+// Rec. 601.
+Colour grey_of(const Colour& colour) {
+  return Colour::Constant(0.299F * colour[0] + 0.587F * colour[1] + 0.114F * colour[2]);
+}
+
 }  // namespace
 
 std::vector<uint8_t> developed(const Plane<Colour>& light, const Sensor& sensor, uint64_t seed,
@@ -47,10 +52,12 @@ std::vector<uint8_t> developed(const Plane<Colour>& light, const Sensor& sensor,
   const float noise = static_cast<float>(sensor.noise);
   std::vector<uint8_t> out(3 * light.values.size());
   uint8_t* to = out.data();
-  for (const Colour& colour : light.values) {
+  for (const Colour& seen : light.values) {
+    const Colour colour = sensor.monochrome ? grey_of(seen) : seen;
     const uint32_t word = noise > 0 ? rng.next() : 0;
     for (uint32_t channel = 0; channel < 3; ++channel) {
-      const float draw = kTable[(word >> (10 * channel)) & (kQuantiles - 1)];
+      const uint32_t shift = sensor.monochrome ? 0 : 10 * channel;
+      const float draw = kTable[(word >> shift) & (kQuantiles - 1)];
       *to++ = byte_of(gain * colour[static_cast<Eigen::Index>(2 - channel)] + noise * draw);
     }
   }

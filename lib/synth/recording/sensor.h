@@ -10,9 +10,10 @@ namespace walktrack {
 inline namespace synth {
 
 struct Sensor {
-  double exposure = 1;  // brightness factor; 0.25 is low light
-  double noise = 0.01;  // standard deviation of a pixel's noise, of full scale
-  double flicker = 0;   // relative standard deviation of a frame's brightness
+  double exposure = 1;      // brightness factor; 0.25 is low light
+  double noise = 0.01;      // standard deviation of a pixel's noise, of full scale
+  double flicker = 0;       // relative standard deviation of a frame's brightness
+  bool monochrome = false;  // the same value, and the same noise, in all channels
 };
 
 // Blue, green, red bytes, row-major. Noise is Gaussian (1024 quantiles), independent for each pixel
