@@ -6,9 +6,8 @@
 //   light: {azimuth_deg: -60, elevation_deg: 50, sun: 0.55, ambient: 0.45, shadows: true,
 //           contact_shadows: false}
 //   gloss: 0                     # of the floor, 0 matt to 1 polished
-//   sensor: {exposure: 1, noise: 0.01, flicker: 0, monochrome: false, blur_samples: 1, shutter:
-//   0.5,
-//            jpeg_quality: 0}
+//   sensor: {exposure: 1, noise: 0.01, flicker: 0, monochrome: false, blur_samples: 1,
+//            shutter: 0.5, jpeg_quality: 0}
 //   walk: {speed: 1.25, step_length: 0.7, start: [0, 0], heading_deg: 0, turn_deg_s: 0, phase: 0,
 //          arm_swing: 1, limp: 0, step_width: 0.09, lean_deg: 4, straightest: 0.999, person: 7}
 //                  # where there is no MOTION.csv (synth/walk/made_walk.h): steps,

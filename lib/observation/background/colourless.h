@@ -1,4 +1,4 @@
-// Pictures without colours: of monochrome and infrared cameras, or nearly so. Their chroma tells
+// Pictures without colours: of monochrome cameras, or nearly so. Their chroma tells
 // nobody from the background, so that it is set to zero and only luma is compared.
 #pragma once
 
