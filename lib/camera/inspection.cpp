@@ -52,28 +52,64 @@ std::vector<Vector2d> ground_border(const Camera& camera) {
   return border;
 }
 
+// A person who is seen whole.
+struct SeenWhole {
+  Vector2d place;       // on the ground, m
+  Vector2d feet, head;  // px
+
+  double height_px() const { return (feet - head).norm(); }
+};
+
+// At the places of a grid of pixels.
+std::vector<SeenWhole> people_seen_whole(const Camera& camera, double person_height) {
+  std::vector<SeenWhole> out;
+  for (int row = 0; row <= kPlacesAlongASide; ++row) {
+    for (int column = 0; column <= kPlacesAlongASide; ++column) {
+      const Vector2d pixel = last_pixel(camera).cwiseProduct(Vector2d(column, row)) /
+                             static_cast<double>(kPlacesAlongASide);
+      const auto place = near_ground(camera, pixel);
+      if (!place || !sees_person(camera, *place, person_height)) continue;
+      out.push_back({*place, pixel, *project(camera, {place->x(), place->y(), person_height})});
+    }
+  }
+  return out;
+}
+
 void find_standing_place(const Camera& camera, double person_height, CameraInspection& found) {
   const Vector2d end = last_pixel(camera);
   double nearest = std::numeric_limits<double>::infinity();
-  for (int row = 0; row <= kPlacesAlongASide; ++row) {
-    for (int column = 0; column <= kPlacesAlongASide; ++column) {
-      const Vector2d pixel =
-          end.cwiseProduct(Vector2d(column, row)) / static_cast<double>(kPlacesAlongASide);
-      const auto place = near_ground(camera, pixel);
-      if (!place || !sees_person(camera, *place, person_height)) continue;
-      const Vector2d head = *project(camera, {place->x(), place->y(), person_height});
-      const double height = (pixel - head).norm();
-      const double distance =
-          (0.5 * (pixel + head) - 0.5 * end).norm() + std::abs(height - 0.5 * camera.height_px);
-      if (distance >= nearest) continue;
-      nearest = distance;
-      found.standing_place = *place;
-      found.person_px = height;
-    }
+  for (const SeenWhole& person : people_seen_whole(camera, person_height)) {
+    const double distance = (0.5 * (person.feet + person.head) - 0.5 * end).norm() +
+                            std::abs(person.height_px() - 0.5 * camera.height_px);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    found.standing_place = person.place;
+    found.person_px = person.height_px();
   }
 }
 
 }  // namespace
+
+bool sees_hips(const Camera& camera, const Vector2d& place, double person_height) {
+  const auto pixel = project(camera, {place.x(), place.y(), 0.5 * person_height});
+  return pixel && inside_image(camera, *pixel);
+}
+
+bool in_any_picture(std::span<const Camera> cameras, const Vector2d& place, double person_height) {
+  return std::ranges::any_of(
+      cameras, [&](const Camera& camera) { return sees_hips(camera, place, person_height); });
+}
+
+bool share_a_view(const Camera& camera, const Camera& other, double person_height) {
+  constexpr double kAsHigh = 0.5;  // as at the standing place: far away all views meet; by hand
+  CameraInspection own;
+  find_standing_place(camera, person_height, own);
+  const std::vector<SeenWhole> people = people_seen_whole(camera, person_height);
+  return std::any_of(people.begin(), people.end(), [&](const SeenWhole& person) {
+    return person.height_px() >= kAsHigh * own.person_px &&
+           sees_hips(other, person.place, person_height);
+  });
+}
 
 bool sees_person(const Camera& camera, const Vector2d& place, double person_height) {
   for (const double height : {0.0, person_height}) {

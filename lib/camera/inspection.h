@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -32,6 +33,17 @@ CameraInspection inspect_camera(const Camera& camera, double person_height);
 
 // Whether a person who stands there is visible from the feet to the top of the head.
 bool sees_person(const Camera& camera, const Eigen::Vector2d& place, double person_height);
+
+// Whether the hips of a person who stands there are visible.
+bool sees_hips(const Camera& camera, const Eigen::Vector2d& place, double person_height);
+
+// Whether any camera sees them.
+bool in_any_picture(std::span<const Camera> cameras, const Eigen::Vector2d& place,
+                    double person_height);
+
+// Whether somewhere a person is visible to `camera` from the feet to the top of the head, at least
+// half as high in the image as at its standing place, and at least the hips to `other`.
+bool share_a_view(const Camera& camera, const Camera& other, double person_height);
 
 // Whether the lens model is one to one over the whole image.
 bool lens_covers_image(const Camera& camera);

@@ -40,6 +40,8 @@ struct FrameRecord {
   std::vector<KeypointEvidence> keypoints;
   FigureFit fit;      // of the pose before it is smoothed and before feet are held in place
   double moving = 0;  // newly covered area in an image while nobody is tracked, m^2
+  // The figure was tracked until it had left every picture; then the frame is not tracked.
+  bool out_of_picture = false;
 };
 
 struct WalkerFilterContext {

@@ -51,6 +51,23 @@ TEST(InspectCamera, FindsWhereAPersonIsSeenWhole) {
   EXPECT_FALSE(sees_person(camera, {0, 1}, 1.75));   // head above the image
 }
 
+// Both sides of a walkway, which is so close that the person seen best by one camera stands behind
+// the other.
+TEST(ShareAView, OfCamerasThatFaceEachOther) {
+  const Camera near_side = placed(1, 0, 0);
+  const auto facing = [](double distance) {  // the other way from (0, distance)
+    Camera camera = placed(1, 0, 0);
+    camera.rotation = camera.rotation * Eigen::AngleAxisd(kPi, Vector3d::UnitZ());
+    camera.translation = -camera.rotation * Vector3d(0, distance, 1);
+    return camera;
+  };
+  const Vector2d place = *inspect_camera(near_side, 1.75).standing_place;
+  EXPECT_FALSE(sees_person(facing(4.6), place, 1.75));
+  EXPECT_TRUE(share_a_view(near_side, facing(4.6), 1.75));
+  EXPECT_TRUE(share_a_view(facing(4.6), near_side, 1.75));
+  EXPECT_FALSE(share_a_view(near_side, facing(-0.5), 1.75)) << "back to back";
+}
+
 TEST(InspectCamera, SeesNoGroundFromBelowOrUpwards) {
   EXPECT_TRUE(inspect_camera(placed(-1, 0.2, 0), 1.75).footprint.empty());
   EXPECT_FALSE(inspect_camera(placed(2, -1.2, 0), 1.75).standing_place);

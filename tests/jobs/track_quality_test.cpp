@@ -60,6 +60,26 @@ TEST_F(QualityOf, CountsLostFramesFromTheFirstTrackedOneOn) {
   EXPECT_FALSE(named(quality, "lost_percent").passed());
 }
 
+// Somebody walks out of the picture, and back into it after a while. Until they are found again,
+// the frames in which they move are lost.
+TEST_F(QualityOf, NobodyIsLostOutOfThePicture) {
+  const auto passes = [&](bool seen_to_leave) {
+    TrackedFrames frames{30, FrameFile(folder_ / "passes")};
+    for (int i = 0; i < 20; ++i) {
+      FrameRecord record = still();
+      record.tracked = i < 8 || i >= 16;
+      record.out_of_picture = seen_to_leave && (i == 8 || i == 9);
+      record.moving = i >= 14 && i < 16 ? 0.5 : 0;
+      frames.records.append(record);
+    }
+    return frames;
+  };
+  EXPECT_EQ(frames_out_of_picture(passes(true)), 6);
+  EXPECT_DOUBLE_EQ(named(quality_of(passes(true)), "lost_percent").value, 100 * 2 / 14.0);
+  EXPECT_EQ(frames_out_of_picture(passes(false)), 0) << "hidden, not gone";
+  EXPECT_DOUBLE_EQ(named(quality_of(passes(false)), "lost_percent").value, 100 * 8 / 20.0);
+}
+
 TEST_F(QualityOf, NobodyTrackedLosesNothing) {
   EXPECT_EQ(named(quality_of(standing(2, {0, 1})), "lost_percent").value, 0);
   EXPECT_EQ(named(quality_of(standing(0, {})), "leg_swaps_per_min").value, 0);

@@ -100,6 +100,18 @@ TEST(LegOrder, SaysNothingOfLegsThatDoNotOverlap) {
   EXPECT_TRUE(leg_overlap(parts(), one).empty());
 }
 
+// A subject walks out of the picture, and the figure walks on.
+TEST(LegOrder, SaysNothingOfLegsOutsideThePicture) {
+  for (const double away : {-300.0, 300.0}) {
+    const auto legs = [&](double left_x) {
+      return list({upright(kLeftShank, left_x + away, 4), upright(kRightShank, 62 + away, 5)});
+    };
+    const CapsuleList before = legs(60 - kStep), now = legs(60);
+    ASSERT_FALSE(leg_overlap(parts(), now).empty());
+    EXPECT_EQ(log_ratio(cloth(0), cloth(kStep), before, now), 0) << away;
+  }
+}
+
 TEST(LegOrder, SaysNothingOfLegsThatGoTogether) {
   const CapsuleList before =
       list({upright(kLeftShank, 60 - kStep, 4), upright(kRightShank, 62 - kStep, 5)});

@@ -18,13 +18,14 @@ double bell(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double h
 }
 
 constexpr size_t kWindowFrames = 24;
+const Eigen::Vector2d kEye(0, -6);
 
 struct Window {
   std::vector<Place> early, late;
   WindowScore score;
 
   std::optional<DetectedWalk> walk(int threads = 1) const {
-    return detect_walk({kWindowFrames, early, late}, score, kDt, {0, -6}, {}, threads);
+    return detect_walk({kWindowFrames, early, late}, score, kDt, std::vector{kEye}, {}, threads);
   }
 };
 
@@ -113,8 +114,7 @@ TEST(DetectWalk, DoesNotRefineLinesOfAHiddenPerson) {
 
 // The score of one camera: a ridge along the viewing ray, forty times as long as wide.
 double ridge(const Eigen::Vector2d& place, const Eigen::Vector2d& truth, double height) {
-  const Eigen::Vector2d camera_position(0, -6), from_eye = place - camera_position,
-                                                true_ray = truth - camera_position;
+  const Eigen::Vector2d from_eye = place - kEye, true_ray = truth - kEye;
   const double farther = from_eye.norm() / true_ray.norm() - 1;
   const double aside = std::remainder(
       std::atan2(from_eye.x(), from_eye.y()) - std::atan2(true_ray.x(), true_ray.y()), 2 * kPi);
@@ -130,13 +130,31 @@ TEST(DetectWalk, ClimbsAlongTheRayOfEitherEnd) {
       window([&](size_t frame, const Eigen::Vector2d& p) { return ridge(p, truth(frame), 100); });
   // The only candidate of the late frame is on its ray, but half as far again.
   const size_t late = window_ends(kWindowFrames).late;
-  const Eigen::Vector2d camera_position(0, -6),
-      far = camera_position + 1.5 * (truth(late) - camera_position);
+  const Eigen::Vector2d far = kEye + 1.5 * (truth(late) - kEye);
   f.late = {{far, f.score(late, far, {})}};
   const auto walk = f.walk();
   ASSERT_TRUE(walk);
   EXPECT_LT((walk->position - truth(0)).norm(), 0.05);
   EXPECT_NEAR(walk->velocity.y(), 0, 0.1);
+}
+
+// Behind a camera that looks at the first nobody is seen by it, and just before it every figure is
+// a giant, so that a line behind it does not climb to the walker.
+TEST(DetectWalk, TriesOtherDistancesThanThoseToWhichItClimbs) {
+  constexpr double kFacing = 2.4;  // y of the other camera, m
+  Window f = window([](size_t frame, const Eigen::Vector2d& p) {
+    if (p.y() > kFacing) return ridge(p, kEye + 2 * (walker_at(frame) - kEye), 40);
+    return (p.y() > 1 ? -300 : 0) + bell(p, walker_at(frame), 100);
+  });
+  const auto behind = [&](size_t frame) {
+    return std::vector<Place>{{kEye + 2 * (walker_at(frame) - kEye), 40}};
+  };
+  const WindowEnds ends = window_ends(kWindowFrames);
+  f.early = behind(ends.early);
+  f.late = behind(ends.late);
+  const auto walk = f.walk();
+  ASSERT_TRUE(walk);
+  EXPECT_LT((walk->position - walker_at(0)).norm(), 0.05);
 }
 
 // The places along the ray of somebody who stands propose lines, few of which are worth a whole

@@ -68,6 +68,25 @@ TEST(FigureCovariance, ACameraThatLooksAwayTellsNothing) {
   EXPECT_EQ(figure_covariance(one, kHead, kFeet), figure_covariance(two, kHead, kFeet));
 }
 
+// A subject who walks out of the picture is not lost at once: the error grows by a fifth of the
+// way.
+TEST(FigureCovariance, GrowsWithTheWayOutsideOfThePicture) {
+  const std::vector<Camera> cameras{camera_from({0, -4, 0.85})};
+  const auto sd_at = [&](double x) {  // upwards, which does not depend on the distance
+    const Vector3d aside(x, 0, 0);
+    return sd_along(figure_covariance(cameras, kHead + aside, kFeet + aside), Vector3d::UnitZ());
+  };
+  double edge = 0;
+  while (inside_image(cameras[0], *project(cameras[0], {edge, 0, 0.85}))) edge += 1e-3;
+  const double inside = sd_at(edge - 2e-3);
+  EXPECT_NEAR(sd_at(edge + 1e-3), inside, 0.02 * inside) << "no jump";
+  for (const double outside : {0.2, 0.5, 1.0}) {
+    const double drift = 0.2 * outside / std::sqrt(2);  // of two ends together
+    EXPECT_NEAR(sd_at(edge + outside), std::hypot(inside, drift), 0.1 * drift) << outside;
+  }
+  EXPECT_GT(sd_at(50), 0.8) << "far away nothing is known";
+}
+
 FrameEstimate upright_estimate() {
   FrameEstimate estimate;
   estimate.joint_count = kJointCountWithoutArms;

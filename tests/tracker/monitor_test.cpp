@@ -73,20 +73,24 @@ TEST(Monitor, OffAllPeopleForAWhileIsLost) {
 TEST(Monitor, LooksWhereTheWalkerCanBe) {
   const MonitorConfig config;
   MonitorState state;
-  EXPECT_TRUE(is_within_reach(config, state.last_seen, {50, 50}, 0, kDt)) << "never seen";
+  const auto can_be = [&](const Eigen::Vector2d& place, double seconds, double last_x = 100) {
+    const auto reach =
+        reach_of(config, state.last_seen, 59 + static_cast<uint32_t>(frames_in(seconds, kDt)), kDt,
+                 [=](const Eigen::Vector2d& p) { return p.x() < last_x; });
+    return !reach || reach->contains(place);
+  };
+  EXPECT_TRUE(can_be({50, 50}, 1)) << "never seen";
   FrameEstimate estimate;
   estimate.pose.root = {1, 2, 0.9};
   estimate.speed = 1.2;  // along x
   for (uint32_t frame = 0; frame < 60; ++frame) see(estimate, frame, kDt, state);
   EXPECT_NEAR(state.last_seen->velocity.x(), 1.2, 1e-9);
-  const auto later = 59 + static_cast<uint32_t>(frames_in(1, kDt));
-  EXPECT_TRUE(is_within_reach(config, state.last_seen, {2.2, 2}, later, kDt)) << "they went on";
-  EXPECT_TRUE(is_within_reach(config, state.last_seen, {1.2, 2.5}, later, kDt)) << "they stopped";
-  EXPECT_FALSE(is_within_reach(config, state.last_seen, {-0.5, 2}, later, kDt))
-      << "somebody behind them";
-  const auto long_after = 59 + static_cast<uint32_t>(frames_in(config.reacquire_within + 1, kDt));
-  EXPECT_TRUE(is_within_reach(config, state.last_seen, {-5, 2}, long_after, kDt))
-      << "anywhere by now";
+  EXPECT_TRUE(can_be({2.2, 2}, 1)) << "they went on";
+  EXPECT_TRUE(can_be({1.2, 2.5}, 1)) << "they stopped";
+  EXPECT_FALSE(can_be({-0.5, 2}, 1)) << "somebody behind them";
+  EXPECT_TRUE(can_be({-5, 2}, config.reacquire_within + 1)) << "anywhere by now";
+  EXPECT_TRUE(can_be({-0.5, 2}, 1, 2)) << "they turned around where nobody saw it";
+  EXPECT_FALSE(can_be({-3, 2}, 1, 2)) << "nobody is as fast as that";
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 // the same bytes. It contains everything on which the next frame depends and the number of frames
 // before it; their records are in a FrameFile.
 //
-// The file consists of "walktrack checkpoint 3", the SHA-256 of the rest, and the bytes of
-// io/archive/archive.h: first the origin (what the state was computed from), then the state. It is
-// only valid for the program that wrote it, on a machine of the same kind; results of machines with
-// different vector instructions may differ in the last digits. The digest detects damage. A forged
-// file with a correct digest is still checked field by field (io/archive/state_checks.h).
+// The file consists of a line with the number of the format, the SHA-256 of the rest, and the bytes
+// of io/archive/archive.h: first the origin (what the state was computed from), then the state. It
+// is only valid for the program that wrote it, on a machine of the same kind; results of machines
+// with different vector instructions may differ in the last digits. The digest detects damage. A
+// forged file with a correct digest is still checked field by field (io/archive/state_checks.h).
 #pragma once
 
 #include <cstdint>

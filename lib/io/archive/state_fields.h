@@ -238,10 +238,10 @@ void fields(Archive& archive, T& value) {
 template <typename Archive, ArchivedAs<FrameRecord> T>
 void fields(Archive& archive, T& value) {
   auto& [tracked, estimate, images, filter, mean_log_likelihood, samples, fallen, diverged, history,
-         modes, names, evidence, keypoints, fit, moving] = value;
+         modes, names, evidence, keypoints, fit, moving, out_of_picture] = value;
   archive(tracked, estimate, images, filter, any_number(mean_log_likelihood), samples,
           a_count(fallen), a_count(diverged), history, modes, names, any_number(evidence),
-          keypoints, fit, moving);
+          keypoints, fit, moving, out_of_picture);
 }
 
 }  // namespace io

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -192,14 +193,13 @@ void check_common_ground(const Scene& scene, CheckReport& report) {
   if (scene.cameras.size() < 2) return;
   const std::vector<Camera> cameras = cameras_of(scene);
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
-    const Camera& camera = cameras[i];
-    if (companions(cameras, camera, i, scene.subject.height) > 0) continue;
-    bool seen = false;
-    for (size_t j = 0; j < scene.cameras.size() && !seen; ++j) {
-      const auto& place = report.cameras[j].view.standing_place;
-      seen = j != i && place && sees_person(camera, *place, scene.subject.height);
-    }
-    if (seen) continue;
+    const auto shares = [&](size_t j) {
+      const double height = scene.subject.height;
+      return j != i && (share_a_view(cameras[i], cameras[j], height) ||
+                        share_a_view(cameras[j], cameras[i], height));
+    };
+    const auto all = std::views::iota(size_t{0}, cameras.size());
+    if (std::ranges::any_of(all, shares)) continue;
     report.findings.push_back({scene.cameras[i].name, true,
                                "sees no place where another camera sees a person",
                                find_cure(scene, i)});

@@ -9,6 +9,7 @@
 #include "body/kinematics.h"
 #include "core/errors.h"
 #include "core/parallel_for.h"
+#include "jobs/track/out_of_picture.h"
 #include "jobs/track/report/why_nobody.h"
 #include "observation/image_threads.h"
 
@@ -87,6 +88,8 @@ TrackRun::TrackRun(const TrackJob& job, SceneVideo& video, const ResultFolder& f
   // bits of sums.
   if (setup_.detections.uses_network()) set_image_threads(1);
   if (checkpoint) tracker_.resume(std::move(checkpoint->tracker));
+  if (const size_t count = frames_.records.size(); count > 0)
+    left_ = frames_.records[count - 1].out_of_picture;
   if (in_doubt_only())
     for (const FrameRecord& record : frames_.records) hear_names(record);
   if (!budget_.on()) return;
@@ -223,6 +226,9 @@ void TrackRun::keep(std::vector<FrameRecord> records) {
   for (FrameRecord& record : records) {
     record.moving = moving_.front();
     moving_.pop_front();
+    left_ = record.tracked && out_of_picture(setup_.scene.cameras, record.estimate, left_);
+    record.out_of_picture = left_;
+    if (left_) record.tracked = false;
     hear_names(record);
     frames_.records.append(record);
   }

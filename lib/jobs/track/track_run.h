@@ -118,6 +118,7 @@ class TrackRun {
   NamesSoFar names_;  // only used if the network runs on doubtful frames alone
   std::vector<Region> everywhere_;
   std::optional<MovementWatch> movement_;
+  bool left_ = false;          // the newest record's figure is out of the picture
   std::deque<double> moving_;  // of the frames whose records are not finished
   SceneVideo& video_;
   NextFrame next_;

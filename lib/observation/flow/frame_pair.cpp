@@ -34,6 +34,7 @@ FramePair pair_frames(const GreyImage& before, const GreyImage& now, const Pixel
   out.area =
       intersection({area.x0 - kMargin, area.y0 - kMargin, area.x1 + kMargin, area.y1 + kMargin},
                    {0, 0, now.width, now.height});
+  if (out.area.empty()) return {};  // the legs are outside the image
   const cv::Rect cut(out.area.x0, out.area.y0, out.area.width(), out.area.height());
   const cv::Mat present = smoothed(view_of(now)(cut)), past = smoothed(view_of(before)(cut));
   cv::Mat gradient_x, gradient_y;  // grey levels per px

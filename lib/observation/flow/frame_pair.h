@@ -36,7 +36,7 @@ struct FramePair {
 };
 
 // `before` and `now`: of one size. Contains `area` and a margin from which the subject's pixels may
-// have come; empty for an empty area.
+// have come; empty for an area that is empty or far outside the images.
 FramePair pair_frames(const GreyImage& before, const GreyImage& now, const PixelRect& area);
 
 }  // namespace observation

@@ -290,6 +290,32 @@ bool walks_on(const Walk& walk, const Window& window, const DetectorConfig& conf
          seen_throughout(walk, window, config);
 }
 
+// The line that is `share` as far from a camera, of whose image it explains the same part.
+DetectedWalk scaled(const DetectedWalk& line, const Vector2d& camera_position, double share) {
+  DetectedWalk out = line;
+  out.position = camera_position + share * (line.position - camera_position);
+  out.velocity = share * line.velocity;
+  return out;
+}
+
+// The best of the lines at other distances from the cameras, climbed to its maximum; nullopt if
+// none of them is better. A climb stops before a camera that looks at the first: behind it, it sees
+// nobody, and just before it, it sees a giant.
+std::optional<Walk> better_at_other_distance(const Walk& walk, const Window& window,
+                                             std::span<const Vector2d> camera_positions) {
+  constexpr double kFarthest = 3, kApart = 1.2;  // times the distance; by hand
+  std::vector<Walk> others;
+  for (const Vector2d& camera : camera_positions)
+    for (double times = kApart; times < kFarthest; times *= kApart)
+      for (const double share : {times, 1 / times})
+        others.push_back(looked_at(window, scaled(walk.line, camera, share)));
+  std::vector<Walk> best{*std::ranges::max_element(others, {}, &Walk::score)};
+  if (best[0].score <= walk.score) return std::nullopt;
+  refine(window, camera_positions[0], kCoarseSteps, best);
+  refine(window, camera_positions[0], kFineSteps, best);
+  return best[0];
+}
+
 }  // namespace
 
 DetectedWalk moved(const DetectedWalk& walk, double seconds) {
@@ -306,8 +332,9 @@ WindowEnds window_ends(size_t frames) {
 
 std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
                                         const WindowScore& score, double dt,
-                                        const Vector2d& camera_position,
+                                        std::span<const Vector2d> camera_positions,
                                         const DetectorConfig& config, int threads) {
+  const Vector2d& camera_position = camera_positions[0];
   constexpr size_t kRefined = 4, kStride = 3;  // lines, frames; by hand
   // A climb may turn a line that fits a little worse than standing into a walk: with 1 the walk
   // before two telephones was found in another window (reports/search.md).
@@ -332,6 +359,10 @@ std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
   if (walks.empty()) return std::nullopt;
   Walk& best = *std::max_element(walks.begin(), walks.end(),
                                  [](const Walk& a, const Walk& b) { return a.score < b.score; });
+  if (const auto better = better_at_other_distance(best, window, camera_positions)) {
+    if (!walks_on(*better, window, config)) return std::nullopt;
+    best = *better;
+  }
   best.score = line_score(window, best.line);
   measure_spread((best.line.position - camera_position).normalized(), window, best);
   best.line.score = best.score;

@@ -57,14 +57,16 @@ struct WindowCandidates {
 };
 
 // The walk through a window's frames, which are dt apart; nullopt if nobody walks there, or if the
-// person is cut off by an edge or hidden in some of the frames. `camera_position`: the place of the
-// camera along whose rays the distance is least certain (any camera, if there are several).
+// person is cut off by an edge or hidden in some of the frames. `camera_positions`: the places of
+// the cameras, at least one. The distance is least certain along the rays of the first (any camera,
+// if there are several).
 std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
                                         const WindowScore& score, double dt,
-                                        const Eigen::Vector2d& camera_position,
+                                        std::span<const Eigen::Vector2d> camera_positions,
                                         const DetectorConfig& config, int threads);
 
 // The line about `walk` that explains a window's frames best by this score, with its own score.
+// `camera_position`: of the camera along whose rays the distance is least certain.
 DetectedWalk nearest_walk(const DetectedWalk& walk, size_t frames, const WindowScore& score,
                           double dt, const Eigen::Vector2d& camera_position);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "camera/inspection.h"
 #include "core/anthropometry.h"
 #include "core/parallel_for.h"
 #include "tracker/detect/keypoint_lines.h"
@@ -23,11 +24,19 @@ std::optional<DetectedWalk> look_for_walk(const SearchWindow& window, const Body
   const std::vector<Place> early = places_in_frame(window, ends.early, model.body, figures),
                            late = places_in_frame(window, ends.late, model.body, figures);
   return detect_walk({window.frames.size(), early, late}, window_score(window, model.body, figures),
-                     context.scene.dt, camera_position(context.scene), context.config.detector,
+                     context.scene.dt, camera_positions(context.scene), context.config.detector,
                      context.threads);
 }
 
 }  // namespace
+
+std::optional<Reach> reach_in_frame(const TrackContext& context,
+                                    const std::optional<LastSeen>& last_seen, uint32_t frame) {
+  const auto in_picture = [&](const Eigen::Vector2d& place) {
+    return in_any_picture(context.scene.cameras, place, context.body().subject.height);
+  };
+  return reach_of(context.config.monitor, last_seen, frame, context.scene.dt, in_picture);
+}
 
 WindowScore window_score(const SearchWindow& window, const Body& body,
                          const PoseTemplates& figures) {
@@ -41,10 +50,10 @@ WindowScore window_score(const SearchWindow& window, const Body& body,
 std::vector<Place> places_in_frame(const SearchWindow& window, size_t index, const Body& body,
                                    const PoseTemplates& templates) {
   const TrackContext& context = window.context;
-  const uint32_t frame = window.first_frame + static_cast<uint32_t>(index);
+  const std::optional<Reach> reach =
+      reach_in_frame(context, window.last_seen, window.first_frame + static_cast<uint32_t>(index));
   const auto score = [&](const Eigen::Vector2d& place) {
-    if (!is_within_reach(context.config.monitor, window.last_seen, place, frame, context.scene.dt))
-      return 0.0;
+    if (reach && !reach->contains(place)) return 0.0;
     // Half of the figures and half a step suffice for a first search.
     const double heading = side_on_heading(context.scene.cameras[0], place);
     const std::span<const Pose> figures = templates.at(anthropometry::kUsualSpeed, heading);
@@ -73,8 +82,10 @@ std::vector<DetectedWalk> lines_by_keypoints(const SearchWindow& window) {
   return out;
 }
 
-Eigen::Vector2d camera_position(const TrackerScene& scene) {
-  return camera_centre(scene.cameras[0]).head<2>();
+std::vector<Eigen::Vector2d> camera_positions(const TrackerScene& scene) {
+  std::vector<Eigen::Vector2d> out;
+  for (const Camera& camera : scene.cameras) out.push_back(camera_centre(camera).head<2>());
+  return out;
 }
 
 SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double height) {
@@ -87,7 +98,7 @@ SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double 
     };
   };
   return size_up(walk, height, context.scene.stature, window.frames.size(), score, context.scene.dt,
-                 camera_position(context.scene));
+                 camera_centre(context.scene.cameras[0]).head<2>());
 }
 
 SizedWalk best_size(const SearchWindow& window, const DetectedWalk& found) {

@@ -21,6 +21,10 @@ struct SearchWindow {
   const PlaceGrid& places;                   // over which figures are tried
 };
 
+// Where the subject can be in a frame, if they were lost; nullopt: anywhere.
+std::optional<Reach> reach_in_frame(const TrackContext& context,
+                                    const std::optional<LastSeen>& last_seen, uint32_t frame);
+
 // How well figures of a body explain the window's frames.
 WindowScore window_score(const SearchWindow& window, const Body& body,
                          const PoseTemplates& figures);
@@ -32,8 +36,8 @@ std::vector<Place> places_in_frame(const SearchWindow& window, size_t index, con
 // The lines along which keypoints move at the speed of a walk.
 std::vector<DetectedWalk> lines_by_keypoints(const SearchWindow& window);
 
-// The place of the camera along whose rays distances are measured.
-Eigen::Vector2d camera_position(const TrackerScene& scene);
+// The places of the cameras on the ground.
+std::vector<Eigen::Vector2d> camera_positions(const TrackerScene& scene);
 
 // The height that explains the window best near that line, which was found with figures of
 // `height`.

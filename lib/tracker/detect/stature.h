@@ -33,7 +33,7 @@ struct SizedWalk {
 };
 
 // `walk`: the walk in a window's frames, dt apart, as it was found with figures of `height`.
-// `known`: of the height before the images. `camera_position` as in detect_walk.
+// `known`: of the height before the images. `camera_position` as in nearest_walk.
 SizedWalk size_up(const DetectedWalk& walk, double height, const Stature& known, size_t frames,
                   const FigureScore& score, double dt, const Eigen::Vector2d& camera_position);
 

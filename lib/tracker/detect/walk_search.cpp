@@ -105,11 +105,10 @@ std::optional<DetectedWalk> WalkSearch::find_here(const TrackContext& context,
   const std::optional<DetectedWalk> walk = detect_walk(
       {window_.size(), candidates(window, ends.early), candidates(window, ends.late), lines},
       window_score(window, context.body(), context.subject.figures), scene.dt,
-      camera_position(scene), config, context.threads);
-  const bool believed = walk &&
-                        is_within_reach(context.config.monitor, moment.last_seen, walk->position,
-                                        moment.first_frame, scene.dt) &&
-                        walks_clearly(context, *walk, clearly);
+      camera_positions(scene), config, context.threads);
+  const std::optional<Reach> reach = reach_in_frame(context, moment.last_seen, moment.first_frame);
+  const bool believed =
+      walk && (!reach || reach->contains(walk->position)) && walks_clearly(context, *walk, clearly);
   return believed ? walk : std::nullopt;
 }
 

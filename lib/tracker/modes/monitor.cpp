@@ -63,13 +63,16 @@ void see(const FrameEstimate& estimate, uint32_t frame, double dt, MonitorState&
   state.last_seen = {pose.root.head<2>(), kept * before + (1 - kept) * now, frame};
 }
 
-bool is_within_reach(const MonitorConfig& config, const std::optional<LastSeen>& last_seen,
-                     const Eigen::Vector2d& place, uint32_t frame, double dt) {
-  if (!last_seen) return true;
+std::optional<Reach> reach_of(const MonitorConfig& config, const std::optional<LastSeen>& last_seen,
+                              uint32_t frame, double dt, const InPicture& in_picture) {
+  if (!last_seen) return std::nullopt;
   const double elapsed = dt * (frame - last_seen->frame);
-  if (elapsed > config.reacquire_within) return true;
-  const Eigen::Vector2d expected = last_seen->position + elapsed * last_seen->velocity;
-  return (place - expected).norm() < kNear + kTurnsAside * elapsed;
+  if (elapsed > config.reacquire_within) return std::nullopt;
+  const Eigen::Vector2d walked = elapsed * last_seen->velocity;
+  const double aside = kNear + kTurnsAside * elapsed;
+  const Eigen::Vector2d expected = last_seen->position + walked;
+  if (in_picture(expected)) return Reach{expected, aside};
+  return Reach{last_seen->position, aside + walked.norm()};
 }
 
 }  // namespace tracker

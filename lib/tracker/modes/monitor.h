@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -61,9 +62,22 @@ bool is_off_people(const MonitorConfig& config, double dt, std::optional<bool> o
 // Stores where the subject is, and their velocity.
 void see(const FrameEstimate& estimate, uint32_t frame, double dt, MonitorState& state);
 
-// Whether a subject who was lost can be at a place: near where they were going.
-bool is_within_reach(const MonitorConfig& config, const std::optional<LastSeen>& last_seen,
-                     const Eigen::Vector2d& place, uint32_t frame, double dt);
+// Where a subject who was lost can be: in a circle on the ground, m.
+struct Reach {
+  Eigen::Vector2d middle;
+  double radius;
+
+  bool contains(const Eigen::Vector2d& place) const { return (place - middle).norm() < radius; }
+};
+
+// Whether a place is in any picture.
+using InPicture = std::function<bool(const Eigen::Vector2d& place)>;
+
+// Where they can be in a frame: near the place to which they were going, or, if that place is in no
+// picture, as far from where they were last seen as they walk, because they may have turned around
+// unseen. nullopt: anywhere.
+std::optional<Reach> reach_of(const MonitorConfig& config, const std::optional<LastSeen>& last_seen,
+                              uint32_t frame, double dt, const InPicture& in_picture);
 
 }  // namespace tracker
 }  // namespace walktrack

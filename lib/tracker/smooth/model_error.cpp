@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -18,6 +19,9 @@ namespace {
 constexpr double kFigureError = 0.018;  // m
 // Where no camera sees the figure, its place is known to this. By hand.
 constexpr double kUnseen = 1;  // m
+// A figure that walks out of the picture is expected to walk on: by this share of the way outside
+// the place is wrong. By hand: speeds change by a tenth from step to step.
+constexpr double kDriftOutside = 0.2;
 // Share of the variance that lasts for a video, and how fast the rest passes: measured on the same
 // walks.
 constexpr double kLasting = 0.6;
@@ -96,6 +100,35 @@ void widen(double sd, Spread& spread) {
   spread.p95 = spread.mean + std::hypot(high, kBandQuantile * sd);
 }
 
+// What the cameras know of a figure's end: the sum of J'J, in metres, of those that see it; if none
+// does, of the one that it left last, and how far away from that image it is, m.
+struct EndView {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  double outside = std::numeric_limits<double>::infinity();
+};
+
+// Distance of a pixel from the image, px.
+double px_outside(const Camera& camera, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d last(camera.width_px - 0.5, camera.height_px - 0.5);
+  return (pixel - pixel.cwiseMax(-0.5).cwiseMin(last)).norm();
+}
+
+EndView view_of(std::span<const Camera> cameras, const Eigen::Vector3d& end) {
+  EndView out;
+  for (const Camera& camera : cameras) {
+    const auto at = project_with_jacobian(camera, end);
+    if (!at) continue;
+    const double metres_per_px = camera_point(camera, end).z() / camera.focal_px.mean();
+    const double outside = metres_per_px * px_outside(camera, at->pixel);
+    if (outside > out.outside) continue;
+    if (outside < out.outside) out = {Eigen::Matrix3d::Zero(), outside};
+    const Eigen::Matrix<double, 2, 3> moved = metres_per_px * at->d_pixel_d_point;
+    out.information += moved.transpose() * moved;
+  }
+  if (std::isinf(out.outside)) out.outside = 0;  // no camera faces it, and there is no information
+  return out;
+}
+
 }  // namespace
 
 Eigen::Matrix3d figure_covariance(std::span<const Camera> cameras, const Eigen::Vector3d& head,
@@ -103,16 +136,11 @@ Eigen::Matrix3d figure_covariance(std::span<const Camera> cameras, const Eigen::
   const double unseen = (kFigureError * kFigureError) / (kUnseen * kUnseen);
   Eigen::Matrix3d fitted = unseen * Eigen::Matrix3d::Identity(), spread = fitted;
   for (const Eigen::Vector3d* end : {&head, &feet}) {
-    Eigen::Matrix3d seen = Eigen::Matrix3d::Zero();
-    for (const Camera& camera : cameras) {
-      const auto at = project_with_jacobian(camera, *end);
-      if (!at || !inside_image(camera, at->pixel)) continue;
-      const double metres_per_px = camera_point(camera, *end).z() / camera.focal_px.mean();
-      const Eigen::Matrix<double, 2, 3> moved = metres_per_px * at->d_pixel_d_point;
-      seen += moved.transpose() * moved;
-    }
-    fitted += seen;
-    spread += seen * seen.transpose();
+    const EndView seen = view_of(cameras, *end);
+    const double error = kDriftOutside * seen.outside / kFigureError;
+    const double weight = 1 / (1 + error * error);
+    fitted += weight * seen.information;
+    spread += weight * seen.information * seen.information.transpose();
   }
   const Eigen::Matrix3d inverse = fitted.inverse();
   return kFigureError * kFigureError * inverse * spread * inverse;

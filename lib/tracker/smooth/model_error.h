@@ -14,9 +14,10 @@
 // with J_ck = d pixel / d point of that end, in metres, has the covariance e^2 M^-1 (sum M_k^2)
 // M^-1. One camera at distance D knows the distance to about e D / (height / sqrt(2)) and the rest
 // to e / sqrt(2): all of it follows from the places of the cameras. With several cameras all
-// directions are known to e / sqrt(2). The sizes were measured on people with truth that are no
-// part of any reported figure; tracker/reports/bands.md says how, and what share of the truth bands
-// hold.
+// directions are known to e / sqrt(2). An end that no camera sees any more has a larger error, by a
+// share of its way outside of the image that it left last. The sizes were measured on people with
+// truth that are no part of any reported figure; tracker/reports/bands.md says how, and what share
+// of the truth bands hold.
 #pragma once
 
 #include <array>

@@ -14,9 +14,10 @@ constexpr std::string_view kLookAtFeet =
 
 constexpr QualityWords kWords[] = {
     {"lost_percent", "Lost after the subject was found", "%", 1,
-     "Share of the frames without a figure, from the first frame with a figure on.",
-     "Look at where the figure is missing in the overlay video: the subject may be hidden, outside "
-     "the picture, or not walking. Cut the video to the walk (first_frame, last_frame)."},
+     "Share of the frames without a figure, from the first frame with a figure on. Frames in which "
+     "nobody moves after the figure has walked out of every picture are left out.",
+     "Look at where the figure is missing in the overlay video: the subject may be hidden, at the "
+     "edge of the picture, or not walking. Cut the video to the walk (first_frame, last_frame)."},
     {"untracked_movement_percent", "Somebody moves but is not tracked", "%", 1,
      "Share of the frames in which something as large as a person moves and no figure follows it, "
      "of all frames with movement; the time before the subject was found is included.",

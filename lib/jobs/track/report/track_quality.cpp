@@ -73,6 +73,16 @@ Quality quality_before(const TrackedFrames& moving, const QualityConfig& limits)
 
 }  // namespace
 
+int frames_out_of_picture(const TrackedFrames& frames) {
+  int out = 0;
+  bool left = false;
+  for (const FrameRecord& record : frames.records) {
+    left = !record.tracked && (left || record.out_of_picture);
+    if (left && record.moving <= kSomebodyMoves) ++out;
+  }
+  return out;
+}
+
 Quality quality_of_motion(const Motion& motion, double rate, double leg) {
   const Plausibility p = plausibility(motion, gait_from_motion(motion));
   const double minutes = static_cast<double>(motion.time.size()) / rate / 60;
@@ -92,9 +102,9 @@ Quality quality_of_motion(const Motion& motion, double rate, double leg) {
 Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
                    const QualityConfig& limits, double leg) {
   const QualityCounts counts = quality_counts(frames);
+  const int lost = counts.lost - frames_out_of_picture(frames);
   Quality out{
-      at_most("lost_percent", percent(counts.lost, counts.tracked + counts.lost),
-              100 * limits.lost_share),
+      at_most("lost_percent", percent(lost, counts.tracked + lost), 100 * limits.lost_share),
       at_most("untracked_movement_percent", percent(counts.moving, counts.tracked + counts.moving),
               100 * limits.untracked_movement),
       at_least("frame_rate_hz", frames.frame_rate, limits.frame_rate),

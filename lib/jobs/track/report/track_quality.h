@@ -21,6 +21,10 @@ using Quality = std::vector<QualityMeasure>;
 // quarter of what a walking person covers in that time.
 inline constexpr double kSomebodyMoves = 0.15;  // m^2
 
+// Number of frames without a figure in which nobody can be tracked: the figure has left every
+// picture, and nobody moves.
+int frames_out_of_picture(const TrackedFrames& frames);
+
 // The measures of any motion, without limits: feet, ground and jitter are measured by
 // metrics/plausibility.h, swapped legs by metrics/leg_swaps.h. `rate` in Hz. `leg`: the subject's
 // leg length, m.
@@ -28,7 +32,8 @@ Quality quality_of_motion(const Motion& motion, double rate, double leg);
 
 // The measures of a track with their limits, in the order in which they are shown, beginning with
 // lost frames. `moving`: the frames before their feet were planted. The limits on feet apply to
-// those, because planted feet hide the errors of a track that fails.
+// those, because planted feet hide the errors of a track that fails. Frames out of the picture
+// are not lost.
 Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
                    const QualityConfig& limits, double leg);
 

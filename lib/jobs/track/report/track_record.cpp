@@ -118,12 +118,14 @@ std::vector<std::string> notes_of(const TrackJob& job, const TrackRun& run,
 RunNumbers numbers_of(const TrackJob& job, const TrackRun& run, const TrackedFrames& frames,
                       const TrackOutcome& outcome, const KineticsTotals& totals) {
   const FrameCounts counts = frame_counts(frames);
+  const int out_of_picture = frames_out_of_picture(frames);
   RunNumbers out{{"frames", double(frames.records.size())},
                  {"frame_rate", frames.frame_rate},
                  {"video_seconds", double(frames.records.size()) / frames.frame_rate},
                  {"tracked_frames", double(counts.tracked)},
                  {"first_tracked_frame", double(counts.first)},
-                 {"lost_frames", double(counts.lost)},
+                 {"lost_frames", double(counts.lost - out_of_picture)},
+                 {"out_of_picture_frames", double(out_of_picture)},
                  {"losses", double(run.losses())},
                  {"foot_changes", double(foot_changes(frames))},
                  {"fallen_particles", double(counts.fallen)},

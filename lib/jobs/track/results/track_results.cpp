@@ -40,13 +40,27 @@ std::vector<AngleRow> angles_of(const TrackedFrames& frames) {
   return rows;
 }
 
-// Where the walker is halfway through what was tracked.
+struct Stretch {
+  size_t first = 0, count = 0;  // frames
+};
+
+// The longest one that was tracked without a gap.
+Stretch longest_stretch(const Motion& motion) {
+  Stretch now, longest;
+  for (size_t i = 0; i < motion.joints.size(); ++i) {
+    now = known(motion.joints[i][Joint::kPelvis]) ? Stretch{now.first, now.count + 1}
+                                                  : Stretch{i + 1, 0};
+    if (now.count > longest.count) longest = now;
+  }
+  return longest;
+}
+
+// Where the walker is halfway through the longest stretch. Between two passes of a walkway they are
+// at the edge of the picture, where an error of the figure is not seen.
 FigureError figure_error_of(const Motion& motion, const Scene& scene) {
-  std::vector<const JointPositions*> seen;
-  for (const JointPositions& joints : motion.joints)
-    if (known(joints[Joint::kPelvis])) seen.push_back(&joints);
-  if (seen.empty()) return {};
-  const JointPositions& joints = *seen[seen.size() / 2];
+  const Stretch stretch = longest_stretch(motion);
+  if (stretch.count == 0) return {};
+  const JointPositions& joints = motion.joints[stretch.first + stretch.count / 2];
   std::vector<Camera> cameras;
   for (const SceneCamera& each : scene.cameras) cameras.push_back(each.camera);
   const Eigen::Vector3d pelvis = joints[Joint::kPelvis];
@@ -61,7 +75,8 @@ FigureError figure_error_of(const Motion& motion, const Scene& scene) {
     const Eigen::Vector3d ray = pelvis - camera_centre(camera);
     out.scale = std::min(out.scale, sd_along(ray.normalized()) / ray.norm());
   }
-  const Eigen::Vector3d way = (*seen.back())[Joint::kPelvis] - (*seen.front())[Joint::kPelvis];
+  const Eigen::Vector3d way = motion.joints[stretch.first + stretch.count - 1][Joint::kPelvis] -
+                              motion.joints[stretch.first][Joint::kPelvis];
   out.across = sd_along(Eigen::Vector3d::UnitZ().cross(way).stableNormalized());
   return out;
 }
