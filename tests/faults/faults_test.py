@@ -8,7 +8,7 @@ import tomllib
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
-LEAST = 139  # caught: all
+LEAST = 145  # caught: all
 
 
 def main():
