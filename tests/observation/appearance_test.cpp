@@ -68,6 +68,27 @@ TEST(AppearanceModel, DoesNotLearnFromMisses) {
   EXPECT_FALSE(model.any_learned());
 }
 
+// Brown trousers before a lawn are taken for its shadow until their colours are known. The pose is
+// right if everything else is foreground.
+TEST(AppearanceModel, LearnsWhatLooksMuchLikeTheBackground) {
+  const ColourBins bins;
+  const int brown = bins.bin(90, 80, -20);
+  const auto learns = [&](float trousers, float shirt, int frames = 10) {
+    AppearanceModel model({}, kAll);
+    for (int i = 0; i < frames; ++i) model.learn(bins, counts_of(model, 2, brown, 600));
+    AppearanceModel::Counts counts = counts_of(model, 0, brown, trousers);
+    counts.weights[2][static_cast<size_t>(brown)] = shirt;
+    counts.seen[0] = 600;
+    counts.seen[2] = 700;
+    model.learn(bins, counts);
+    return model.learned(0);
+  };
+  EXPECT_TRUE(learns(100, 600));
+  EXPECT_FALSE(learns(100, 300)) << "the figure may be beside the person";
+  EXPECT_FALSE(learns(20, 600)) << "hidden";
+  EXPECT_FALSE(learns(100, 600, 9)) << "the first poses are uncertain";
+}
+
 TEST(AppearanceModel, NeverForgetsItsFirstFrames) {
   const ColourBins bins;
   AppearanceModel model({}, kAll);

@@ -15,6 +15,11 @@ constexpr int kAnchorFrames = 10;
 // those seen, were probably foreground: otherwise the pose is wrong or the class is hidden. By
 // hand.
 constexpr double kLeastPixels = 8, kLeastShare = .3;
+// Clothes that look much like the background are foreground with less probability. They are learned
+// when another class has its anchor, in frames in which this share of the pixels of all other
+// classes is foreground, because then the pose is right, and if more of them is foreground than of
+// what is hidden, 2 %. By hand.
+constexpr double kOthersShare = .6, kLeastSimilarShare = .1;
 
 // The chroma of clothes, skin and most other things: a Laplace distribution around grey with this
 // scale, mixed with a uniform one. By hand; sensitivity not measured. Where all chroma is zero, the
@@ -100,10 +105,19 @@ AppearanceModel::Counts AppearanceModel::empty_counts() const {
 }
 
 void AppearanceModel::learn(const ColourBins& bins, const Counts& counts) {
+  std::vector<double> totals;
+  for (const std::vector<float>& weights : counts.weights)
+    totals.push_back(std::accumulate(weights.begin(), weights.end(), 0.0));
+  const double all = std::accumulate(totals.begin(), totals.end(), 0.0),
+               all_seen = std::accumulate(counts.seen.begin(), counts.seen.end(), 0.0);
+  const bool any_anchored = std::ranges::any_of(
+      states_, [](const AppearanceState& state) { return state.frames >= kAnchorFrames; });
   for (size_t c = 0; c < states_.size(); ++c) {
+    const double total = totals[c], seen = counts.seen[c];
+    const bool others_clear = all - total >= kOthersShare * (all_seen - seen) && all_seen > seen;
+    const double least = any_anchored && others_clear ? kLeastSimilarShare : kLeastShare;
+    if (total < kLeastPixels || total < least * seen) continue;
     std::vector<float> histogram = counts.weights[c];
-    const double total = std::accumulate(histogram.begin(), histogram.end(), 0.0);
-    if (total < kLeastPixels || total < kLeastShare * counts.seen[c]) continue;
     for (float& share : histogram) share = static_cast<float>(share / total);
     histogram = smoothed(std::move(histogram));
     AppearanceState& state = states_[c];
