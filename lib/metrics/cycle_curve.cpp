@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace walktrack {
 inline namespace metrics {
@@ -37,13 +38,16 @@ bool complete(const CycleCurve& curve) {
 
 }  // namespace
 
-std::vector<Stride> strides_of(const Gait& gait, double longest) {
+std::vector<Stride> strides_of(const Gait& gait) {
+  constexpr double kLongest = 3, kPause = 1.5;  // s; by hand
   std::vector<Stride> strides;
   std::array<double, 2> last{kNaN, kNaN};
+  double before = kNaN;  // the last event of any foot
   for (const GaitEvent& event : gait.events) {
+    if (event.time - std::exchange(before, event.time) > kPause) last = {kNaN, kNaN};
     if (event.kind != GaitEventKind::kFootStrike) continue;
     double& from = last[static_cast<size_t>(event.side)];
-    if (event.time - from <= longest) strides.push_back({event.side, from, event.time});
+    if (event.time - from <= kLongest) strides.push_back({event.side, from, event.time});
     from = event.time;
   }
   for (Stride& stride : strides) stride.toe_off = toe_off_of(gait, stride);

@@ -22,9 +22,9 @@ struct Stride {
   double toe_off = 0;  // share of the stride; 0 = unknown
 };
 
-// In order of time. A stride longer than `longest` seconds contains an event that was missed, and
-// is left out.
-std::vector<Stride> strides_of(const Gait& gait, double longest = 3.0);
+// In order of time. A stride that is longer than those of the slowest walkers contains an event
+// that was missed, and one with a pause between events ends in another walk: they are left out.
+std::vector<Stride> strides_of(const Gait& gait);
 
 // The signal over the stride, linear between samples; NaN within a gap (samples that are NaN) and
 // outside the signal. `time` increases.

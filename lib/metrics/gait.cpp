@@ -302,11 +302,8 @@ double mean_stance_share(const std::vector<Stance>& stances) {
   double sum = 0;
   size_t count = 0;
   for (size_t i = 0; i < stances.size(); ++i) {
-    if (!stances[i].starts_in_motion || !stances[i].ends_in_motion) continue;
-    const auto next = std::find_if(
-        stances.begin() + static_cast<std::ptrdiff_t>(i) + 1, stances.end(),
-        [&](const Stance& other_stance) { return other_stance.side == stances[i].side; });
-    if (next == stances.end()) continue;
+    const Stance* next = stride_end(stances, i);
+    if (!next || !stances[i].ends_in_motion) continue;
     sum += (stances[i].off - stances[i].on) / (next->on - stances[i].on);
     ++count;
   }
@@ -319,6 +316,16 @@ bool is_step(const Stance& from, const Stance& to) {
   constexpr double kLongestFlight = 0.5;  // s; a foot that comes later belongs to another walk
   return from.side != to.side && from.starts_in_motion && to.starts_in_motion &&
          to.on <= from.off + kLongestFlight;
+}
+
+const Stance* stride_end(const std::vector<Stance>& stances, size_t from) {
+  constexpr double kLongestSwing = 1;  // s; by hand: those of .2 m/s last half of that
+  const auto next =
+      std::find_if(stances.begin() + static_cast<std::ptrdiff_t>(from) + 1, stances.end(),
+                   [&](const Stance& s) { return s.side == stances[from].side; });
+  const bool complete = next != stances.end() && stances[from].starts_in_motion &&
+                        next->starts_in_motion && next->on <= stances[from].off + kLongestSwing;
+  return complete ? &*next : nullptr;
 }
 
 Gait gait_from_motion(const Motion& motion) {

@@ -46,6 +46,10 @@ struct Stance {
 // strikes are in the motion.
 bool is_step(const Stance& from, const Stance& to);
 
+// The next stance of the same foot: its stride ends with that strike. nullptr if either strike is
+// not in the motion, or if the foot comes down in another walk.
+const Stance* stride_end(const std::vector<Stance>& stances, size_t from);
+
 // From a stance to the next one of the other foot; indices of Gait::stances. Steps exist only
 // between strikes that are both in the motion: the position of a foot whose stance is cut by the
 // beginning of the motion is not accurate enough.

@@ -53,10 +53,8 @@ double shared_time(const Gait& gait, const Stance& stance, double from, double t
 
 void set_stride(const Gait& gait, size_t index, Values& at) {
   const Stance& stance = gait.stances[index];
-  const auto next =
-      std::find_if(gait.stances.begin() + static_cast<std::ptrdiff_t>(index) + 1,
-                   gait.stances.end(), [&](const Stance& s) { return s.side == stance.side; });
-  if (next == gait.stances.end() || !stance.starts_in_motion || !next->starts_in_motion) return;
+  const Stance* next = stride_end(gait.stances, index);
+  if (!next) return;
   const double time = next->on - stance.on;
   at[kStrideLength] = (next->place - stance.place).norm();
   at[kStrideTime] = time;

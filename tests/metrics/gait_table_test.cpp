@@ -49,6 +49,27 @@ TEST(GaitTable, ContactsCutByTheEndsLackWhatTheyNeed) {
   EXPECT_TRUE(std::isnan(table.contacts.back().at[kStrideLength].value));
 }
 
+// Somebody walks through the picture twice. Between the passes is no stride.
+TEST(GaitTable, PassesAreWalksOfTheirOwn) {
+  const TestWalk walk;
+  Motion passes = walk_motion(walk);
+  const Motion once = passes;
+  const auto add_rows = [&](const std::vector<JointPositions>& rows) {
+    for (const JointPositions& joints : rows) {
+      passes.time.push_back(static_cast<double>(passes.time.size()) / walk.rate);
+      passes.joints.push_back(joints);
+    }
+  };
+  add_rows(std::vector<JointPositions>(30, unknown_joints()));
+  add_rows(once.joints);
+  const GaitTable alone = gait_table(once, {}, {}), both = gait_table(passes, {}, {});
+  EXPECT_EQ(both.contacts.size(), 2 * alone.contacts.size());
+  EXPECT_EQ(both.strides, 2 * alone.strides);
+  EXPECT_NEAR(both.right[kMeanStrideTime].value, alone.right[kMeanStrideTime].value, 1e-9);
+  EXPECT_NEAR(both.left[kMeanStance].value, alone.left[kMeanStance].value, 1e-9);
+  EXPECT_NEAR(gait_from_motion(passes).stance_share, gait_from_motion(once).stance_share, 1e-9);
+}
+
 TEST(GaitTable, ALimpIsAnAsymmetryOfItsSide) {
   // The right foot lands 6 cm short: left steps are 12 cm longer than right ones.
   const TestWalk walk;
