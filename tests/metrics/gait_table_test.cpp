@@ -51,7 +51,7 @@ TEST(GaitTable, ContactsCutByTheEndsLackWhatTheyNeed) {
 
 // Somebody walks through the picture twice. Between the passes is no stride.
 TEST(GaitTable, PassesAreWalksOfTheirOwn) {
-  const TestWalk walk;
+  const TestWalk walk{.phase = 0.3};  // the right foot swings at first
   Motion passes = walk_motion(walk);
   const Motion once = passes;
   const auto add_rows = [&](const std::vector<JointPositions>& rows) {
