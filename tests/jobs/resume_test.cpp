@@ -94,6 +94,21 @@ class Resume : public testing::Test {
   std::function<void(Config&)> change_;
 };
 
+// The first frame after a start has been prepared while the subject was searched, in all of the
+// image.
+TEST_F(Resume, RightAfterAStart) {
+  track_scene(job("whole"), {});
+  int resumed = 0;
+  for (const size_t frames : {size_t{6}, size_t{7}, size_t{8}, size_t{9}}) {
+    const std::string name = "killed" + std::to_string(frames);
+    kill(job(name), frames);
+    resume(job(name));
+    EXPECT_EQ(result(name), result("whole")) << frames;
+    resumed += resumed_at(name) > 0;
+  }
+  EXPECT_GE(resumed, 2);
+}
+
 TEST_F(Resume, AfterAKillItEndsWithTheSameBytes) {
   cameras_ = 2;
   track_scene(job("whole"), {});

@@ -121,7 +121,7 @@ bool TrackRun::step() {
   learn();
   pace(start);
   ++frames_read_;
-  if (tracker_.has_state() && timer_.due()) write_checkpoint();
+  if (has_state() && timer_.due()) write_checkpoint();
   if (tracked && tracker_.tracking()) {
     stride_.seconds += seconds_since(start.clock);
     ++stride_.frames;
@@ -130,7 +130,7 @@ bool TrackRun::step() {
 }
 
 bool TrackRun::finish(bool resumable) {
-  const bool noted = resumable && tracker_.has_state() && frames_read_ > first_frame_;
+  const bool noted = resumable && has_state() && frames_read_ > first_frame_;
   if (noted) write_checkpoint();
   keep(tracker_.finish());
   next_.close();
@@ -247,6 +247,7 @@ void TrackRun::hear_names(const FrameRecord& record) {
 void TrackRun::follow() {
   const bool tracked = tracker_.tracking();
   regions_ = regions();
+  prepared_for_track_ = tracked;
   const TimePoint start;
   NextFrame::Cost cost;
   run_beside(

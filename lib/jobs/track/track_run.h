@@ -60,7 +60,7 @@ class TrackRun {
   bool step();
   // Whether another process could resume here, except while nobody is tracked; this comes
   // within a second or two.
-  bool may_stop() const { return !tracker_.tracking() || tracker_.has_state(); }
+  bool may_stop() const { return !tracker_.tracking() || has_state(); }
   // To be called after the last frame. `resumable`: another process may resume here. Returns
   // whether it could.
   bool finish(bool resumable);
@@ -90,6 +90,9 @@ class TrackRun {
   const Stopwatch& watch() const { return watch_; }
 
  private:
+  // Whether a checkpoint can be written. The frame after a start has been prepared as one of the
+  // search; who resumes there would prepare it as one of the track.
+  bool has_state() const { return tracker_.has_state() && prepared_for_track_; }
   Region region(size_t camera) const;
   std::vector<Region> regions() const;
   // Several cameras share the threads.
@@ -122,6 +125,7 @@ class TrackRun {
   std::deque<double> moving_;  // of the frames whose records are not finished
   SceneVideo& video_;
   NextFrame next_;
+  bool prepared_for_track_ = true;  // the next frame
   // Of the next frame; they are part of checkpoints.
   std::vector<Region> regions_;
   SceneEvidence evidence_;
