@@ -90,14 +90,15 @@ void find_standing_place(const Camera& camera, double person_height, CameraInspe
 
 }  // namespace
 
-bool sees_hips(const Camera& camera, const Vector2d& place, double person_height) {
-  const auto pixel = project(camera, {place.x(), place.y(), 0.5 * person_height});
-  return pixel && inside_image(camera, *pixel);
+Vector3d hips_at(const Vector2d& place, double person_height) {
+  return {place.x(), place.y(), 0.5 * person_height};
 }
 
-bool in_any_picture(std::span<const Camera> cameras, const Vector2d& place, double person_height) {
-  return std::ranges::any_of(
-      cameras, [&](const Camera& camera) { return sees_hips(camera, place, person_height); });
+bool in_any_picture(std::span<const Camera> cameras, const Vector3d& point) {
+  return std::ranges::any_of(cameras, [&](const Camera& camera) {
+    const auto pixel = project(camera, point);
+    return pixel && inside_image(camera, *pixel);
+  });
 }
 
 bool share_a_view(const Camera& camera, const Camera& other, double person_height) {
@@ -107,7 +108,7 @@ bool share_a_view(const Camera& camera, const Camera& other, double person_heigh
   const std::vector<SeenWhole> people = people_seen_whole(camera, person_height);
   return std::any_of(people.begin(), people.end(), [&](const SeenWhole& person) {
     return person.height_px() >= kAsHigh * own.person_px &&
-           sees_hips(other, person.place, person_height);
+           in_any_picture({&other, 1}, hips_at(person.place, person_height));
   });
 }
 

@@ -34,12 +34,11 @@ CameraInspection inspect_camera(const Camera& camera, double person_height);
 // Whether a person who stands there is visible from the feet to the top of the head.
 bool sees_person(const Camera& camera, const Eigen::Vector2d& place, double person_height);
 
-// Whether the hips of a person who stands there are visible.
-bool sees_hips(const Camera& camera, const Eigen::Vector2d& place, double person_height);
+// The hips of a person who stands at a place on the ground, roughly; world, m.
+Eigen::Vector3d hips_at(const Eigen::Vector2d& place, double person_height);
 
-// Whether any camera sees them.
-bool in_any_picture(std::span<const Camera> cameras, const Eigen::Vector2d& place,
-                    double person_height);
+// Whether a point of the world is in the image of any camera.
+bool in_any_picture(std::span<const Camera> cameras, const Eigen::Vector3d& point);
 
 // Whether somewhere a person is visible to `camera` from the feet to the top of the head, at least
 // half as high in the image as at its standing place, and at least the hips to `other`.

@@ -95,6 +95,10 @@ class Passes : public testing::Test {
     const auto run =
         nlohmann::json::parse(read_text_file(job.output / "run.json", size_t{1} << 24));
     EXPECT_GT(run.at("numbers").at("out_of_picture_frames"), 5);
+    const auto gait =
+        nlohmann::json::parse(read_text_file(job.output / "gait.json", size_t{1} << 24));
+    const nlohmann::json& width = gait.at("summary").at("both").at("step_width_m");
+    EXPECT_LT(width.at("p95").get<double>(), 0.6) << "the error is that of the middle of a pass";
     for (const nlohmann::json& check : run.at("quality")) {
       if (check.at("name") == "lost_percent") {
         EXPECT_TRUE(check.at("passed")) << check;

@@ -91,7 +91,7 @@ class TrackRun {
 
  private:
   // Whether a checkpoint can be written. The frame after a start has been prepared as one of the
-  // search; who resumes there would prepare it as one of the track.
+  // search; a run that is resumed there would prepare it as one of the track.
   bool has_state() const { return tracker_.has_state() && prepared_for_track_; }
   Region region(size_t camera) const;
   std::vector<Region> regions() const;

@@ -33,7 +33,7 @@ std::optional<DetectedWalk> look_for_walk(const SearchWindow& window, const Body
 std::optional<Reach> reach_in_frame(const TrackContext& context,
                                     const std::optional<LastSeen>& last_seen, uint32_t frame) {
   const auto in_picture = [&](const Eigen::Vector2d& place) {
-    return in_any_picture(context.scene.cameras, place, context.body().subject.height);
+    return in_any_picture(context.scene.cameras, hips_at(place, context.body().subject.height));
   };
   return reach_of(context.config.monitor, last_seen, frame, context.scene.dt, in_picture);
 }
