@@ -167,6 +167,15 @@ std::string number(double value) {
   return text == "-0" ? "0" : text;
 }
 
+// Four digits of an end of a band, outwards, so that the band holds what it was made from. A number
+// that has four digits stays.
+double outwards(double value, double direction) {
+  if (value == 0 || std::isinf(value)) return value;
+  constexpr double kSame = 1e-6;
+  const double scale = std::pow(10, 3 - std::floor(std::log10(std::abs(value))));
+  return direction * std::ceil(direction * value * scale - kSame) / scale;
+}
+
 std::string interval(const Band& band) {
   return fmt::format("{} [{}, {}]", number(band.median),
                      std::isinf(band.low) ? "-∞" : number(band.low),
@@ -205,8 +214,8 @@ std::string bands_csv(const std::vector<Band>& bands) {
       "# Written by scripts/refresh_bands.sh; what it means: tests/regression/README.md\n"
       "scene,figure,low,median,high,best\n";
   for (const Band& band : bands)
-    out += fmt::format("{},{},{},{},{},{}\n", band.scene, band.key, number(band.low),
-                       number(band.median), number(band.high), number(band.best));
+    out += fmt::format("{},{},{},{},{},{}\n", band.scene, band.key, number(outwards(band.low, -1)),
+                       number(band.median), number(outwards(band.high, 1)), number(band.best));
   return out;
 }
 

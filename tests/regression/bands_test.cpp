@@ -158,6 +158,19 @@ TEST(Bands, SurviveTheirFile) {
   EXPECT_EQ(bands_csv(read_bands(folder.write("bands.csv", text))), text);
 }
 
+TEST(Bands, AreWrittenOutwards) {
+  const TemporaryFolder folder;
+  const auto written = [&](const Band& band) {
+    return read_bands(folder.write("bands.csv", bands_csv({band}))).front();
+  };
+  const Band read = written({"scene", "offset_along_mm", -15.154, 20, 15.151, 20});
+  const Band again = written(read);
+  EXPECT_EQ(read.low, -15.16);
+  EXPECT_EQ(read.high, 15.16);
+  EXPECT_EQ(again.low, read.low);
+  EXPECT_EQ(again.high, read.high);
+}
+
 TEST(Bands, TheDifferenceNamesWhatChangedAndWhatLeftItsBand) {
   const Band error{"a", "error", 0, 50, 60, 50}, gone{"a", "gone", 0, 1, 2, 1};
   Band little = error, much = error;
