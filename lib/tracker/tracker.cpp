@@ -42,7 +42,8 @@ std::vector<FrameRecord> Tracker::finish() {
     look_for_walk(1, out);
   }
   if (std::holds_alternative<Starting>(mode_)) report(settle(mode_), {}, out);
-  if (holding(mode_)) report(decide_held(subject_.context(), waiting_, starts_, mode_), {}, out);
+  if (holding(mode_))
+    report(decide_held(subject_.context(), waiting_, false, starts_, mode_), {}, out);
   if (Tracking* now = std::get_if<Tracking>(&mode_))
     report(decide_turning(subject_.context(), frame_ - 1, *now), {}, out);
   out.resize(out.size() + search_.waiting() + search_.window().size());
@@ -55,7 +56,7 @@ void Tracker::consume(const SceneEvidence& evidence, Records& out) {
   const bool tracked = tracking();
   Records records = follow(subject_.context(), evidence, frame_++, mode_);
   if (records.size() <= waiting_.size()) waiting_.push_back(evidence);  // this frame waits as well
-  if (held_enough(mode_)) records = decide_held(subject_.context(), waiting_, starts_, mode_);
+  if (held_enough(mode_)) records = decide_held(subject_.context(), waiting_, true, starts_, mode_);
   report(std::move(records), evidence, out);
   if (tracked && !tracking()) ++losses_;
 }

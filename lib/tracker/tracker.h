@@ -8,14 +8,15 @@
 //              (tracker/start/start_hypotheses.h)
 //   tracking   for every frame: propagate, weigh, resample, estimate (tracker/walker_filter.h);
 //              before one camera, components that turn compete with it (tracker/modes/turning.h);
-//              before several, frames are held back for a new start (tracker/start/new_start.h)
+//              before several, frames are held back for a new start, or for another moment of
+//              setting off (tracker/start/new_start.h)
 //   lost when the monitor decides so (tracker/modes/monitor.h); searching again, for a while only
 //   where the subject can be
 //
 // Modes are values (tracker/modes/track_mode.h). Frames before the walk was found, and while it was
 // lost, are reported as not tracked. Searching needs a whole window, so that records come out late
 // at first and one for each frame afterwards; before one camera they are up to 1.25 s late, before
-// several up to 2.5 s, and 3.7 if their legs switch at the end of a start.
+// several up to 2.5 s, and 5 s if at the end of these the subject sets off, or the legs switch.
 #pragma once
 
 #include <deque>
@@ -88,7 +89,8 @@ class Tracker {
 
   // A tracker of the same scene, configuration and seed that resumes the state of another one
   // continues like that one. There is a state only while has_state(): the data of a search, and of
-  // frames that are not reported yet, are large and short-lived.
+  // frames that are not reported yet, are large and short-lived. Before several cameras a subject
+  // who stands has one every ten seconds.
   bool has_state() const { return tracking() && !tracked().turning && !tracked().held; }
   TrackerState state() const;
   void resume(TrackerState state);

@@ -69,7 +69,7 @@ class NewStart : public WalkedScene {
 TEST_F(NewStart, ReplacesATrackWhoseLegsAreSwapped) {
   TrackMode mode = track(true, true);
   EXPECT_GT(swapped(std::get<Tracking>(mode).held->records), 0.5);
-  const auto records = decide_held(context(), window_, starts_, mode);
+  const auto records = decide_held(context(), window_, false, starts_, mode);
   ASSERT_EQ(records.size(), kFrames);
   EXPECT_LT(swapped(records), 0.05);
   EXPECT_FALSE(holding(mode));
@@ -83,7 +83,7 @@ TEST_F(NewStart, ReplacesATrackWhoseLegsAreSwapped) {
 TEST_F(NewStart, IsNotTriedWithoutDoubt) {
   TrackMode mode = track(false, true);
   const double before = swapped(std::get<Tracking>(mode).held->records);
-  EXPECT_EQ(swapped(decide_held(context(), window_, starts_, mode)), before);
+  EXPECT_EQ(swapped(decide_held(context(), window_, false, starts_, mode)), before);
   EXPECT_EQ(starts_, 1u);
 }
 
@@ -91,14 +91,14 @@ TEST_F(NewStart, IsNotTriedWithoutDoubt) {
 TEST_F(NewStart, IsTriedWhenTheOverlapFalls) {
   TrackMode mode = track(false, true);
   std::get<Tracking>(mode).monitor.fits.assign(60, {{1, 1}, {1, 1}, 0});
-  EXPECT_LT(swapped(decide_held(context(), window_, starts_, mode)), 0.05);
+  EXPECT_LT(swapped(decide_held(context(), window_, false, starts_, mode)), 0.05);
   EXPECT_GT(starts_, 1u);
   EXPECT_EQ(std::get<Tracking>(mode).monitor.fits.size(), frames_of_fall(kDt));
 }
 
 TEST_F(NewStart, LeavesARightTrackRight) {
   TrackMode mode = track(true, false);
-  EXPECT_LT(swapped(decide_held(context(), window_, starts_, mode)), 0.05);
+  EXPECT_LT(swapped(decide_held(context(), window_, false, starts_, mode)), 0.05);
   EXPECT_EQ(starts_, 2u);  // a second new start could not gain anything either
 }
 
@@ -108,7 +108,7 @@ TEST_F(NewStart, BeginsWhereTheSubjectHasStood) {
   TrackMode mode = track(true, true);
   std::vector<FrameRecord>& held = std::get<Tracking>(mode).held->records;
   for (size_t t = 0; t < kStands; ++t) held[t].modes = {.standing = 1};
-  const auto records = decide_held(context(), window_, starts_, mode);
+  const auto records = decide_held(context(), window_, false, starts_, mode);
   ASSERT_EQ(records.size(), kFrames);
   for (size_t t = 0; t < kStands; ++t) EXPECT_EQ(records[t].modes.standing, 1) << t;
   EXPECT_EQ(records[kStands].modes.standing, 0);
@@ -119,7 +119,7 @@ TEST_F(NewStart, BeginsBeforeAShortStop) {
   TrackMode mode = track(true, true);
   std::vector<FrameRecord>& held = std::get<Tracking>(mode).held->records;
   for (size_t t = kFrames - 15; t < kFrames - 6; ++t) held[t].modes.standing = 1;
-  const auto records = decide_held(context(), window_, starts_, mode);
+  const auto records = decide_held(context(), window_, false, starts_, mode);
   EXPECT_GT(starts_, 1u);
   EXPECT_LT(swapped(records), 0.05);
 }
@@ -132,7 +132,7 @@ TEST_F(NewStart, FindsALostTrackAgain) {
   held.lost = true;
   held.records.back().tracked = false;
   EXPECT_TRUE(held.enough()) << "decided at once";
-  const auto records = decide_held(context(), window_, starts_, mode);
+  const auto records = decide_held(context(), window_, false, starts_, mode);
   EXPECT_TRUE(is_tracking(mode));
   EXPECT_TRUE(records.back().tracked);
   EXPECT_LT(swapped(records), 0.05);
@@ -143,7 +143,7 @@ TEST_F(NewStart, ALostTrackWithoutABetterStartIsLost) {
   HeldFrames& held = *std::get<Tracking>(mode).held;
   held.lost = true;
   held.records.back().tracked = false;
-  const auto records = decide_held(context(), window_, starts_, mode);
+  const auto records = decide_held(context(), window_, false, starts_, mode);
   EXPECT_GT(starts_, 1u);
   EXPECT_TRUE(is_searching(mode));
   EXPECT_FALSE(records.back().tracked);
@@ -154,7 +154,7 @@ TEST_F(NewStart, IsNotTriedInFewFrames) {
   TrackMode mode = track(true, true);
   std::vector<FrameRecord>& held = std::get<Tracking>(mode).held->records;
   for (size_t t = 0; t + 10 < held.size(); ++t) held[t].modes = {.standing = 1};
-  EXPECT_EQ(decide_held(context(), window_, starts_, mode).size(), kFrames);
+  EXPECT_EQ(decide_held(context(), window_, false, starts_, mode).size(), kFrames);
   EXPECT_EQ(starts_, 1u);
 }
 
@@ -178,10 +178,11 @@ TEST_F(NewStart, NeedsMoreFramesAfterASwitch) {
   HeldFrames held = held_from(context(), 7);
   const size_t usual = held.until;
   EXPECT_EQ(usual, size_t(frames_in(1.25, kDt)));
+  const Tracking now = std::get<Tracking>(track(false, false));
   const auto add = [&](bool switched) {
     FilteredFrame frame;
     frame.legs_switched = switched;
-    hold(context(), std::move(frame), held);
+    hold(context(), std::move(frame), now, held);
   };
   for (int i = 0; i < 9; ++i) add(false);
   EXPECT_EQ(held.until, usual);

@@ -85,7 +85,7 @@ std::vector<FrameRecord> track_frame(const TrackContext& context, const SceneEvi
   if (now.monitor.frames_below == 0) see(record.estimate, frame + 1, context.scene.dt, now.monitor);
   if (holds_frames(context)) {
     if (!now.held) now.held = held_from(context, frame);
-    hold(context, std::move(filtered), *now.held);
+    hold(context, std::move(filtered), now, *now.held);
     return {};
   }
   if (!now.turning) return {std::move(record)};

@@ -10,28 +10,6 @@
 namespace walktrack {
 inline namespace tracker {
 
-namespace {
-
-// Moments in which the subject stands are remembered so many seconds apart, the newest of them.
-// By hand.
-constexpr double kMomentsApart = 0.15;
-constexpr size_t kMoments = 6;
-
-void remember_standing(const TrackContext& context, Attempt& attempt) {
-  if (attempt.sets_off > 0 || !is_tracking(attempt.mode)) return;
-  const size_t count = attempt.records.size();
-  const auto apart = static_cast<size_t>(frames_in(kMomentsApart, context.scene.dt));
-  std::deque<Moment>& stood = attempt.stood;
-  if (attempt.records.back().modes.standing <= 0.5) {
-    if (!stood.empty()) attempt.sets_off = count;
-  } else if (stood.empty() || count - stood.back().after >= apart) {
-    stood.push_back({std::get<Tracking>(attempt.mode), count});
-    if (stood.size() > kMoments) stood.pop_front();
-  }
-}
-
-}  // namespace
-
 double total_log_likelihood(std::span<const FrameRecord> records) {
   double sum = 0;
   for (const FrameRecord& record : records) sum += record.mean_log_likelihood;
@@ -57,9 +35,9 @@ void follow_rest(const WindowFrames& window, Attempt& attempt, size_t until) {
     if (relabel_before_switch(context.body(), attempt.records) && several)
       attempt.legs_in_doubt = true;
     if (!is_tracking(attempt.mode)) continue;
-    if (several) remember_standing(context, attempt);
-    if (!attempt.settled)
-      attempt.settled = Moment{std::get<Tracking>(attempt.mode), attempt.records.size()};
+    const Tracking& now = std::get<Tracking>(attempt.mode);
+    if (several) note_standing(context.scene.dt, now, attempt.records, attempt.stood);
+    if (!attempt.settled) attempt.settled = moment_of(now, attempt.records.size());
   }
   if (is_tracking(attempt.mode) && !several)
     attempt.legs = legs_log_odds(context.scene, window.frames, attempt.records);

@@ -13,20 +13,13 @@
 namespace walktrack {
 inline namespace tracker {
 
-// A track after so many frames of the window.
-struct Moment {
-  Tracking track;
-  size_t after;
-};
-
 struct Attempt {
   TrackMode mode;
   std::vector<FrameRecord> records{};
   std::optional<Moment> settled{};  // when the start was decided
   bool legs_in_doubt = false;       // before several cameras
   double legs = 0;                  // log-odds that the legs have the right labels
-  std::deque<Moment> stood{};       // the newest moments in which the subject stood at first
-  size_t sets_off = 0;              // after so many frames they walk; 0 if they do not
+  StoodMoments stood{};             // at first, before several cameras
 };
 
 struct WindowFrames {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tracker/overlaps.h"
+#include "tracker/start/set_off.h"
 #include "tracker/start/trial.h"
 
 namespace walktrack {
@@ -116,6 +117,24 @@ void start_again(const TrackContext& context, const std::deque<SceneEvidence>& f
   mode = std::move(best->mode);
 }
 
+// Tracks the held frames again from other moments in which the subject may have set off. If one
+// explains them better, their records and the mode are replaced.
+void set_off_better(const TrackContext& context, const std::deque<SceneEvidence>& frames,
+                    HeldFrames& held, TrackMode& mode) {
+  const size_t sets_off = held.stood.sets_off;
+  if (sets_off == 0 || held.lost) return;
+  TrackContext alone = context;
+  alone.competing = false;
+  Attempt best =
+      with_best_set_off({alone, frames, held.first}, {.mode = std::move(mode),
+                                                      .records = std::move(held.records),
+                                                      .stood = std::exchange(held.stood, {})});
+  if (best.stood.sets_off != sets_off) held.legs_in_doubt = best.legs_in_doubt;
+  mode = std::move(best.mode);
+  held.records = std::move(best.records);
+  use_particles(context.config.filter.particles, std::get<Tracking>(mode));
+}
+
 }  // namespace
 
 bool holding(const TrackMode& mode) { return held_by(mode) != nullptr; }
@@ -126,10 +145,11 @@ bool held_enough(const TrackMode& mode) {
 }
 
 std::vector<FrameRecord> decide_held(const TrackContext& context,
-                                     const std::deque<SceneEvidence>& frames, uint32_t& starts,
-                                     TrackMode& mode) {
+                                     const std::deque<SceneEvidence>& frames, bool more_follow,
+                                     uint32_t& starts, TrackMode& mode) {
   Tracking& now = std::get<Tracking>(mode);
   HeldFrames held = *std::exchange(now.held, std::nullopt);
+  set_off_better(context, frames, held, mode);
   std::vector<FigureFit> earlier = std::exchange(now.monitor.fits, {});
   std::vector<FrameRecord>& records = held.records;
   const std::optional<PossibleStart> start = possible_start(context, records);
@@ -143,9 +163,12 @@ std::vector<FrameRecord> decide_held(const TrackContext& context,
   }
   if (lost && !records.back().tracked) {
     mode = Searching{std::move(now.filter), now.monitor.last_seen};
-  } else {
-    remember(context, fits_with(std::move(earlier), records), mode);
+    return std::move(records);
   }
+  const size_t kept = more_follow ? frames_to_keep(context, held) : 0;
+  if (kept > 0) std::get<Tracking>(mode).held = kept_frames(context, held, kept);
+  records.resize(records.size() - kept);
+  remember(context, fits_with(std::move(earlier), records), mode);
   return std::move(records);
 }
 

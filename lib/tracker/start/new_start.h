@@ -3,7 +3,8 @@
 // now or some time ago, and they take a stride to find it again. Or nothing switches, but the
 // overlap of figure and person falls (tracker/overlaps.h), or the track is lost. So the newest
 // frames of a track are held back (HeldFrames). In these cases they are tracked once more from a
-// start of their own (tracker/start/trial.h), and the track with the larger likelihood is kept.
+// start of their own (tracker/start/trial.h), and the track with the larger likelihood is kept. If
+// the subject has set off, they are tracked again from other moments (tracker/start/set_off.h).
 // tracker/reports/left_and_right.md has measurements.
 #pragma once
 
@@ -20,11 +21,12 @@ inline namespace tracker {
 bool holding(const TrackMode& mode);
 bool held_enough(const TrackMode& mode);
 
-// Decides the frames that are held back, and returns their judged records; `mode` continues with
-// the better track. `frames`: their evidence. `starts`: the number of starts so far.
+// Decides the frames that are held back, and returns the judged records of those that are not held
+// back further; `mode` continues with the better track. `frames`: their evidence. `starts`: the
+// number of starts so far.
 std::vector<FrameRecord> decide_held(const TrackContext& context,
-                                     const std::deque<SceneEvidence>& frames, uint32_t& starts,
-                                     TrackMode& mode);
+                                     const std::deque<SceneEvidence>& frames, bool more_follow,
+                                     uint32_t& starts, TrackMode& mode);
 
 }  // namespace tracker
 }  // namespace walktrack

@@ -20,10 +20,10 @@ Attempt from_moment(const WindowFrames& window, const Attempt& attempt, const Mo
   context.seed += 0x9E3779B97F4A7C15u * number;  // streams of its own
   context.all_set_off = true;
   const auto begin = attempt.records.begin();
-  Attempt out{.mode = moment.track,
+  Attempt out{.mode = *moment.track,
               .records = {begin, begin + static_cast<long>(moment.after)},
               .settled = attempt.settled,
-              .sets_off = moment.after};
+              .stood = {{}, moment.after}};
   follow_rest({context, window.frames, window.first}, out, until);
   return out;
 }
@@ -31,13 +31,13 @@ Attempt from_moment(const WindowFrames& window, const Attempt& attempt, const Mo
 }  // namespace
 
 Attempt with_best_set_off(const WindowFrames& window, Attempt attempt) {
-  if (attempt.sets_off == 0 || !is_tracking(attempt.mode)) return attempt;
+  if (attempt.stood.sets_off == 0 || !is_tracking(attempt.mode)) return attempt;
   const auto compared = static_cast<size_t>(frames_in(kCompared, window.context.scene.dt));
-  const size_t until = std::min(attempt.sets_off + compared, attempt.records.size());
+  const size_t until = std::min(attempt.stood.sets_off + compared, attempt.records.size());
   double most = total_log_likelihood(std::span(attempt.records).first(until));
   std::optional<Attempt> best;
   uint64_t number = 0;
-  for (const Moment& moment : std::exchange(attempt.stood, {})) {
+  for (const Moment& moment : std::exchange(attempt.stood.newest, {})) {
     Attempt tried = from_moment(window, attempt, moment, ++number, until);
     const double found = total_log_likelihood(tried);
     if (!is_tracking(tried.mode) || found <= most) continue;

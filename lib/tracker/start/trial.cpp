@@ -37,7 +37,7 @@ Attempt with_mirrored_legs(const WindowFrames& window, const Attempt& attempt) {
   const WalkerFilterContext filter = filter_context(window.context);
   const auto start = attempt.records.begin();
   const Moment& settled = *attempt.settled;
-  Attempt other{.mode = settled.track,
+  Attempt other{.mode = *settled.track,
                 .records = {start, start + static_cast<long>(settled.after)},
                 .settled = settled};
   for (FrameRecord& record : other.records) mirror_legs(window.context.body(), record);
