@@ -18,7 +18,8 @@ constexpr int kPages = 9;
 }  // namespace
 
 DetectorConfig detector_for(const TrackerScene& scene, DetectorConfig config) {
-  if (!scene.pictures) config.least_score = config.least_points_score;
+  config.least_score = scene.pictures ? config.least_score * scene.observation.outline_share
+                                      : config.least_points_score;
   return config;
 }
 

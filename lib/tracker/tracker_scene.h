@@ -28,8 +28,8 @@ struct TrackerScene {
   Stature stature = kUsualStature;  // what is known of it then
 };
 
-// The detector's limits, adapted to the scene: keypoints alone contain far less evidence than
-// images.
+// The detector's limits, adapted to the scene: outlines may count in part only, and keypoints alone
+// contain far less evidence than images.
 DetectorConfig detector_for(const TrackerScene& scene, DetectorConfig config);
 
 // Number of frames, `dt` s apart, in a span of time, at least two.

@@ -103,5 +103,12 @@ TEST_F(Lead, AWalkIsFoundByLessEvidence) {
   EXPECT_EQ(detector.least_score, DetectorConfig{}.least_points_score);
 }
 
+TEST_F(Lead, OutlinesThatCountInPartHaveLessEvidence) {
+  scene.observation.outline_share = 0.25;
+  EXPECT_EQ(detector_for(scene, {.least_score = 8}).least_score, 2);
+  scene.pictures = false;
+  EXPECT_EQ(detector_for(scene, {.least_points_score = 1.5}).least_score, 1.5);
+}
+
 }  // namespace
 }  // namespace walktrack

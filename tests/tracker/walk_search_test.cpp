@@ -101,5 +101,65 @@ TEST_F(Search, WeighsPixelsByTheDistanceOfAWalkUntilThatIsUndone) {
   for (const SceneEvidence& frame : search.window()) EXPECT_EQ(frame[0].pixel_weight, kUsual);
 }
 
+// Towards a camera that is far away, a figure that stands in the middle of the way explains the
+// images nearly as well: only from window to window it shows that somebody walks.
+class TowardsTheCamera : public Search {
+ protected:
+  static constexpr size_t kFrames = 80;
+  static constexpr double kClear = 0.15;  // share by which a walk is better than standing
+  TowardsTheCamera() { show(0.2, kFrames, {{10, 0, 1.2}}); }
+
+  // How many windows back somebody began to walk when it is noticed, in window number `first`.
+  std::optional<size_t> noticed(WalkSearch& search, uint32_t& first) {
+    const TrackContext context = subject_->context();
+    const std::optional<LastSeen> nobody;
+    first = 0;
+    for (const SceneEvidence& frame : window_) {
+      search.push(frame);
+      if (!search.lasts(context.config.detector.window, kDt)) continue;
+      const auto back = search.look(context, {first, nobody}, 3);
+      if (back > 0u) return back;
+      search.slide(context);
+      ++first;
+    }
+    return std::nullopt;
+  }
+};
+
+TEST_F(TowardsTheCamera, TheFirstWindowIsBelievedWhenTheWalkHasMovedOn) {
+  WalkSearch search;
+  uint32_t first = 0;
+  const auto back = noticed(search, first);
+  ASSERT_TRUE(back);
+  EXPECT_LE(first, 30u);
+  EXPECT_GE(*back, first - 3) << "about as far back as can be";
+  search.step_back(*back);
+  const std::optional<LastSeen> nobody;
+  const auto begin = static_cast<uint32_t>(first - *back);
+  const auto found = search.find(subject_->context(), {begin, nobody});
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->walk.over_standing, kClear);
+  EXPECT_NEAR(found->walk.position.x(), moved(walk_, begin * kDt).position.x(), 0.3);
+}
+
+TEST_F(TowardsTheCamera, WhoWalkedBeforeTheWindowDidNotStand) {
+  constexpr size_t kBefore = 15;
+  const TrackContext context = subject_->context();
+  const DetectedWalk walk = moved(walk_, kBefore * kDt);
+  const auto lead = [&] {
+    WalkSearch search;
+    for (const SceneEvidence& frame : window_) search.push(frame);
+    search.let_go(kBefore);
+    return search.standing_lead(context, walk);
+  };
+  EXPECT_FALSE(lead());
+  Pose standing = standing_pose(subject_->scene.model);
+  standing.root.head<2>() = walk.position;
+  for (size_t t = 0; t < kBefore; ++t)
+    window_[t][0] = evidence_of(subject_->scene.cameras[0], context.body(), standing);
+  ASSERT_TRUE(lead());
+  EXPECT_EQ(lead()->frames, kBefore);
+}
+
 }  // namespace
 }  // namespace walktrack

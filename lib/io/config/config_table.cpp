@@ -139,7 +139,7 @@ void add_search(ParameterTable& table) {
   s.number("least_share", &S::least_share, 0, 1,
            "lowest score of a frame, as a share of the median over the window");
   s.number("least_score", &S::least_score, 0, kAnyPositive,
-           "lowest score of the figure in any frame, nats");
+           "lowest score of the figure in any frame, if outlines count in full; nats");
   s.number("least_points_score", &S::least_points_score, 0, kAnyPositive,
            "the same for keypoints without video, nats");
   s.integer("candidates", &S::candidates, 1, 1000,

@@ -10,7 +10,8 @@ struct DetectorConfig {
   double slowest = 0.35;     // m/s, lowest speed of a walk
   double fastest = 3.0;      // m/s
   double least_share = 0.5;  // lowest score of a frame, as a share of the window's median
-  double least_score = 6;    // nats, lowest score of the figure in any frame
+  // nats, lowest score of the figure in any frame if outlines count in full
+  double least_score = 6;
   // The same if there are only keypoints: nine points of a network at the places where a figure has
   // them contribute 5.6 nats.
   double least_points_score = 1;

@@ -18,9 +18,8 @@ constexpr double kStandingKept = 3;
 // The longest time for which a subject who is half hidden is waited for, s. By hand.
 constexpr double kMostPatience = 0.7;
 // Shares of the score by which walking explains a window better than standing: clearly; in a window
-// beside one with a clear walk; of somebody who stands and seems to walk slowly. By hand;
-// sensitivity not measured.
-constexpr double kClearWalk = 0.15, kPromisingWalk = 0.1, kSlightWalk = 0.05;
+// beside one with a clear walk. By hand; sensitivity not measured.
+constexpr double kClearWalk = 0.15, kPromisingWalk = 0.1;
 
 // Nats, of the figure of a walk whose place is that in the frame.
 double score_at(const TrackContext& context, const SceneEvidence& frame, const DetectedWalk& walk) {
@@ -67,9 +66,13 @@ std::optional<size_t> WalkSearch::look(const TrackContext& context, const Search
     passed_ = back + 1;
     return std::nullopt;
   }
+  const bool moved_on = slight_walks_.moved_on_from.has_value();
   const bool promising = back == 0 || find_here(context, moment, kPromisingWalk);
   passed_ = 0;
-  return promising ? std::optional(back) : std::nullopt;
+  if (!promising) return std::nullopt;
+  const auto& from = slight_walks_.moved_on_from;
+  if (moved_on || !from) return back;
+  return std::min<size_t>(moment.first_frame - *from, waiting_.size());
 }
 
 std::optional<FoundWalk> WalkSearch::find(const TrackContext& context, const SearchMoment& moment) {
@@ -107,8 +110,8 @@ std::optional<DetectedWalk> WalkSearch::find_here(const TrackContext& context,
       window_score(window, context.body(), context.subject.figures), scene.dt,
       camera_positions(scene), config, context.threads);
   const std::optional<Reach> reach = reach_in_frame(context, moment.last_seen, moment.first_frame);
-  const bool believed =
-      walk && (!reach || reach->contains(walk->position)) && walks_clearly(context, *walk, clearly);
+  const bool believed = walk && (!reach || reach->contains(walk->position)) &&
+                        walks_clearly(context, moment.first_frame, *walk, clearly);
   return believed ? walk : std::nullopt;
 }
 
@@ -121,13 +124,11 @@ const std::vector<Place>& WalkSearch::candidates(const SearchWindow& window, siz
   return *found;
 }
 
-// A person who stands sometimes seems to walk slowly, above all along the viewing ray: such a walk
-// is accepted if it has been seen for as long as the window lasts.
-bool WalkSearch::walks_clearly(const TrackContext& context, const DetectedWalk& walk,
-                               double clearly) {
+bool WalkSearch::walks_clearly(const TrackContext& context, uint32_t first_frame,
+                               const DetectedWalk& walk, double clearly) {
   if (!context.subject.standing || walk.over_standing >= clearly) return true;
-  slight_walks_ = walk.over_standing >= kSlightWalk ? slight_walks_ + 1 + passed_.value_or(0) : 0;
-  return slight_walks_ >= window_.size();
+  const double dt = context.scene.dt;
+  return walks_on(first_frame, walk, dt * static_cast<double>(window_.size()), dt, slight_walks_);
 }
 
 SizedWalk WalkSearch::with_size(const TrackContext& context, const SearchMoment& moment,
@@ -152,10 +153,10 @@ std::optional<StandingStart> WalkSearch::standing_lead(const TrackContext& conte
   };
   std::optional<StandingStart> lead =
       standing_before(walk, score, context.scene.dt, context.config.detector);
-  if (lead) {
-    const double walked = walk.score * double(window_.size());
-    lead->detected.score = (walked + lead->score) / double(window_.size() + lead->frames);
-  }
+  if (!lead) return std::nullopt;
+  const double frames = double(window_.size() + lead->frames);
+  lead->detected.score = (walk.score * double(window_.size()) + lead->score) / frames;
+  if (score_with_lead(context, walk, lead->frames) > lead->detected.score) return std::nullopt;
   return lead;
 }
 
@@ -252,6 +253,7 @@ std::deque<SceneEvidence> WalkSearch::take() {
   candidates_.clear();
   half_hidden_.reset();
   passed_.reset();
+  slight_walks_ = {};
   search_weights_.clear();
   return std::exchange(window_, {});
 }

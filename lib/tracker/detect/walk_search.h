@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tracker/detect/search_window.h"
+#include "tracker/detect/slight_walks.h"
 #include "tracker/detect/standing_start.h"
 
 namespace walktrack {
@@ -43,7 +44,8 @@ class WalkSearch {
 
   // Looks whether somebody walks through the window. Of a window that slides on by a frame at a
   // time only every `step`-th is looked at. Returns how many windows back the first one is that may
-  // have a walk and was not looked at; nullopt if none has.
+  // have a walk and was not looked at, or had a walk that was not believed until it had moved on;
+  // nullopt if none has.
   std::optional<size_t> look(const TrackContext& context, const SearchMoment& moment, size_t step);
   // The walk through the window; nullopt if nobody walks there, or not clearly enough. If the
   // subject is half hidden at first, the place is uncertain: the walk is searched once more after
@@ -98,7 +100,8 @@ class WalkSearch {
   const std::vector<Place>& candidates(const SearchWindow& window, size_t index);
   // `clearly`: the share of the score by which a walk has to explain the window better than
   // standing.
-  bool walks_clearly(const TrackContext& context, const DetectedWalk& walk, double clearly);
+  bool walks_clearly(const TrackContext& context, uint32_t first_frame, const DetectedWalk& walk,
+                     double clearly);
   std::optional<DetectedWalk> find_here(const TrackContext& context, const SearchMoment& moment,
                                         double clearly);
 
@@ -113,7 +116,7 @@ class WalkSearch {
                                                               // computed
   PlaceGrid places_;                                          // of a figure, once computed
   std::optional<size_t> passed_;  // windows since the last one that was looked at
-  size_t slight_walks_ = 0;       // successive windows in which the person may as well stand
+  SlightWalks slight_walks_;      // of the newest windows
   std::optional<HalfHidden> half_hidden_;
   std::vector<double> search_weights_;  // by camera, while the frames are weighed at a walk
 };

@@ -1,7 +1,7 @@
 #include "tracker/modes/loss.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
 
 #include "core/anthropometry.h"
 #include "core/conventions.h"
@@ -11,18 +11,35 @@ inline namespace tracker {
 
 namespace {
 
-// The score, in nats, of a figure with the usual gait at the place of the subject, for the best of
-// several headings.
-double figure_score(const TrackContext& context, const SceneEvidence& evidence, const Pose& pose) {
-  constexpr int kHeadings = 6;  // 60 degrees apart; by hand
-  double best = -std::numeric_limits<double>::infinity();
-  for (int k = 0; k < kHeadings; ++k) {
-    const double heading = pose.heading + 2 * kPi * k / kHeadings;
-    const std::span<const Pose> figures =
-        context.subject.figures.at(anthropometry::kUsualSpeed, heading);
-    best = std::max(best, place_score(context.scene, evidence, context.body(), figures,
-                                      pose.root.head<2>(), heading));
-  }
+struct RigidFigure {
+  Eigen::Vector2d place;
+  double score;  // nats
+};
+
+RigidFigure figure_at(const TrackContext& context, const SceneEvidence& evidence,
+                      const Eigen::Vector2d& place, double heading) {
+  return {place, place_score(context.scene, evidence, context.body(),
+                             context.subject.figures.at(anthropometry::kUsualSpeed, heading), place,
+                             heading)};
+}
+
+// The best of several figures with the usual gait: at the place of the subject in several headings,
+// and before one camera, which shows a figure nearer or farther in nearly the same place of the
+// picture, at other distances.
+RigidFigure best_figure(const TrackContext& context, const SceneEvidence& evidence,
+                        const Pose& pose) {
+  constexpr int kHeadings = 6;                            // 60 degrees apart; by hand
+  constexpr std::array kDistances{0.7, 0.84, 1.2, 1.44};  // times that of the subject; by hand
+  const Eigen::Vector2d place = pose.root.head<2>();
+  RigidFigure best = figure_at(context, evidence, place, pose.heading);
+  const auto try_at = [&](const Eigen::Vector2d& where, double heading) {
+    const RigidFigure other = figure_at(context, evidence, where, heading);
+    if (other.score > best.score) best = other;
+  };
+  for (int k = 1; k < kHeadings; ++k) try_at(place, pose.heading + 2 * kPi * k / kHeadings);
+  if (context.scene.cameras.size() > 1) return best;
+  const Eigen::Vector2d camera = camera_centre(context.scene.cameras[0]).head<2>();
+  for (const double times : kDistances) try_at(camera + times * (place - camera), pose.heading);
   return best;
 }
 
@@ -46,9 +63,13 @@ bool is_lost(const TrackContext& context, const SceneEvidence& evidence, const F
   const TrackerConfig& config = context.config;
   const double dt = context.scene.dt;
   const Pose& pose = record.estimate.pose;
+  const RigidFigure figure = best_figure(context, evidence, pose);
   if (is_fading(config.monitor, config.detector.least_score, dt, record.mean_log_likelihood,
-                figure_score(context, evidence, pose), monitor))
+                figure.score, monitor)) {
+    if (monitor.frames_outscored > 0 && monitor.last_seen)
+      monitor.last_seen->position = figure.place;  // they are rather there
     return true;
+  }
   return is_off_people(config.monitor, dt,
                        on_somebody(context.scene, evidence, PosedBody(context.body(), pose)),
                        monitor);

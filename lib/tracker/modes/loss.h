@@ -8,7 +8,9 @@
 namespace walktrack {
 inline namespace tracker {
 
-// Updates the monitor with the frame, unless no particle has survived it.
+// Updates the monitor with the frame, unless no particle has survived it. A track is also lost to a
+// rigid figure with the usual gait that explains the images better in the same place, or, before
+// one camera, at another distance; the subject was then last seen where that figure is.
 bool is_lost(const TrackContext& context, const SceneEvidence& evidence, const FrameRecord& record,
              MonitorState& monitor);
 

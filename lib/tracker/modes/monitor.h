@@ -1,8 +1,8 @@
 // Decides whether the track is still on the subject. It compares the filter's short-term evidence
-// with its own long-term evidence and with that of a rigid figure in the same place (monitoring for
-// failures, as Thrun, Burgard & Fox 2005, section 8.3.3, do for localisation), and looks whether
-// the figure lies on a person whose keypoints are detected. It also keeps where the subject was
-// last seen for certain, and their velocity, which say where to search for them.
+// with its own long-term evidence and with that of a rigid figure (tracker/modes/loss.h; monitoring
+// for failures, as Thrun, Burgard & Fox 2005, section 8.3.3, do for localisation), and looks
+// whether the figure lies on a person whose keypoints are detected. It also keeps where the subject
+// was last seen for certain, and their velocity, which say where to search for them.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct MonitorConfig {
   // Share of the likelihood's median below which the track counts as lost
   double lost_below = 0.35;
   double lost_after = 1;  // s below it: the time for which a subject may be hidden
-  // s of explaining the images worse than a rigid figure in the same place
+  // s of explaining the images worse than a rigid figure
   double outscored_after = 0.4;
   double off_detected_after = 0.5;  // s of lying on none of the people who are detected
   double evidence_window = 1.5;     // s of past likelihoods over which the median is taken
@@ -48,7 +48,7 @@ struct MonitorState {
 // Begins a track; the likelihoods are those of its first frames.
 void begin_watch(std::deque<double> log_likelihoods, MonitorState& state);
 
-// Updates with the scores of a frame, of the particles and of a rigid figure in the same place, and
+// Updates with the scores of a frame, of the particles and of a rigid figure, and
 // returns whether the track is lost. A score below `least_score` does not count as explained. `dt`:
 // s between frames.
 bool is_fading(const MonitorConfig& config, double least_score, double dt, double log_likelihood,
