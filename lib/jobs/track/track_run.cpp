@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "core/parallel_for.h"
 #include "jobs/track/out_of_picture.h"
+#include "jobs/track/report/viewing_ray.h"
 #include "jobs/track/report/why_nobody.h"
 #include "observation/image_threads.h"
 
@@ -161,6 +162,10 @@ std::vector<std::string> TrackRun::notes() const {
           fmt::format("the pictures of camera {} have no colours: only brightness tells "
                       "the subject from the background",
                       job_.scene.cameras[c].name));
+  }
+  if (setup_.scene.cameras.size() == 1) {
+    const auto note = viewing_ray_note(motion_of(frames_), setup_.scene.cameras[0]);
+    if (note) out.push_back(*note);
   }
   return out;
 }
