@@ -65,5 +65,13 @@ TEST(SlightWalks, AreBelievedAfterThatUntilOneSaysNothing) {
   EXPECT_FALSE(again(44, 0.05));
 }
 
+TEST(SlightWalks, OfSomebodyMuchLaterAreNotBelievedForIt) {
+  SlightWalks walks;
+  ASSERT_TRUE(noticed(1.2, 0.05, walks));
+  const DetectedWalk other{.velocity = {1.2, 0}, .over_standing = 0.05};
+  EXPECT_TRUE(walks_on(60, other, kWindow, kDt, walks));
+  EXPECT_FALSE(walks_on(90, other, kWindow, kDt, walks));
+}
+
 }  // namespace
 }  // namespace walktrack

@@ -1,5 +1,6 @@
 #include "tracker/detect/walk_search.h"
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -13,20 +14,30 @@ namespace {
 
 class Search : public WalkedScene {
  protected:
-  // The first walk that is found while the window slides, and the frame in which its window begins.
-  std::optional<FoundWalk> searched(uint32_t& first) {
-    WalkSearch search;
+  // Slides the window until `done` says so of its first frame.
+  void slide(WalkSearch& search, uint32_t& first,
+             const std::function<bool(const SearchMoment&)>& done) {
     const TrackContext context = subject_->context();
     const std::optional<LastSeen> nobody;
     first = 0;
     for (const SceneEvidence& frame : window_) {
       search.push(frame);
       if (!search.lasts(context.config.detector.window, kDt)) continue;
-      if (auto found = search.find(context, {first, nobody})) return found;
+      if (done({first, nobody})) return;
       search.slide(context);
       ++first;
     }
-    return std::nullopt;
+  }
+
+  // The first walk that is found while the window slides, and the frame in which its window begins.
+  std::optional<FoundWalk> searched(uint32_t& first) {
+    WalkSearch search;
+    std::optional<FoundWalk> found;
+    slide(search, first, [&](const SearchMoment& moment) {
+      found = search.find(subject_->context(), moment);
+      return found.has_value();
+    });
+    return found;
   }
 };
 
@@ -59,20 +70,14 @@ TEST_F(Search, OfThreeWindowsOneIsLookedAt) {
     if (frame < kEmptyFrames) hide_left_of(kEvidenceWidth, evidence);
   });
   WalkSearch search;
-  const TrackContext context = subject_->context();
-  const std::optional<LastSeen> nobody;
   uint32_t first = 0;
   std::optional<size_t> back;
-  for (const SceneEvidence& frame : window_) {
-    search.push(frame);
-    if (!search.lasts(context.config.detector.window, kDt)) continue;
-    back = search.look(context, {first, nobody}, 3);
+  slide(search, first, [&](const SearchMoment& moment) {
+    back = search.look(subject_->context(), moment, 3);
     EXPECT_TRUE(first != 0 || back == 0u);  // nothing was passed
     EXPECT_TRUE(first % 3 == 0 || !back);
-    if (back > 0u) break;
-    search.slide(context);
-    ++first;
-  }
+    return back > 0u;
+  });
   EXPECT_EQ(back, 2u);
   EXPECT_GE(first, kEmptyFrames - 5);
   EXPECT_LE(first, kEmptyFrames + 2);
@@ -111,18 +116,12 @@ class TowardsTheCamera : public Search {
 
   // How many windows back somebody began to walk when it is noticed, in window number `first`.
   std::optional<size_t> noticed(WalkSearch& search, uint32_t& first) {
-    const TrackContext context = subject_->context();
-    const std::optional<LastSeen> nobody;
-    first = 0;
-    for (const SceneEvidence& frame : window_) {
-      search.push(frame);
-      if (!search.lasts(context.config.detector.window, kDt)) continue;
-      const auto back = search.look(context, {first, nobody}, 3);
-      if (back > 0u) return back;
-      search.slide(context);
-      ++first;
-    }
-    return std::nullopt;
+    std::optional<size_t> back;
+    slide(search, first, [&](const SearchMoment& moment) {
+      back = search.look(subject_->context(), moment, 3);
+      return back > 0u;
+    });
+    return back;
   }
 };
 
