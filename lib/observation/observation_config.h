@@ -55,7 +55,9 @@ struct FlowConfig {
 // has none.
 struct KeypointConfig {
   TermSetting enabled = TermSetting::kAuto;  // decided before tracking
-  int every = 3;                             // the network runs on one of so many frames
+  // Frames from one use of the network to the next; 0: by the video's frame rate
+  // (jobs/track/input/detections.h).
+  int every = 0;
   // Whether, while a subject is tracked, it only runs if left and right are uncertain
   // (tracker/smooth/leg_labels.h).
   bool in_doubt_only = false;

@@ -46,7 +46,8 @@ class DetectionsTest : public testing::Test {
     return scene("  - {name: a, video: a.mp4, calibration: a.yaml, keypoints: points}\n");
   }
   static Detections of(const Scene& scene, const KeypointConfig& config = {}) {
-    return Detections(scene, config, std::vector<WorkingScale>(scene.cameras.size(), {40, 1}));
+    return Detections(scene, config, *scene.frame_rate,
+                      std::vector<WorkingScale>(scene.cameras.size(), {40, 1}));
   }
   TemporaryFolder folder_;
   const FrameSource picture_{cv::Mat::zeros(48, 64, CV_8UC3), 9};
@@ -182,8 +183,18 @@ TEST_F(DetectionsTest, OutlinesCountForLessBesideKeypoints) {
 
 TEST_F(DetectionsTest, SaysThatTheModelIsMissing) {
   const Scene without = scene("  - {name: a, video: a.mp4, calibration: a.yaml}\n");
-  const KeypointConfig config{.enabled = TermSetting::kOn, .every = 1, .model = "none.onnx"};
+  const KeypointConfig config{.enabled = TermSetting::kOn, .model = "none.onnx"};
   EXPECT_FALSE(message_of<std::runtime_error>([&] { of(without, config); }).empty());
+}
+
+// In a slow video every third frame would be too few a second.
+TEST(FramesBetweenLooks, FollowFromTheFrameRate) {
+  const auto frames = [](double frame_rate) { return frames_between_looks({}, frame_rate); };
+  EXPECT_EQ(frames(60), 3);
+  EXPECT_EQ(frames(30 / 1.001), 3);
+  EXPECT_EQ(frames(15), 2);
+  EXPECT_EQ(frames(7), 1);
+  EXPECT_EQ(frames_between_looks({.every = 5}, 15), 5) << "as configured";
 }
 
 TEST_F(DetectionsTest, NetworkLooksAtEveryNthFrame) {

@@ -28,9 +28,9 @@ constexpr double kHundred = 100;
 constexpr double kBoxWidth = 1.2, kBoxRise = 0.25;  // m
 
 // Number of times that the pose network is run on a frame; 0 if there are keypoint files.
-double looks_of(const SceneCamera& camera, const KeypointConfig& keypoints) {
+double looks_of(const SceneCamera& camera, const KeypointConfig& keypoints, double frame_rate) {
   if (!is_on(keypoints) || !camera.keypoints.path.empty() || camera.video.empty()) return 0;
-  return 1.0 / keypoints.every;
+  return 1.0 / frames_between_looks(keypoints, frame_rate);
 }
 
 CameraWork camera_work(const Scene& scene, const SceneCamera& camera, const Config& config) {
@@ -42,7 +42,8 @@ CameraWork camera_work(const Scene& scene, const SceneCamera& camera, const Conf
   return {camera.name, static_cast<double>(camera.camera.width_px) * camera.camera.height_px,
           std::min(image_width, kBoxWidth * px_per_m) *
               std::min(image_height, (height + kBoxRise) * px_per_m),
-          std::min(image_height, rows), looks_of(camera, config.observation.keypoints)};
+          std::min(image_height, rows),
+          looks_of(camera, config.observation.keypoints, scene.frame_rate.value())};
 }
 
 int classes_of(const ObservationConfig& config, const Body& body) {
@@ -298,12 +299,14 @@ std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& c
 
 }  // namespace
 
-Plan plan_scene(const Scene& scene, const ConfigWithOrigin& given) {
-  ConfigWithOrigin config = given;
-  config.values = decided(scene, given.values);
+Plan plan_scene(const Scene& given, const ConfigWithOrigin& wanted) {
+  Scene scene = given;
+  scene.frame_rate = SceneVideo(given).frame_rate();
+  ConfigWithOrigin config = wanted;
+  config.values = decided(scene, wanted.values);
   Plan plan;
   plan.scene = scene.file;
-  plan.frame_rate = SceneVideo(scene).frame_rate();
+  plan.frame_rate = *scene.frame_rate;
   plan.work = frame_work(scene, config.values);
   plan.cost = frame_cost(plan.work);
   for (size_t c = 0; c < scene.cameras.size(); ++c) {

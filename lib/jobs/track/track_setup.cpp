@@ -73,12 +73,12 @@ void set_beginning(const Scene& scene, double frame_rate, TrackerScene& out) {
   out.initial_phase = given.phase;
 }
 
-Detections detections_of(const Scene& scene, const Config& config) {
+Detections detections_of(const Scene& scene, const Config& config, double frame_rate) {
   if (config.observation.keypoints.enabled == TermSetting::kOff) return {};
   std::vector<WorkingScale> scales;
   for (const SceneCamera& camera : scene.cameras)
     scales.push_back(working_scale(scene, camera.camera, config));
-  return Detections(scene, config.observation.keypoints, scales);
+  return Detections(scene, config.observation.keypoints, frame_rate, scales);
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
     setup.observers.push_back(make_observer(scene, camera, config, out.model.body, known, control));
     out.cameras.push_back(setup.observers.back().camera());
   }
-  setup.detections = detections_of(scene, config);
+  setup.detections = detections_of(scene, config, frame_rate);
   return setup;
 }
 

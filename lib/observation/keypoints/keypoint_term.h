@@ -123,7 +123,9 @@ void KeypointTerm::describe(Groups& groups) {
       "enabled", &K::enabled,
       "on: from the scene's files, from the built-in network where a camera has none; auto: where "
       "every camera has a file, and the network for one camera alone");
-  k.integer("every", &K::every, 1, 1000, "frames from one use of the network to the next");
+  k.integer("every", &K::every, 0, 1000,
+            "frames from one use of the network to the next; 0 = 3, and less below 25 Hz, for some "
+            "ten uses a second");
   k.flag(
       "in_doubt_only", &K::in_doubt_only,
       "whether the network is used for a tracked subject only while left and right are uncertain");

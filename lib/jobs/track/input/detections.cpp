@@ -1,6 +1,7 @@
 #include "jobs/track/input/detections.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,10 @@ inline namespace jobs {
 
 namespace {
 
+// The network looks at one of so many frames, or at more of them if that is less often than this.
+// Compared on rendered people and the real side view at 15 Hz (observation/reports/keypoints.md).
+constexpr long kUsualFrames = 3;
+constexpr double kEnoughLooks_hz = 10;
 // One in so many frames that are looked at is searched for others than the followed people. By
 // hand.
 constexpr int kScanEvery = 3;
@@ -116,9 +121,14 @@ Config decided(const Scene& scene, const Config& config) {
   return out;
 }
 
-Detections::Detections(const Scene& scene, const KeypointConfig& config,
+int frames_between_looks(const KeypointConfig& config, double frame_rate) {
+  if (config.every > 0) return config.every;
+  return static_cast<int>(std::clamp(std::lround(frame_rate / kEnoughLooks_hz), 1L, kUsualFrames));
+}
+
+Detections::Detections(const Scene& scene, const KeypointConfig& config, double frame_rate,
                        std::span<const WorkingScale> scales)
-    : every_(config.every), height_(scene.subject.height) {
+    : every_(frames_between_looks(config, frame_rate)), height_(scene.subject.height) {
   std::string model;
   const auto file = pose_model_file(config.model);
   for (const SceneCamera& camera : scene.cameras) {

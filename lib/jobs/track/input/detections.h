@@ -1,5 +1,5 @@
 // The keypoints of a video's frames: from files that the scene names, or from the built-in network,
-// which is run on every n-th frame.
+// which looks at some frames of each camera.
 //
 // Cameras are independent of each other: those of one frame may be processed by different threads.
 #pragma once
@@ -45,6 +45,9 @@ bool flow_wanted(const Config& config);
 // weights, particles have a number.
 Config decided(const Scene& scene, const Config& config);
 
+// Frames from one look of the network to the next.
+int frames_between_looks(const KeypointConfig& config, double frame_rate);
+
 // The input for one frame of one camera.
 struct FrameToLookAt {
   const FrameSource& video;  // has the picture as recorded
@@ -60,7 +63,7 @@ class Detections {
   Detections() = default;
   // As configured: reads the files, and loads the network for cameras without files. Errors of
   // keypoint_file.h and pose_net.h; UsageError if the network is wanted and missing.
-  Detections(const Scene& scene, const KeypointConfig& config,
+  Detections(const Scene& scene, const KeypointConfig& config, double frame_rate,
              std::span<const WorkingScale> scales);
 
   bool on() const { return !cameras_.empty(); }
