@@ -152,6 +152,15 @@ TEST_F(DemoPair, TellsWhereFramesAreMissing) {
   EXPECT_GE(found->agreement, 0.8) << "a failure from there on";
 }
 
+// Ends of the outline agree at a wrong lag by chance for nearly a second: a shadow, or a
+// figure that is still small.
+TEST_F(DemoPair, NeedsASecondToTellALagFromAnother) {
+  const auto found = lag([](int i) { return i < 27 ? i + 4 : i; });
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->before, found->after);
+  EXPECT_EQ(found->after, 0);
+}
+
 TEST_F(DemoPair, ReportsNothingIfTheSubjectStandsOrIsMissing) {
   EXPECT_FALSE(lag([](int) { return -1; }));
   for (FigurePath& path : paths_) path.assign(path.size(), path[60]);

@@ -34,7 +34,7 @@ struct QualityConfig {
   double better_beside = 0.01;      // of the evidence, mean over frames (tracker/figure_fit.h)
   double on_detected = 0.6;    // of the frames with keypoints: the figure agrees with a detected
                                // person
-  double legs_swapped = 0.5;   // mean probability
+  double legs_swapped = 0.2;   // mean probability
   double leg_swaps = 10;       // a minute
   double steps_off_way = 0.2;  // of the pelvis' way, by which the steps deviate from it
   double longest_step = 1.2;   // leg lengths

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLongestLag = 1;       // s
-constexpr double kShortestPart = 0.75;  // s; least duration before and after a change of the lag
+constexpr double kShortestPart = 1;    // s; least duration before and after a change of the lag
 constexpr double kMostLost = 0.5;       // s; longest run of missing frames
 constexpr double kMoment = 0.25;        // s; frames nearer to each other have common errors
 constexpr double kNearLine = 0.15;      // sine of the angle to the line through both cameras
