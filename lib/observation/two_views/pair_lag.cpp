@@ -18,22 +18,22 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLongestLag = 1;       // s
-constexpr double kShortestPart = 1;    // s; least duration before and after a change of the lag
-constexpr double kMostLost = 0.5;       // s; longest run of missing frames
-constexpr double kMoment = 0.25;        // s; frames nearer to each other have common errors
-constexpr double kNearLine = 0.15;      // sine of the angle to the line through both cameras
-constexpr double kEndNoise = 0.01;      // m, noise of an outline's end
-constexpr double kMostBias = 0.02;      // m, by which one camera sees ends higher than the other
-constexpr double kAgreement = 0.3;      // least share of frames that agree if cameras are
-                                        // synchronous
-constexpr double kDistinct = 0.1;       // and its least excess over other lags,
-constexpr double kPeak = 0.1;           // s; other lags are at least so far away
-constexpr size_t kFewest = 20;          // frames
-constexpr int kLeastLag = 2;            // frames
-constexpr double kQuickStep = 0.4;      // s; walking steps take longer
-constexpr double kClear = 3;            // standard errors
-constexpr double kLeastGain = 0.08;     // least increase of that share
+constexpr double kLongestLag = 1;    // s
+constexpr double kShortestPart = 1;  // s; least duration before and after a change of the lag
+constexpr double kMostLost = 0.5;    // s; longest run of missing frames
+constexpr double kMoment = 0.25;     // s; frames nearer to each other have common errors
+constexpr double kNearLine = 0.15;   // sine of the angle to the line through both cameras
+constexpr double kEndNoise = 0.01;   // m, noise of an outline's end
+constexpr double kMostBias = 0.02;   // m, by which one camera sees ends higher than the other
+constexpr double kAgreement = 0.3;   // least share of frames that agree if cameras are
+                                     // synchronous
+constexpr double kDistinct = 0.1;    // and its least excess over other lags,
+constexpr double kPeak = 0.1;        // s; other lags are at least so far away
+constexpr size_t kFewest = 20;       // frames
+constexpr int kLeastLag = 2;         // frames
+constexpr double kQuickStep = 0.4;   // s; walking steps take longer
+constexpr double kClear = 3;         // standard errors
+constexpr double kLeastGain = 0.08;  // least increase of that share
 
 // The planes that contain the line through both cameras.
 struct Pencil {
