@@ -94,10 +94,10 @@ TEST_F(QualityOf, TooFewFramesASecondFailTheirCheck) {
   }
 }
 
+// Of results with a fifth of doubt and more, two of five have swapped legs.
 TEST_F(QualityOf, LegsThatAreLikelySwappedFailTheirCheck) {
   QualityConfig limits;
   limits.least_steps = 0;
-  limits.legs_swapped = 0.2;
   for (const double probability : {0.15, 0.25}) {
     FrameRecord doubtful = still();
     doubtful.modes.p_legs_swapped = probability;
