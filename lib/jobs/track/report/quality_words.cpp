@@ -52,8 +52,8 @@ constexpr QualityWords kWords[] = {
      "which the subject walks."},
     {"legs_exchanged_percent", "Left and right may be swapped, mean probability", "%", 0,
      "The probability, estimated by the tracker, that the left leg is taken for the right one.",
-     "The images hardly show which leg is which. A second camera from another side helps; without "
-     "one, do not compare left with right."},
+     "The images hardly show which leg is which. One more camera, from another side, helps; do not "
+     "compare left with right in this result."},
     {"leg_swaps_per_min", "Left and right swapped between frames", "/min", 1,
      "How often the legs change places from one frame to the next.",
      "Left and right cannot be trusted in this result. A second camera from another side helps to "
