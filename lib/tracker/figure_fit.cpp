@@ -59,7 +59,7 @@ double better_beside(const TrackerScene& scene, const SceneEvidence& evidence, c
   double best = own;
   for (const Pose& other : beside(scene, pose))
     best = std::max(best, log_likelihood(scene, evidence, other));
-  return best > 0 ? std::min(1.0, (best - own) / best) : 0;
+  return (best - own) / static_cast<double>(evidence.size());
 }
 
 bool is_arm(Segment segment) {

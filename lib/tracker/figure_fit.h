@@ -13,8 +13,8 @@ struct FigureFit {
   std::vector<double> overlap;  // by camera (Overlap::share); NaN if it is unknown
   std::vector<double> seen;     // by camera: share of the figure's pixels that have evidence
   // How much better the best of the figures that stand 5 to 40 cm beside this one, or are turned by
-  // 15 or 30 degrees, explains the images than this one, as a share of the log-likelihood of that
-  // best figure. 0 if none of them explains the images better, or if none explains them at all.
+  // 15 or 30 degrees, explains the outlines than this one: difference of the log-likelihoods, nats,
+  // mean of the cameras. 0 if none of them is better.
   double better_beside = 0;
 };
 

@@ -181,9 +181,9 @@ TEST_F(QualityOf, FramesInWhichLittleOfTheFigureIsSeenCountForLittle) {
 
 TEST_F(QualityOf, EvidenceForAFigureBesideThisOneFails) {
   FrameRecord beside = still();
-  beside.fit.better_beside = 0.2;
-  EXPECT_NEAR(named(quality_of(standing(4, {1}, beside)), "better_beside_percent").value, 20, 1e-9);
-  EXPECT_FALSE(named(quality_of(standing(4, {}, beside)), "better_beside_percent").passed());
+  beside.fit.better_beside = 0.3;
+  EXPECT_NEAR(named(quality_of(standing(4, {1}, beside)), "better_beside_nats").value, 0.3, 1e-9);
+  EXPECT_FALSE(named(quality_of(standing(4, {}, beside)), "better_beside_nats").passed());
 }
 
 TEST(QualityOfKeypoints, AFigureBesideThePeopleDetectedFails) {

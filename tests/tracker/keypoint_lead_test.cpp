@@ -35,44 +35,43 @@ class Lead : public testing::Test {
   std::vector<FrameRecord> records;
 };
 
-TEST_F(Lead, OutlinesFitBadlyWhereTheSubjectIsMuchWider) {
+TEST_F(Lead, AFigureIsTooThinForSomebodyMuchWider) {
   show(1);
-  EXPECT_FALSE(outlines_fit_badly(scene, window, records));
+  EXPECT_FALSE(figure_is_too_thin(scene, window, records));
   show(1.1);
-  EXPECT_FALSE(outlines_fit_badly(scene, window, records));
+  EXPECT_FALSE(figure_is_too_thin(scene, window, records));
   show(2);
-  EXPECT_TRUE(outlines_fit_badly(scene, window, records));
+  EXPECT_TRUE(figure_is_too_thin(scene, window, records));
+  show(0.5);
+  EXPECT_FALSE(figure_is_too_thin(scene, window, records)) << "too thick";
 }
 
 TEST_F(Lead, NobodyLeadsWithoutKeypointsOrATrack) {
   show(2);
   for (FrameRecord& record : records) record.tracked = false;
-  EXPECT_FALSE(outlines_fit_badly(scene, window, records));
+  EXPECT_FALSE(figure_is_too_thin(scene, window, records));
   show(2);
   window[1][0].keypoints.people.clear();
-  EXPECT_FALSE(outlines_fit_badly(scene, window, records));
-  EXPECT_FALSE(outlines_fit_badly(scene, {}, {}));
+  EXPECT_FALSE(figure_is_too_thin(scene, window, records));
+  EXPECT_FALSE(figure_is_too_thin(scene, {}, {}));
 }
 
 TEST_F(Lead, OnlyOneCameraThatUsesKeypointsAndWhomNobodyHasToldOtherwise) {
-  const DetectedWalk walk{.position = {0.2, 1}, .velocity = {0.1, -1}};  // towards the camera
-  EXPECT_TRUE(may_lead(scene, walk));
-  EXPECT_TRUE(may_lead(scene, {.position = {0, 0}, .velocity = {0.2, 1.2}})) << "away from it";
-  EXPECT_FALSE(may_lead(scene, {.position = {0, 0}, .velocity = {1, 0.2}})) << "past it";
+  EXPECT_TRUE(may_lead(scene));
   TrackerScene other = scene;
   other.observation.outline_share = weights_for(1, true).outline_share;
-  EXPECT_TRUE(may_lead(other, walk)) << "by default outlines already count for less";
+  EXPECT_TRUE(may_lead(other)) << "by default outlines already count for less";
   let_keypoints_lead(other.observation);
-  EXPECT_FALSE(may_lead(other, walk)) << "they lead already";
+  EXPECT_FALSE(may_lead(other)) << "they lead already";
   other = scene;
   other.observation.keypoints.lead = TermSetting::kOff;
-  EXPECT_FALSE(may_lead(other, walk));
+  EXPECT_FALSE(may_lead(other));
   other = scene;
   other.observation.keypoints.enabled = TermSetting::kOff;
-  EXPECT_FALSE(may_lead(other, walk));
+  EXPECT_FALSE(may_lead(other));
   other = scene;
   other.cameras.push_back(other.cameras[0]);
-  EXPECT_FALSE(may_lead(other, walk));
+  EXPECT_FALSE(may_lead(other));
 }
 
 TEST_F(Lead, OutlinesThenCountForANinth) {

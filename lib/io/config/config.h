@@ -25,13 +25,13 @@ inline namespace io {
 
 // The quality checks. A result that fails one of them leads to exit code 4.
 struct QualityConfig {
-  double lost_share = 0.1;          // of the frames after the subject was found
-  double untracked_movement = 0.3;  // of the frames with motion
-  double frame_rate = 5;            // Hz; four frames of a fast walker's stride of .8 s
-  double least_steps = 1;           // foot changes; without any the subject does not walk
-  double overlap = 0.55;            // of figure and foreground, mean over the frames of the worst
-                                    // camera
-  double better_beside = 0.01;      // of the evidence, mean over frames (tracker/figure_fit.h)
+  double lost_share = 0.1;           // of the frames after the subject was found
+  double untracked_movement = 0.3;   // of the frames with motion
+  double frame_rate = 5;             // Hz; four frames of a fast walker's stride of .8 s
+  double least_steps = 1;            // foot changes; without any the subject does not walk
+  double overlap = 0.55;             // of figure and foreground, mean over the frames of the worst
+                                     // camera
+  double better_beside_nats = 0.25;  // a picture, mean over frames (tracker/figure_fit.h)
   double on_detected = 0.6;    // of the frames with keypoints: the figure agrees with a detected
                                // person
   double legs_swapped = 0.2;   // mean probability

@@ -215,8 +215,8 @@ void add_track(ParameterTable& table) {
   g.number("overlap", &G::overlap, 0, 1,
            "lowest overlap of figure and foreground, mean over the frames of the worst camera");
   g.number(
-      "better_beside", &G::better_beside, 0, 1,
-      "largest share of the evidence by which a figure beside the reported one is better, mean");
+      "better_beside_nats", &G::better_beside_nats, 0, 1e5,
+      "most evidence by which a figure beside the reported one is better, nats a picture, mean");
   g.number(
       "on_detected", &G::on_detected, 0, 1,
       "smallest share of the frames with keypoints in which the figure is on a detected person");

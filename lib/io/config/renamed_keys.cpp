@@ -32,7 +32,6 @@ std::span<const RenamedKey> renamed_keys() {
       RenamedKey{"gates.untracked_movement", "quality.untracked_movement"},
       RenamedKey{"gates.least_steps", "quality.least_steps"},
       RenamedKey{"gates.overlap", "quality.overlap"},
-      RenamedKey{"gates.better_beside", "quality.better_beside"},
       RenamedKey{"gates.leg_swaps", "quality.leg_swaps"},
       RenamedKey{"gates.steps_off_way", "quality.steps_off_way"},
       RenamedKey{"gates.longest_step", "quality.longest_step"},

@@ -134,10 +134,11 @@ void KeypointTerm::describe(Groups& groups) {
       "weight", &K::weight, 0, 10,
       "weight of a point, the less, the more the errors of points and of frames are correlated; "
       "0 = 1");
-  k.choice("lead", &K::lead,
-           {{"auto", TermSetting::kAuto}, {"on", TermSetting::kOn}, {"off", TermSetting::kOff}},
-           "whether keypoints count for more than outlines; auto: with one camera, if the figure "
-           "does not cover a subject well who walks along the viewing ray");
+  k.choice(
+      "lead", &K::lead,
+      {{"auto", TermSetting::kAuto}, {"on", TermSetting::kOn}, {"off", TermSetting::kOff}},
+      "whether keypoints count for more than outlines; auto: with one camera, if the subject is "
+      "much wider than the figure");
   k.number("flip", &K::flip, 0, 0.5,
            "probability that a frame's left and right are swapped; 0 = 0.1 with one camera and 0.5 "
            "with more, whose outlines tell the legs apart");

@@ -1,10 +1,8 @@
 #include "tracker/start/keypoint_lead.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "body/kinematics.h"
-#include "camera/camera.h"
 #include "observation/silhouette/overlap.h"
 
 namespace walktrack {
@@ -18,15 +16,13 @@ bool keypoints_lead(const ObservationConfig& observation) {
   return observation.outline_share <= kLedOutlines;
 }
 
-bool may_lead(const TrackerScene& scene, const DetectedWalk& walk) {
+bool may_lead(const TrackerScene& scene) {
   const KeypointConfig& keypoints = scene.observation.keypoints;
   const bool undecided = keypoints.lead == TermSetting::kAuto && !keypoints_lead(scene.observation);
-  if (scene.cameras.size() != 1 || !is_on(keypoints) || !undecided) return false;
-  const Eigen::Vector2d ray = walk.position - camera_centre(scene.cameras[0]).head<2>();
-  return std::abs(ray.stableNormalized().dot(walk.velocity.stableNormalized())) > kAlongRay;
+  return scene.cameras.size() == 1 && is_on(keypoints) && undecided;
 }
 
-bool outlines_fit_badly(const TrackerScene& scene, const std::deque<SceneEvidence>& window,
+bool figure_is_too_thin(const TrackerScene& scene, const std::deque<SceneEvidence>& window,
                         std::span<const FrameRecord> records) {
   const Body& body = scene.model.body;
   Overlap sum;
@@ -42,7 +38,7 @@ bool outlines_fit_badly(const TrackerScene& scene, const std::deque<SceneEvidenc
     sum.against += found.against;
     sum.missed += found.missed;
   }
-  return points && sum.known() > 0 && sum.share() < kBadOverlap;
+  return points && sum.missed > kUncovered * sum.known();
 }
 
 void let_keypoints_lead(ObservationConfig& observation) {

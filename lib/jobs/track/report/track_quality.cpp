@@ -36,7 +36,7 @@ double percent(double part, double whole) { return whole > 0 ? 100 * part / whol
 struct QualityCounts {
   int tracked = 0, lost = 0, moving = 0;  // frames; lost: after the first tracked one
   double p_legs_swapped = 0;              // sum of probabilities
-  double better_beside = 0;               // sum of shares
+  double better_beside = 0;               // sum, nats
 };
 
 QualityCounts quality_counts(const TrackedFrames& frames) {
@@ -110,8 +110,8 @@ Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
       at_least("frame_rate_hz", frames.frame_rate, limits.frame_rate),
       at_least("foot_changes", foot_changes(frames), limits.least_steps)};
   add_overlap(frames, limits, out);
-  out.push_back(at_most("better_beside_percent", percent(counts.better_beside, counts.tracked),
-                        100 * limits.better_beside));
+  out.push_back(at_most("better_beside_nats", counts.better_beside / std::max(1, counts.tracked),
+                        limits.better_beside_nats));
   out.push_back(at_most("legs_exchanged_percent", percent(counts.p_legs_swapped, counts.tracked),
                         100 * limits.legs_swapped));
   const std::map<std::string, double> most{{"leg_swaps_per_min", limits.leg_swaps},
