@@ -46,8 +46,7 @@ bool flow_wanted(const Config& config);
 Config decided(const Scene& scene, const Config& config);
 
 // Frames from one look of the network to the next: as configured, or three, or fewer in a slow
-// video
-// (`frame_rate`, Hz), for some ten looks a second.
+// video (`frame_rate`, Hz), for some ten looks a second.
 int frames_between_looks(const KeypointConfig& config, double frame_rate);
 
 // The input for one frame of one camera.

@@ -42,8 +42,7 @@ constexpr QualityWords kWords[] = {
     {"better_beside_nats", "A figure beside this one explains the images better", "nats", 2,
      "How much better the same figure 5 to 40 cm beside its place, or turned by 15 or 30 degrees, "
      "explains the outlines in a picture than the figure that is reported: logarithm of the ratio "
-     "of "
-     "their probabilities, mean over pictures.",
+     "of their probabilities, mean over pictures.",
      "The figure is likely to be beside the person: look at the overlay video, state where the "
      "walk begins (initial), or run walktrack check."},
     {"on_detected_percent", "Figure on a person of the keypoints", "%", 0,
