@@ -94,6 +94,7 @@ struct Observer::State {
                 {}},
         unseen(unseen_mask(input.background)),
         change(input.background ? input.background->change : PictureChange{}),
+        background_from_video(input.background ? input.background->from_video : 0),
         memories(Terms::make<std::tuple, MemoryOf>(setting, input)) {
     set_mask(input.occluders, unseen, setting);
   }
@@ -105,7 +106,8 @@ struct Observer::State {
 
   ObserverSetting setting;
   cv::Mat unseen;
-  PictureChange change;  // of the background's model
+  PictureChange change;          // of the background's model
+  double background_from_video;  // of the same
   Terms::map<std::tuple, MemoryOf> memories;
 };
 
@@ -156,6 +158,7 @@ Observer::~Observer() = default;
 const Camera& Observer::camera() const { return state_->setting.camera; }
 int Observer::shrink() const { return state_->setting.shrink; }
 const PictureChange& Observer::change() const { return state_->change; }
+double Observer::background_from_video() const { return state_->background_from_video; }
 
 void Observer::hide(const std::vector<Polygon>& occluders) {
   set_mask(occluders, state_->unseen, state_->setting);

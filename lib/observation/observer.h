@@ -89,6 +89,8 @@ class Observer {
   int shrink() const;
   // Of the model of the background; none without one.
   const PictureChange& change() const;
+  // BackgroundModel::from_video of that model; 0 without one.
+  double background_from_video() const;
 
   // Computes the evidence of the next frame (8-bit BGR, shrunk, of the size of camera(); empty =
   // there is no image). The previous frame for flow is that of the last call. `out` keeps its

@@ -129,9 +129,10 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<BackgroundModel> T>
 void fields(Archive& archive, T& value) {
-  auto& [width, height, change, luma, orange, green, luma_precision, chroma_precision] = value;
-  archive(a_count(width), a_count(height), change.brightness, change.colourless, luma, orange,
-          green, luma_precision, chroma_precision);
+  auto& [width, height, change, from_video, luma, orange, green, luma_precision, chroma_precision] =
+      value;
+  archive(a_count(width), a_count(height), change.brightness, change.colourless,
+          a_share(from_video), luma, orange, green, luma_precision, chroma_precision);
 }
 
 template <typename Archive, ArchivedAs<AppearanceState> T>

@@ -7,6 +7,8 @@
 #include "jobs/check/check_poses.h"
 #include "jobs/check/check_sync.h"
 #include "jobs/check/check_videos.h"
+#include "jobs/track/input/learned_background.h"
+#include "jobs/track/track_setup.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -22,6 +24,20 @@ void check_keypoints(const Scene& scene, CheckReport& report) {
     check_image_size(frames, camera.keypoints, camera.camera);
     for (const std::string& note : keypoint_notes(frames, report.cameras[i].video.frame_count))
       report.findings.push_back({camera.name, false, "keypoints: " + note, ""});
+  }
+}
+
+// Remarks where videos show other things than the images of their empty scenes.
+void check_backgrounds(const Scene& scene, const JobControl& control, CheckReport& report) {
+  const Config config;
+  for (const SceneCamera& camera : scene.cameras) {
+    if (camera.background.empty() || camera.video.empty()) continue;
+    const BackgroundModel model = learned_background(
+        camera, scene.first_frame, config, working_scale(scene, camera.camera, config), control);
+    if (model.from_video > 0)
+      report.findings.push_back({camera.name, false, moved_things_text(model.from_video),
+                                 "none is needed if this is little; otherwise a new picture of the "
+                                 "empty scene, by the same camera at the same place"});
   }
 }
 
@@ -46,6 +62,7 @@ CheckReport check_scene(const CheckJob& job, const JobControl& control) {
   if (!job.pictures.empty()) refuse_what_is_not_ours(check_outputs(scene, job.pictures));
   CheckReport report = look_at_scene(scene, control);
   check_decoding(scene, control, report);
+  if (!report.failed()) check_backgrounds(scene, control, report);
   if (!scene.height_given && !scene.height_sd)
     report.findings.push_back(
         {"", false,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "body/kinematics.h"
 #include "core/errors.h"
 #include "core/parallel_for.h"
+#include "jobs/track/input/learned_background.h"
 #include "jobs/track/out_of_picture.h"
 #include "jobs/track/report/viewing_ray.h"
 #include "jobs/track/report/why_nobody.h"
@@ -43,6 +45,26 @@ TrackerConfig tracker_config(const Config& config) {
     out.motion.turning_yaw_rate_sd = 0;
     out.start_again = false;
   }
+  return out;
+}
+
+// What was done to the pictures of a camera, or to its empty scene, before they were compared.
+std::vector<std::string> notes_on_pictures(const std::string& camera, const Observer& observer) {
+  std::vector<std::string> out;
+  const PictureChange& change = observer.change();
+  if (change.brightness > 1)
+    out.push_back(
+        fmt::format("camera {} is dark: for tracking its pictures are made {:.1f} times as bright, "
+                    "and blurred against their noise",
+                    camera, change.brightness));
+  if (change.colourless)
+    out.push_back(
+        fmt::format("the pictures of camera {} have no colours: only brightness tells "
+                    "the subject from the background",
+                    camera));
+  if (observer.background_from_video() > 0)
+    out.push_back(
+        fmt::format("camera {}: {}", camera, moved_things_text(observer.background_from_video())));
   return out;
 }
 
@@ -150,19 +172,9 @@ std::vector<std::string> TrackRun::notes() const {
     frames.push_back(job_.scene.cameras[c].video.empty() ? 0
                                                          : video_.source(c).facts().frame_count);
   std::vector<std::string> out = setup_.detections.notes(frames);
-  for (size_t c = 0; c < setup_.observers.size(); ++c) {
-    const PictureChange& change = setup_.observers[c].change();
-    if (change.brightness > 1)
-      out.push_back(fmt::format(
-          "camera {} is dark: for tracking its pictures are made {:.1f} times as bright, "
-          "and blurred against their noise",
-          job_.scene.cameras[c].name, change.brightness));
-    if (change.colourless)
-      out.push_back(
-          fmt::format("the pictures of camera {} have no colours: only brightness tells "
-                      "the subject from the background",
-                      job_.scene.cameras[c].name));
-  }
+  for (size_t c = 0; c < setup_.observers.size(); ++c)
+    std::ranges::move(notes_on_pictures(job_.scene.cameras[c].name, setup_.observers[c]),
+                      std::back_inserter(out));
   if (setup_.scene.cameras.size() == 1) {
     const auto note = viewing_ray_note(motion_of(frames_), setup_.scene.cameras[0]);
     if (note) out.push_back(*note);

@@ -54,7 +54,7 @@ Observer make_observer(const Scene& scene, const SceneCamera& camera, const Conf
   if (learned) {
     input.background = learned->background;
   } else if (observation.background.enabled && input.pictures) {
-    input.background = learned_background(camera, config, scale, control);
+    input.background = learned_background(camera, scene.first_frame, config, scale, control);
   }
   Observer observer(observation, std::move(input));
   if (learned) observer.resume(*learned);

@@ -33,6 +33,8 @@ inline bool never_seen(float precision) { return precision <= 2 * kNeverSeen; }
 struct BackgroundModel {
   int width = 0, height = 0;
   PictureChange change;                    // the model is of pictures that are changed in this way
+  double from_video = 0;                   // share of the pixels that are the video's, although
+                                           // there are images of the empty scene (moved_things.h)
   std::vector<float> luma, orange, green;  // means
   std::vector<float> luma_precision, chroma_precision;  // 1 / variance
 };

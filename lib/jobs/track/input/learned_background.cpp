@@ -1,7 +1,10 @@
 #include "jobs/track/input/learned_background.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "core/parallel_for.h"
 #include "io/archive/files.h"
@@ -10,6 +13,7 @@
 #include "jobs/track/input/pose_model.h"
 #include "jobs/track/track_setup.h"
 #include "observation/background/background_sampler.h"
+#include "observation/background/moved_things.h"
 #include "observation/background/people_mask.h"
 #include "observation/image.h"
 #include "observation/image_threads.h"
@@ -53,6 +57,33 @@ void hide_people(BackgroundSampler& frames, const KeypointConfig& config, double
     frames.hide(f, people_mask(people[static_cast<size_t>(f)], frames.frame(f).size()));
 }
 
+// By hand. Time between the frames of the video that are compared with the empty scene, s; side of
+// the smallest thing that is found, as a share of the subject's height.
+constexpr double kBetweenCompared = 0.5, kUsualRate = 30;
+constexpr double kSmallestThing = 0.05;
+
+// Compares the video with the empty scene for as long as something may never be as in that.
+BackgroundModel with_moved_things(const BackgroundModel& empty_scene, const SceneCamera& camera,
+                                  int first_frame, const Config& config, const WorkingScale& scale,
+                                  const JobControl& control) {
+  FrameSource video(camera.video, PixelSize(camera.camera.width_px, camera.camera.height_px));
+  if (!video.skip(camera.start_frame + first_frame)) return empty_scene;
+  const double rate = video.facts().frame_rate > 0 ? video.facts().frame_rate : kUsualRate;
+  const auto step = static_cast<size_t>(std::max(1L, std::lround(kBetweenCompared * rate)));
+  const auto total = static_cast<size_t>(video.facts().frame_count);
+  MovedThings things(config.observation.background, empty_scene,
+                     kSmallestThing * scale.person_px / scale.shrink, thread_count(config.threads));
+  Image frame;
+  for (size_t number = 0; !control.stopping() && video.advance(); ++number) {
+    control.progress("comparing the video with the empty scene", number, total);
+    if (number % step != 0) continue;
+    video.picture(scale.shrink, frame);
+    things.compare(frame);
+    if (!things.possible()) break;
+  }
+  return things.corrected();
+}
+
 }  // namespace
 
 bool learns_from_video(const SceneCamera& camera) {
@@ -72,7 +103,7 @@ bool leaves_people_out(const Scene& scene, const Config& config) {
          });
 }
 
-BackgroundModel learned_background(const SceneCamera& camera, const Config& config,
+BackgroundModel learned_background(const SceneCamera& camera, int first_frame, const Config& config,
                                    const WorkingScale& scale, const JobControl& control) {
   const BackgroundConfig& background = config.observation.background;
   const bool from_video = learns_from_video(camera);
@@ -91,7 +122,16 @@ BackgroundModel learned_background(const SceneCamera& camera, const Config& conf
   }
   if (from_video && background.without_people == TermSetting::kOn)
     hide_people(sampler, config.observation.keypoints, scale.person_px / scale.shrink, control);
-  return sampler.model(thread_count(config.threads));
+  const BackgroundModel model = sampler.model(thread_count(config.threads));
+  if (from_video) return model;
+  return with_moved_things(model, camera, first_frame, config, scale, control);
+}
+
+std::string moved_things_text(double share) {
+  return fmt::format(
+      "{:.2g} % of the picture never looks like the images of the empty scene: something was "
+      "moved, or the light is another one; there the background is learned from the video",
+      100 * share);
 }
 
 }  // namespace jobs

@@ -22,8 +22,13 @@ bool leaves_people_out(const Scene& scene, const Config& config);
 
 // Estimates the background. Without images of the empty scene, and as configured, people whom the
 // network detects in the frames of the model are left out; OpenCV runs on one thread meanwhile.
-BackgroundModel learned_background(const SceneCamera& camera, const Config& config,
+// With such images, things that the video shows elsewhere are those of the video
+// (observation/background/moved_things.h), which is read from `first_frame` of the scene on.
+BackgroundModel learned_background(const SceneCamera& camera, int first_frame, const Config& config,
                                    const WorkingScale& scale, const JobControl& control);
+
+// What a user is told if that share of a background (BackgroundModel::from_video) is the video's.
+std::string moved_things_text(double share);
 
 }  // namespace jobs
 }  // namespace walktrack
