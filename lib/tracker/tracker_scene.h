@@ -24,6 +24,12 @@ struct TrackerScene {
   std::optional<DetectedWalk> initial;
   int initial_frame = 0;
   std::optional<double> initial_phase;  // of the stride, 0 = left foot strike
+  // Where the subject is in a frame, on the ground, m; who walks elsewhere is somebody else.
+  struct SubjectPlace {
+    Eigen::Vector2d position;
+    double frame;
+  };
+  std::optional<SubjectPlace> near{};
   bool size_known = true;           // the height of the model is right; otherwise it is estimated
   Stature stature = kUsualStature;  // what is known of it then
 };

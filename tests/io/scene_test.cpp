@@ -1,5 +1,6 @@
 #include "io/scene/scene.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -110,6 +111,37 @@ TEST_F(SceneFile, ReadsEveryKey) {
   EXPECT_EQ(scene.truth, folder_.path() / "truth.csv");
   EXPECT_EQ(scene.first_frame, 5);
   EXPECT_EQ(scene.last_frame, 9);
+}
+
+TEST_F(SceneFile, ThePlaceOfTheSubjectIsOnTheGroundOrInAPicture) {
+  const Scene there = read(kCamera + "subject: {near: {time: 1.5, position: [2, -1]}}\n");
+  ASSERT_TRUE(there.near);
+  EXPECT_EQ(there.near->time, 1.5);
+  EXPECT_EQ(there.near->position, Vector2d(2, -1));
+  EXPECT_FALSE(there.height_given);
+  const auto pixel = project(there.cameras[0].camera, Vector3d(0.3, 0.5, 0));
+  ASSERT_TRUE(pixel);
+  const Scene seen = read(kCamera + fmt::format("subject: {{near: {{time: 0, camera: a, feet_px: "
+                                                "[{:.6f}, {:.6f}]}}}}\n",
+                                                pixel->x(), pixel->y()));
+  EXPECT_LT((seen.near->position - Vector2d(0.3, 0.5)).norm(), 1e-4);
+  EXPECT_FALSE(read(kCamera).near);
+}
+
+TEST_F(SceneFile, ThePlaceOfTheSubjectHasToBeOne) {
+  const auto message = [&](const std::string& near) {
+    return message_for(kCamera + "subject: {near: " + near + "}\n");
+  };
+  EXPECT_THAT(message("{position: [2, -1]}"), HasSubstr("time"));
+  EXPECT_THAT(message("{time: 1}"), HasSubstr("camera"));
+  EXPECT_THAT(message("{time: 1, camera: b, feet_px: [3, 4]}"), HasSubstr("the name of a camera"));
+  EXPECT_THAT(message("{time: 1, camera: a, feet_px: [30, -900]}"),
+              HasSubstr("a pixel in which the camera sees the ground"));
+  EXPECT_THAT(message("{time: 1, position: [2, -1], feet_px: [3, 4]}"), HasSubstr("one of them"));
+  EXPECT_THAT(message("{time: 1, position: [2, -1]}}\ninitial: {position: [0, 0], heading: 0"),
+              HasSubstr("one of them"));
+  folder_.write("anna.yaml", "height: 1.7\nnear: {time: 1, position: [2, -1]}");
+  EXPECT_THAT(message_for(kCamera + "subject: anna.yaml\n"), HasSubstr("anna.yaml"));
 }
 
 TEST_F(SceneFile, OccludersMayComeAndGo) {

@@ -67,6 +67,11 @@ TEST(SceneSchema, TakesWhatTheReaderTakes) {
   apart["subject"] = "anna.yaml";
   EXPECT_EQ(reader_says(place, apart), "");
   EXPECT_EQ(schema_trouble(schema("scene"), apart), "");
+  Json near = full_scene();
+  near.erase("initial");
+  near["subject"]["near"] = {{"time", 1}, {"camera", "side"}, {"feet_px", {200, 400}}};
+  EXPECT_EQ(reader_says(place, near), "");
+  EXPECT_EQ(schema_trouble(schema("scene"), near), "");
   // Every key of the schema is tested here.
   const Json scene = full_scene(), known = schema("scene");
   for (const auto& [key, unused] : known.at("properties").items())
@@ -86,6 +91,7 @@ TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
   refused("/subject/height", 175, "/subject/height: too large");
   refused("/subject/height_sd", 3, "/subject/height_sd: too large");
   refused("/subject/weight", 60, "/subject/weight: an unknown key");
+  refused("/subject/near", Json::object(), "/subject/near: lacks \"time\"");
   refused("/subject/lengths/toe", 0.1, "/subject/lengths/toe: an unknown key");
   refused("/cameras/0/fps", 30, "/cameras/0/fps: an unknown key");
   refused("/cameras/0/start_frame", -1, "/cameras/0/start_frame: too small");

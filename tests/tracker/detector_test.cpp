@@ -24,8 +24,9 @@ struct Window {
   std::vector<Place> early, late;
   WindowScore score;
 
-  std::optional<DetectedWalk> walk(int threads = 1) const {
-    return detect_walk({kWindowFrames, early, late}, score, kDt, std::vector{kEye}, {}, threads);
+  std::optional<DetectedWalk> walk(int threads = 1, LineCondition may_be = {}) const {
+    return detect_walk({kWindowFrames, early, late, {}, std::move(may_be)}, score, kDt,
+                       std::vector{kEye}, {}, threads);
   }
 };
 
@@ -93,6 +94,24 @@ TEST(DetectWalk, FindsAWalkerBetweenThingsThatStandStill) {
 }
 
 // The line of a person who is hidden in a part of the window is not refined to the last centimetre.
+// Two people walk towards each other.
+TEST(DetectWalk, FindsTheOneOfTwoWhoMayBeTheSubject) {
+  const auto other_at = [](size_t frame) {
+    return Eigen::Vector2d(0.7 - 1.2 * kDt * double(frame), 1.6);
+  };
+  const Window both = window([&](size_t f, const Eigen::Vector2d& p) {
+    return bell(p, walker_at(f), 100) + bell(p, other_at(f), 120) - 20;
+  });
+  const auto any = both.walk();
+  ASSERT_TRUE(any);
+  EXPECT_LT((any->position - other_at(0)).norm(), 0.1);
+  const auto walks_on = [](const DetectedWalk& line) { return line.velocity.x() > 0; };
+  const auto subject = both.walk(1, walks_on);
+  ASSERT_TRUE(subject);
+  EXPECT_LT((subject->position - walker_at(0)).norm(), 0.1);
+  EXPECT_FALSE(both.walk(1, [](const DetectedWalk&) { return false; }));
+}
+
 TEST(DetectWalk, DoesNotRefineLinesOfAHiddenPerson) {
   const auto scores_asked = [](size_t hidden_until) {
     int asked = 0;

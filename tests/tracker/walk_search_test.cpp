@@ -64,6 +64,23 @@ TEST_F(Search, WaitsUntilTheSubjectIsWholeAndBeginsWhereTheyWereFirstSeen) {
   EXPECT_LT((begin.position - truth.position).norm(), 0.05);
 }
 
+// The window ends after 1.2 s.
+TEST_F(Search, FindsOnlyWhoPassesThePlaceOfTheSubject) {
+  show(0.2, 37, {{0, -4, 1}});
+  uint32_t first = 0;
+  const auto found_near = [&](double seconds, const Eigen::Vector2d& aside) {
+    subject_->scene.near = {moved(walk_, seconds).position + aside, seconds / kDt};
+    return searched(first).has_value();
+  };
+  for (const double seconds : {0.0, 1.2}) {
+    EXPECT_TRUE(found_near(seconds, {0, 0.3})) << seconds;
+    EXPECT_FALSE(found_near(seconds, {0, 0.9})) << seconds;
+    EXPECT_FALSE(found_near(seconds, {-0.8, 0})) << seconds;
+  }
+  EXPECT_TRUE(found_near(3.4, {0, 0.9}));  // a while after the window people may have turned
+  EXPECT_FALSE(found_near(3.4, {0, 1.5}));
+}
+
 TEST_F(Search, OfThreeWindowsOneIsLookedAt) {
   constexpr size_t kEmptyFrames = 20;
   show(0.2, kEmptyFrames + kVideoFrames, {{0, -4, 1}}, [](size_t frame, CameraEvidence& evidence) {

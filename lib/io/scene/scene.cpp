@@ -190,6 +190,29 @@ std::optional<InitialState> read_initial(const YamlValue& root, const WorldFrame
   return initial;
 }
 
+// The place on the ground that a camera sees in a pixel.
+Eigen::Vector2d place_in_picture(const YamlValue& near, const std::vector<SceneCamera>& cameras) {
+  const YamlValue name = near.at("camera"), feet = near.at("feet_px");
+  const auto camera = std::ranges::find(cameras, name.text(), &SceneCamera::name);
+  if (camera == cameras.end()) name.fail(name.describe_found(), "the name of a camera");
+  const auto place = ground_point(camera->camera, Eigen::Vector2d(feet.numbers(2).data()));
+  if (!place) feet.fail(feet.describe_found(), "a pixel in which the camera sees the ground");
+  return place->head<2>();
+}
+
+std::optional<SubjectPlace> read_near(const YamlValue& root, const Scene& scene) {
+  if (!root.has("subject") || !root.at("subject").is_map() || !root.at("subject").has("near"))
+    return std::nullopt;
+  const YamlValue value = root.at("subject").at("near");
+  value.only_keys({"time", "position", "camera", "feet_px"});
+  if (scene.initial) value.fail("'near' and 'initial'", "one of them");
+  if (value.has("position") && value.has("feet_px"))
+    value.fail("'position' and 'feet_px'", "one of them");
+  return SubjectPlace{value.at("time").number(0, 1e6),
+                      value.has("position") ? ground_position(value.at("position"), scene.world)
+                                            : place_in_picture(value, scene.cameras)};
+}
+
 Polygon read_polygon(const YamlValue& value) {
   Polygon polygon;
   for (const YamlValue& corner : value.items()) {
@@ -252,6 +275,7 @@ Scene read_scene(const fs::path& path) {
   state_subject(root.has("subject") ? read_subject(root.at("subject"), folder) : StatedSubject{},
                 scene);
   scene.initial = read_initial(root, scene.world);
+  scene.near = read_near(root, scene);
   read_occluders(root, scene.cameras);
   if (root.has("truth")) scene.truth = existing_path(root.at("truth"), folder);
   read_range(root, scene);

@@ -55,6 +55,12 @@ struct InitialState {
   std::optional<double> phase;  // share of the stride since left foot strike, 0..1
 };
 
+// Where the subject is at a time: who they are, if several people walk.
+struct SubjectPlace {
+  double time = 0;           // s after first_frame
+  Eigen::Vector2d position;  // on the ground, world axes, m
+};
+
 struct Scene {
   std::filesystem::path file;
   std::vector<SceneCamera> cameras;         // at least one
@@ -66,9 +72,10 @@ struct Scene {
   std::optional<double> height_sd;              // m, of a height that is known roughly
   std::filesystem::path subject_file;           // that states the subject; empty = the scene
   std::optional<InitialState> initial;
-  std::filesystem::path truth;    // empty = none
-  int first_frame = 0;            // time 0
-  std::optional<int> last_frame;  // inclusive; otherwise the end of the shortest video
+  std::optional<SubjectPlace> near;  // not with `initial`
+  std::filesystem::path truth;       // empty = none
+  int first_frame = 0;               // time 0
+  std::optional<int> last_frame;     // inclusive; otherwise the end of the shortest video
 };
 
 // The occluders that are present at a time, s after first_frame.

@@ -39,7 +39,6 @@ SubjectLengths read_lengths(const YamlValue& value) {
 }
 
 StatedSubject read_map(const YamlValue& value) {
-  value.only_keys({"height", "height_sd", "mass", "lengths"});
   StatedSubject out;
   out.height_stated = value.has("height");
   out.mass_stated = value.has("mass");
@@ -57,12 +56,17 @@ StatedSubject read_map(const YamlValue& value) {
 }  // namespace
 
 StatedSubject read_subject(const YamlValue& value, const std::filesystem::path& folder) {
-  if (!value.is_scalar()) return read_map(value);
+  if (!value.is_scalar()) {
+    value.only_keys({"height", "height_sd", "mass", "lengths", "near"});
+    return read_map(value);
+  }
   const std::filesystem::path file = resolved(folder, value.text());
   if (std::error_code ignored; !std::filesystem::is_regular_file(file, ignored))
     value.fail(fmt::format("'{}'", value.text()),
                fmt::format("a map, or a file that exists ({} does not)", file.string()));
-  StatedSubject out = read_map(YamlValue::from_file(file.string()));
+  const YamlValue map = YamlValue::from_file(file.string());
+  map.only_keys({"height", "height_sd", "mass", "lengths"});
+  StatedSubject out = read_map(map);
   out.file = file;
   return out;
 }

@@ -22,8 +22,8 @@ struct StatedSubject {
   std::filesystem::path file;  // which states it; empty = the scene itself
 };
 
-// The value of `subject`: a map, or the path of a file, relative to `folder`. InputErrors name the
-// file that has the mistake.
+// The value of `subject`: a map, or the path of a file, relative to `folder`. A map may have the
+// key `near`, which is the scene's. InputErrors name the file that has the mistake.
 StatedSubject read_subject(const YamlValue& value, const std::filesystem::path& folder);
 
 // The text of such a file. Usual values that nobody stated are left out.

@@ -62,6 +62,7 @@ Observer make_observer(const Scene& scene, const SceneCamera& camera, const Conf
 }
 
 void set_beginning(const Scene& scene, double frame_rate, TrackerScene& out) {
+  if (scene.near) out.near = {scene.near->position, scene.near->time * frame_rate};
   if (!scene.initial) return;
   const InitialState& given = *scene.initial;
   const double speed = given.speed.value_or(anthropometry::kUsualSpeed);

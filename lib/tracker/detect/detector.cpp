@@ -31,6 +31,9 @@ struct Window {
   size_t frames;
   double dt;  // s
   int threads;
+  LineCondition may_be{};  // of a line that is found
+
+  bool may_be_subject(const DetectedWalk& line) const { return !may_be || may_be(line); }
 };
 
 size_t stride_of_climb(const Window& window) {
@@ -286,8 +289,8 @@ bool worth_refining(const Walk& walk, const Window& window) {
 
 bool walks_on(const Walk& walk, const Window& window, const DetectorConfig& config) {
   const double speed = walk.line.velocity.norm();
-  return speed >= config.slowest && speed <= config.fastest && moves(window, walk.line) &&
-         seen_throughout(walk, window, config);
+  return speed >= config.slowest && speed <= config.fastest && window.may_be_subject(walk.line) &&
+         moves(window, walk.line) && seen_throughout(walk, window, config);
 }
 
 // The line that is `share` as far from a camera, of whose image it explains the same part.
@@ -309,6 +312,8 @@ std::optional<Walk> better_at_other_distance(const Walk& walk, const Window& win
     for (double times = kApart; times < kFarthest; times *= kApart)
       for (const double share : {times, 1 / times})
         others.push_back(looked_at(window, scaled(walk.line, camera, share)));
+  std::erase_if(others, [&](const Walk& other) { return !window.may_be_subject(other.line); });
+  if (others.empty()) return std::nullopt;
   std::vector<Walk> best{*std::ranges::max_element(others, {}, &Walk::score)};
   if (best[0].score <= walk.score) return std::nullopt;
   refine(window, camera_positions[0], kCoarseSteps, best);
@@ -339,9 +344,10 @@ std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
   // A climb may turn a line that fits a little worse than standing into a walk: with 1 the walk
   // before two telephones was found in another window (reports/search.md).
   constexpr double kTimesAsWell = 1.05;
-  const Window window{score, candidates.frames, dt, threads};
+  const Window window{score, candidates.frames, dt, threads, candidates.may_be};
   std::vector<Walk> walks = proposed_walks(candidates, dt, config);
   for (const DetectedWalk& line : candidates.lines) walks.push_back({line, 0});
+  std::erase_if(walks, [&](const Walk& walk) { return !window.may_be_subject(walk.line); });
   if (walks.empty()) return std::nullopt;
   parallel_for(walks.size(), threads, [&](size_t i) {
     walks[i].score = line_score({score, candidates.frames, dt, 1}, walks[i].line, kStride);

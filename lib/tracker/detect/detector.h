@@ -50,10 +50,14 @@ struct WindowEnds {
 };
 WindowEnds window_ends(size_t frames);
 
+// Whether a line may be the subject's.
+using LineCondition = std::function<bool(const DetectedWalk&)>;
+
 struct WindowCandidates {
   size_t frames;  // of the window
   std::span<const Place> early, late;
   std::span<const DetectedWalk> lines{};  // further lines to try, which do not come from candidates
+  LineCondition may_be{};                 // empty: any line may
 };
 
 // The walk through a window's frames, which are dt apart; nullopt if nobody walks there, or if the

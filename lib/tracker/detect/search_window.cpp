@@ -16,6 +16,10 @@ namespace {
 // Heights within so many deviations of what is known are tried. By hand.
 constexpr double kLikely = 3;
 
+// Somebody who walks straight on passes a place within this distance, m, and within so much more
+// for each second between the window and that moment. By hand.
+constexpr double kPasses = 0.5, kPassesLater = 0.3;
+
 // The walk in the window that is found with figures of another body.
 std::optional<DetectedWalk> look_for_walk(const SearchWindow& window, const BodyModel& model) {
   const TrackContext& context = window.context;
@@ -23,9 +27,9 @@ std::optional<DetectedWalk> look_for_walk(const SearchWindow& window, const Body
   const WindowEnds ends = window_ends(window.frames.size());
   const std::vector<Place> early = places_in_frame(window, ends.early, model.body, figures),
                            late = places_in_frame(window, ends.late, model.body, figures);
-  return detect_walk({window.frames.size(), early, late}, window_score(window, model.body, figures),
-                     context.scene.dt, camera_positions(context.scene), context.config.detector,
-                     context.threads);
+  return detect_walk({window.frames.size(), early, late, {}, subjects_lines(window)},
+                     window_score(window, model.body, figures), context.scene.dt,
+                     camera_positions(context.scene), context.config.detector, context.threads);
 }
 
 }  // namespace
@@ -80,6 +84,18 @@ std::vector<DetectedWalk> lines_by_keypoints(const SearchWindow& window) {
     }
   }
   return out;
+}
+
+LineCondition subjects_lines(const SearchWindow& window) {
+  const TrackerScene& scene = window.context.scene;
+  if (!scene.near) return {};
+  const double when = scene.near->frame - window.first_frame,
+               last = static_cast<double>(window.frames.size()) - 1;
+  const double outside = scene.dt * std::max({0.0, -when, when - last});
+  return [place = scene.near->position, seconds = scene.dt * when,
+          reach = kPasses + kPassesLater * outside](const DetectedWalk& walk) {
+    return (moved(walk, seconds).position - place).norm() < reach;
+  };
 }
 
 std::vector<Eigen::Vector2d> camera_positions(const TrackerScene& scene) {

@@ -36,6 +36,9 @@ std::vector<Place> places_in_frame(const SearchWindow& window, size_t index, con
 // The lines along which keypoints move at the speed of a walk.
 std::vector<DetectedWalk> lines_by_keypoints(const SearchWindow& window);
 
+// The lines past the place where the scene says that the subject is; empty if it does not say so.
+LineCondition subjects_lines(const SearchWindow& window);
+
 // The places of the cameras on the ground.
 std::vector<Eigen::Vector2d> camera_positions(const TrackerScene& scene);
 

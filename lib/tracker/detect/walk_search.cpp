@@ -105,10 +105,11 @@ std::optional<DetectedWalk> WalkSearch::find_here(const TrackContext& context,
   const SearchWindow window = view(context, moment);
   const WindowEnds ends = window_ends(window_.size());
   const std::vector<DetectedWalk> lines = lines_by_keypoints(window);
-  const std::optional<DetectedWalk> walk = detect_walk(
-      {window_.size(), candidates(window, ends.early), candidates(window, ends.late), lines},
-      window_score(window, context.body(), context.subject.figures), scene.dt,
-      camera_positions(scene), config, context.threads);
+  const std::optional<DetectedWalk> walk =
+      detect_walk({window_.size(), candidates(window, ends.early), candidates(window, ends.late),
+                   lines, subjects_lines(window)},
+                  window_score(window, context.body(), context.subject.figures), scene.dt,
+                  camera_positions(scene), config, context.threads);
   const std::optional<Reach> reach = reach_in_frame(context, moment.last_seen, moment.first_frame);
   const bool believed = walk && (!reach || reach->contains(walk->position)) &&
                         walks_clearly(context, moment.first_frame, *walk, clearly);
