@@ -133,7 +133,8 @@ TEST_F(SceneFile, ThePlaceOfTheSubjectHasToBeOne) {
     return message_for(kCamera + "subject: {near: " + near + "}\n");
   };
   EXPECT_THAT(message("{position: [2, -1]}"), HasSubstr("time"));
-  EXPECT_THAT(message("{time: 1}"), HasSubstr("camera"));
+  EXPECT_THAT(message("{time: 1}"), HasSubstr("neither 'position' nor 'feet_px'"));
+  EXPECT_THAT(message("{time: 1, feet_px: [3, 4]}"), HasSubstr("camera"));
   EXPECT_THAT(message("{time: 1, camera: b, feet_px: [3, 4]}"), HasSubstr("the name of a camera"));
   EXPECT_THAT(message("{time: 1, camera: a, feet_px: [30, -900]}"),
               HasSubstr("a pixel in which the camera sees the ground"));

@@ -327,6 +327,14 @@ TEST_F(Track, AnEmptySceneHasNobodyInIt) {
   EXPECT_EQ(run_json("empty").at("status"), "not found");
 }
 
+TEST_F(Track, NobodyPassesAPlaceWhereTheSubjectIsNot) {
+  TrackJob elsewhere = job(45, "elsewhere");
+  elsewhere.scene.near = {0.5, {3, 3}};
+  EXPECT_EQ(track_scene(elsewhere, {}).status, TrackStatus::kNotFound);
+  EXPECT_THAT(run_json("elsewhere").dump(),
+              testing::HasSubstr("only walks past (3.0, 3.0) m at 0.5 s count"));
+}
+
 TEST_F(Track, WhatWasToldToStopIsKeptAndMarked) {
   const std::atomic<bool> stop{true};
   JobControl control;

@@ -193,10 +193,13 @@ std::optional<InitialState> read_initial(const YamlValue& root, const WorldFrame
 // The place on the ground that a camera sees in a pixel.
 Eigen::Vector2d place_in_picture(const YamlValue& near, const std::vector<SceneCamera>& cameras) {
   const YamlValue name = near.at("camera"), feet = near.at("feet_px");
+  const std::vector<double> pixel = feet.numbers(2);
   const auto camera = std::ranges::find(cameras, name.text(), &SceneCamera::name);
   if (camera == cameras.end()) name.fail(name.describe_found(), "the name of a camera");
-  const auto place = ground_point(camera->camera, Eigen::Vector2d(feet.numbers(2).data()));
-  if (!place) feet.fail(feet.describe_found(), "a pixel in which the camera sees the ground");
+  const auto place = ground_point(camera->camera, Eigen::Vector2d(pixel.data()));
+  if (!place)
+    feet.fail(fmt::format("[{:g}, {:g}]", pixel[0], pixel[1]),
+              "a pixel in which the camera sees the ground");
   return place->head<2>();
 }
 
@@ -206,8 +209,10 @@ std::optional<SubjectPlace> read_near(const YamlValue& root, const Scene& scene)
   const YamlValue value = root.at("subject").at("near");
   value.only_keys({"time", "position", "camera", "feet_px"});
   if (scene.initial) value.fail("'near' and 'initial'", "one of them");
-  if (value.has("position") && value.has("feet_px"))
-    value.fail("'position' and 'feet_px'", "one of them");
+  if (value.has("position") == value.has("feet_px"))
+    value.fail(
+        value.has("position") ? "'position' and 'feet_px'" : "neither 'position' nor 'feet_px'",
+        "one of them");
   return SubjectPlace{value.at("time").number(0, 1e6),
                       value.has("position") ? ground_position(value.at("position"), scene.world)
                                             : place_in_picture(value, scene.cameras)};

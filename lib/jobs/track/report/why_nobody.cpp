@@ -117,8 +117,7 @@ class Looker {
                           // are smaller
 };
 
-std::string in_words(const Account& seen, const Looker& looker, const SearchedVideo& searched) {
-  const DetectorConfig& config = searched.config;
+std::string in_words(const Account& seen, const Looker& looker, const DetectorConfig& config) {
   if (seen.best.score < config.least_score && seen.best_small.score >= config.least_score) {
     return fmt::format(
         ": the person in the video is about {:.0f} px high, at least {:.0f} px are needed",
@@ -143,10 +142,18 @@ std::string in_words(const Account& seen, const Looker& looker, const SearchedVi
         seen.best.score, seen.speed, config.slowest);
   }
   return fmt::format(
-      ": a figure stands out ({:.0f} nats), but no straight walk of {:g} to {:g} m/s{} explains "
+      ": a figure stands out ({:.0f} nats), but no straight walk of {:g} to {:g} m/s explains "
       "{:g} s of it: it may be hidden, cut off by the picture's edge, or turn",
-      seen.best.score, config.slowest, config.fastest,
-      searched.scene.near ? " past the place that subject: near states" : "", config.window);
+      seen.best.score, config.slowest, config.fastest, config.window);
+}
+
+// Only lines past the subject's place are walks of the subject.
+std::string place_asked_for(const Scene& scene) {
+  if (!scene.near) return {};
+  const Vector2d& place = scene.near->position;
+  return fmt::format(
+      "; only walks past ({:.1f}, {:.1f}) m at {:g} s count, as subject: near states", place.x(),
+      place.y(), scene.near->time);
 }
 
 }  // namespace
@@ -162,7 +169,7 @@ std::string why_nobody(const SearchedVideo& searched, TrackSetup& setup, double 
   if (looker.least_px() == 0) {
     return ": no place on the ground shows a person whole and large enough in all cameras";
   }
-  return in_words(looker.look(control), looker, searched);
+  return in_words(looker.look(control), looker, searched.config) + place_asked_for(searched.scene);
 }
 
 }  // namespace jobs
