@@ -121,6 +121,13 @@ TEST_F(MovedThingsTest, PeopleAreNot) {
     picture(cv::Rect(60 - half, 20, 2 * half, 30 + 4 * frame)) = kClothes;
   };
   EXPECT_EQ(corrected(empty, comes_nearer).from_video, 0);
+  const auto far_away = [](int frame, cv::Mat& picture) {
+    const bool left = frame % 2 == 0;  // the arm and the leg in front
+    picture(cv::Rect(60, 20, 16, 30)) = kClothes;
+    picture(cv::Rect(left ? 76 : 56, 24, 4, 20)) = kClothes;
+    picture(cv::Rect(left ? 58 : 70, 50, 8, 20)) = kClothes;
+  };
+  EXPECT_EQ(corrected(empty, far_away).from_video, 0);
 }
 
 TEST_F(MovedThingsTest, FewFramesAndSmallThingsSayNothing) {

@@ -14,11 +14,13 @@ inline namespace observation {
 
 namespace {
 
-// By hand. Fewest frames that are compared; the share of them that is nearly all; the area of the
-// pixels that differ in and around a thing, in a frame, as a multiple of its own; how far its edge
-// reaches beyond what is sure, px.
+// By hand. Fewest frames that are compared; the share of them that is nearly all; within how many
+// pixels around a thing, and in which share of them and of the frames at most, the video differs as
+// well; how far the edge of a thing reaches beyond what is sure, px.
 constexpr int kFewestCompared = 4;
-constexpr double kNearlyAlways = 0.75, kMostAround = 1.5;
+constexpr double kNearlyAlways = 0.75;
+constexpr int kAround = 2;
+constexpr double kMostAround = 0.2;
 constexpr int kThingEdge = 2;
 
 const auto kLogAnyColour = static_cast<float>(-3 * std::log(256.0));
@@ -71,31 +73,6 @@ struct Areas {
   size_t count = 0;
 };
 
-// For each area, the pixels that differ in a frame in and around it, as a multiple of those that
-// belong to areas; 0 if none differ.
-std::vector<double> pixels_around(const Areas& areas, const cv::Mat& unlike_empty) {
-  const Areas differing(opened(unlike_empty));
-  std::vector<double> inside(differing.count), out(areas.count);
-  std::vector<std::vector<size_t>> parts(areas.count);  // labels of what differs, by area
-  for (int y = 0; y < unlike_empty.rows; ++y) {
-    for (int x = 0; x < unlike_empty.cols; ++x) {
-      const size_t here = areas.label(x, y), part = differing.label(x, y);
-      if (here == 0 || part == 0) continue;
-      inside[part] += 1;
-      if (std::ranges::find(parts[here], part) == parts[here].end()) parts[here].push_back(part);
-    }
-  }
-  for (size_t k = 1; k < areas.count; ++k) {
-    double around = 0, within = 0;
-    for (const size_t part : parts[k]) {
-      around += differing.area(part);
-      within += inside[part];
-    }
-    if (within > 0) out[k] = around / within;
-  }
-  return out;
-}
-
 // 255 in the areas that are chosen.
 cv::Mat mask_of(const Areas& areas, const std::vector<bool>& chosen) {
   cv::Mat out(areas.labels.size(), CV_8U);
@@ -118,16 +95,18 @@ cv::Mat possible_things(const cv::Mat& always, const cv::Mat& nearly_always, dou
   return mask_of(wide, chosen);
 }
 
-// Those beyond which the pixels that differ in each of some frames do not go on, with their edges.
-cv::Mat lasting_things(const cv::Mat& possible, std::span<const cv::Mat> unlike_empty) {
+// Those whose surroundings mostly look like the empty scene, with their edges. `unlike_count`: in
+// how many of `frames` frames pixels do not.
+cv::Mat lasting_things(const cv::Mat& possible, const cv::Mat& unlike_count, int frames) {
   const Areas areas(possible);
-  std::vector<std::vector<double>> around(areas.count);
-  for (const cv::Mat& mask : unlike_empty) {
-    const std::vector<double> now = pixels_around(areas, mask);
-    for (size_t k = 0; k < areas.count; ++k) around[k].push_back(now[k]);
-  }
   std::vector<bool> lasting(areas.count, false);
-  for (size_t k = 1; k < areas.count; ++k) lasting[k] = core::median_of(around[k]) <= kMostAround;
+  for (size_t k = 1; k < areas.count; ++k) {
+    const cv::Mat area = areas.labels == static_cast<int>(k);
+    cv::Mat wide, near;
+    cv::dilate(area, near, square(3));
+    cv::dilate(area, wide, square(2 * kAround + 3));
+    lasting[k] = cv::mean(unlike_count, wide & ~near)[0] <= kMostAround * frames;
+  }
   cv::Mat out;
   cv::dilate(mask_of(areas, lasting), out, square(2 * kThingEdge + 1));
   return out;
@@ -174,23 +153,17 @@ bool MovedThings::possible() const {
          cv::countNonZero(opened(unlike_count_ == compared_)) >= least_px_ * least_px_;
 }
 
-std::vector<cv::Mat> MovedThings::unlike_in_frames(const BackgroundModel& model) const {
-  std::vector<cv::Mat> out;
-  for (int f = 0; f < frames_.frames(); ++f)
-    out.push_back(unlike(model, config_, frames_.frame(f), threads_));
-  return out;
-}
-
 BackgroundModel MovedThings::corrected() const {
   BackgroundModel out = empty_scene_;
   if (compared_ < kFewestCompared || !possible()) return out;
-  const cv::Mat things =
-      lasting_things(possible_things(unlike_count_ == compared_,
-                                     unlike_count_ >= kNearlyAlways * compared_, least_px_),
-                     unlike_in_frames(empty_scene_));
+  const cv::Mat possible = possible_things(unlike_count_ == compared_,
+                                           unlike_count_ >= kNearlyAlways * compared_, least_px_);
+  const cv::Mat things = lasting_things(possible, unlike_count_, compared_);
   if (cv::countNonZero(things) == 0) return out;
   const BackgroundModel seen = frames_.model(threads_);
-  const std::vector<cv::Mat> unlike_seen = unlike_in_frames(seen);
+  std::vector<cv::Mat> unlike_seen;
+  for (int f = 0; f < frames_.frames(); ++f)
+    unlike_seen.push_back(unlike(seen, config_, frames_.frame(f), threads_));
   const float light = relative_light(seen, out);
   size_t taken = 0, pixel = 0;
   for (int y = 0; y < out.height; ++y) {

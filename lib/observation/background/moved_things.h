@@ -3,12 +3,10 @@
 // model of the empty scene they are somebody who stands there throughout.
 //
 // Pixels belong to such a thing if no frame looks like the empty scene there, and most frames
-// look alike. A subject who hardly moves has such pixels, too; but in every frame the pixels that
-// differ go on beyond them, while those of a thing end where it ends.
+// look alike. A subject who hardly moves has such pixels, too; but around them are arms, legs and a
+// head that come and go, while a thing ends where the empty scene begins.
 // observation/reports/background.md has measurements.
 #pragma once
-
-#include <vector>
 
 #include <opencv2/core/mat.hpp>
 
@@ -34,8 +32,6 @@ class MovedThings {
   BackgroundModel corrected() const;
 
  private:
-  std::vector<cv::Mat> unlike_in_frames(const BackgroundModel& model) const;
-
   BackgroundConfig config_;
   const BackgroundModel& empty_scene_;
   double least_px_;
