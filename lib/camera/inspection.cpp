@@ -131,6 +131,12 @@ bool lens_covers_image(const Camera& camera) {
   return true;
 }
 
+double metres_per_px(const Camera& camera, const Eigen::Vector2d& place) {
+  const auto low = project(camera, {place.x(), place.y(), 0.5}),
+             high = project(camera, {place.x(), place.y(), 1.5});
+  return low && high ? 1 / (*high - *low).norm() : 0;
+}
+
 CameraInspection inspect_camera(const Camera& camera, double person_height) {
   const Vector3d right = camera.rotation.row(0), up = -camera.rotation.row(1),
                  ahead = camera.rotation.row(2);

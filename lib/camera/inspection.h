@@ -40,6 +40,10 @@ Eigen::Vector3d hips_at(const Eigen::Vector2d& place, double person_height);
 // Whether a point of the world is in the image of any camera.
 bool in_any_picture(std::span<const Camera> cameras, const Eigen::Vector3d& point);
 
+// Metres for each pixel of the image of a person who stands at a place on the ground, from the
+// middle of the body; 0 if the camera does not see it.
+double metres_per_px(const Camera& camera, const Eigen::Vector2d& place);
+
 // Whether somewhere a person is visible to `camera` from the feet to the top of the head, at least
 // half as high in the image as at its standing place, and at least the hips to `other`.
 bool share_a_view(const Camera& camera, const Camera& other, double person_height);

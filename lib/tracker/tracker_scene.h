@@ -30,8 +30,10 @@ struct TrackerScene {
     double frame;
   };
   std::optional<SubjectPlace> near{};
-  bool size_known = true;           // the height of the model is right; otherwise it is estimated
-  Stature stature = kUsualStature;  // what is known of it then
+  bool size_known = true;            // the height of the model is right; otherwise it is estimated
+  std::optional<Stature> stature{};  // what is known of it then; nullopt: nothing
+  // By camera: how many pixels of its video each pixel of `cameras` is; empty: one.
+  std::vector<int> shrink{};
 };
 
 // The detector's limits, adapted to the scene: outlines may count in part only, and keypoints alone

@@ -95,7 +95,7 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
   TrackerScene& out = setup.scene;
   const double gravity = scene.gravity.norm();
   out.size_known = scene.height_given;
-  if (scene.height_sd) out.stature = {scene.subject.height, *scene.height_sd};
+  if (scene.height_sd) out.stature = Stature{scene.subject.height, *scene.height_sd};
   out.model.body = make_body(scene.subject, config.body);
   out.model.walker = kneed_model(kneed_parameters(scene.subject, gravity));
   out.model.downhill = scene.gravity.head<2>();
@@ -110,6 +110,7 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
     const ObserverState* known = learned.empty() ? nullptr : &learned[setup.observers.size()];
     setup.observers.push_back(make_observer(scene, camera, config, out.model.body, known, control));
     out.cameras.push_back(setup.observers.back().camera());
+    out.shrink.push_back(setup.observers.back().shrink());
   }
   setup.detections = detections_of(scene, config, frame_rate);
   return setup;

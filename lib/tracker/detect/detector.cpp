@@ -32,6 +32,7 @@ struct Window {
   double dt;  // s
   int threads;
   LineCondition may_be{};  // of a line that is found
+  LinePrior known{};       // of the line that is searched
 
   bool may_be_subject(const DetectedWalk& line) const { return !may_be || may_be(line); }
 };
@@ -62,8 +63,10 @@ double log_prior(const DetectedWalk& line) {
 // the place of a line, above all its distance.
 double line_score(const Window& window, const DetectedWalk& line, size_t stride = 1) {
   const std::vector<double> scores = scores_along(window, line, line.velocity, stride);
+  const double looks = independent_looks(window.frames, window.dt);
+  const double known = window.known ? kStrangeFigure * kStrangeFigure * window.known(line) : 0;
   return std::accumulate(scores.begin(), scores.end(), 0.0) / double(scores.size()) +
-         log_prior(line) / independent_looks(window.frames, window.dt);
+         (log_prior(line) + known) / looks;
 }
 
 double mean_of_worst_third(std::vector<double> scores) {
@@ -379,8 +382,8 @@ std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
 }
 
 DetectedWalk nearest_walk(const DetectedWalk& walk, size_t frames, const WindowScore& score,
-                          double dt, const Vector2d& camera_position) {
-  const Window window{score, frames, dt, 1};
+                          double dt, const Vector2d& camera_position, const LinePrior& known) {
+  const Window window{score, frames, dt, 1, {}, known};
   std::vector<Walk> walks{looked_at(window, walk)};
   refine(window, camera_position, kCoarseSteps, walks);
   refine(window, camera_position, kFineSteps, walks);

@@ -50,6 +50,9 @@ struct WindowEnds {
 };
 WindowEnds window_ends(size_t frames);
 
+// What is known of a line before the images: the logarithm of its density, nats, up to a constant.
+using LinePrior = std::function<double(const DetectedWalk&)>;
+
 // Whether a line may be the subject's.
 using LineCondition = std::function<bool(const DetectedWalk&)>;
 
@@ -70,9 +73,11 @@ std::optional<DetectedWalk> detect_walk(const WindowCandidates& candidates,
                                         const DetectorConfig& config, int threads);
 
 // The line about `walk` that explains a window's frames best by this score, with its own score.
-// `camera_position`: of the camera along whose rays the distance is least certain.
+// `camera_position`: of the camera along whose rays the distance is least certain. `known`: what
+// else is known of the line; empty: nothing.
 DetectedWalk nearest_walk(const DetectedWalk& walk, size_t frames, const WindowScore& score,
-                          double dt, const Eigen::Vector2d& camera_position);
+                          double dt, const Eigen::Vector2d& camera_position,
+                          const LinePrior& known = {});
 
 // By how many nats the log-posterior of a line through `frames` frames, dt apart, grows if its
 // score grows by one nat for each frame: the errors of frames that are close in time are

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "body/kinematics.h"
+#include "camera/inspection.h"
 #include "core/median.h"
 #include "observation/silhouette/hidden_pixels.h"
 
@@ -20,13 +21,6 @@ namespace {
 // figures differ.
 constexpr double kMoment = 0.1;
 constexpr double kHidden = 0.1, kWhole = 0.05;
-
-// 0 if the camera does not see the place.
-double metres_per_px(const Camera& camera, const Eigen::Vector2d& place) {
-  const auto low = project(camera, {place.x(), place.y(), 0.5}),
-             high = project(camera, {place.x(), place.y(), 1.5});
-  return low && high ? 1 / (*high - *low).norm() : 0;
-}
 
 // The frames of a camera with the figures that walk along there.
 std::vector<CoveredFrame> covered_frames(const TrackContext& context, const DetectedWalk& walk,

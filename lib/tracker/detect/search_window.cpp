@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "camera/inspection.h"
 #include "core/anthropometry.h"
@@ -20,6 +21,9 @@ constexpr double kLikely = 3;
 // for each second between the window and that moment. By hand.
 constexpr double kPasses = 0.5, kPassesLater = 0.3;
 
+// Standard deviation of a velocity that a scene states, m/s: .2 of 1.2 m/s are 10 degrees. By hand.
+constexpr double kGivenVelocity = 0.2;
+
 // The walk in the window that is found with figures of another body.
 std::optional<DetectedWalk> look_for_walk(const SearchWindow& window, const BodyModel& model) {
   const TrackContext& context = window.context;
@@ -30,6 +34,17 @@ std::optional<DetectedWalk> look_for_walk(const SearchWindow& window, const Body
   return detect_walk({window.frames.size(), early, late, {}, subjects_lines(window)},
                      window_score(window, model.body, figures), context.scene.dt,
                      camera_positions(context.scene), context.config.detector, context.threads);
+}
+
+// Metres for each pixel of the video whose camera shows a person there largest.
+double least_metres_per_px(const TrackerScene& scene, const Eigen::Vector2d& place) {
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t c = 0; c < scene.cameras.size(); ++c) {
+    const double shrink = scene.shrink.empty() ? 1 : scene.shrink[c];
+    const double each = metres_per_px(scene.cameras[c], place) / shrink;
+    if (each > 0) least = std::min(least, each);
+  }
+  return least;
 }
 
 }  // namespace
@@ -104,7 +119,16 @@ std::vector<Eigen::Vector2d> camera_positions(const TrackerScene& scene) {
   return out;
 }
 
-SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double height) {
+LinePrior given_line(const TrackContext& context, const DetectedWalk& given) {
+  return [given, place_sd = context.subject.motion.given_position_sd](const DetectedWalk& line) {
+    return -0.5 *
+           ((line.position - given.position).squaredNorm() / (place_sd * place_sd) +
+            (line.velocity - given.velocity).squaredNorm() / (kGivenVelocity * kGivenVelocity));
+  };
+}
+
+SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double height,
+                   const LinePrior& known) {
   const TrackContext& context = window.context;
   const auto score = [&](double tried) -> WindowScore {
     const BodyModel model = with_height(context.scene.model, tried);
@@ -113,16 +137,18 @@ SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double 
       return window_score(window, body, figures)(frame, place, velocity);
     };
   };
-  return size_up(walk, height, context.scene.stature, window.frames.size(), score, context.scene.dt,
-                 camera_centre(context.scene.cameras[0]).head<2>());
+  return size_up(
+      walk, height, context.scene.stature, score,
+      {window.frames.size(), context.scene.dt, camera_centre(context.scene.cameras[0]).head<2>(),
+       least_metres_per_px(context.scene, walk.position), known});
 }
 
 SizedWalk best_size(const SearchWindow& window, const DetectedWalk& found) {
   const TrackContext& context = window.context;
+  const std::optional<Stature>& known = context.scene.stature;
   std::vector<SizedWalk> sizes{{{context.body().subject.height, 0}, found}};
   for (const double height : {1.3, 1.5, 1.6, 1.9}) {
-    if (std::abs(height - context.scene.stature.height) > kLikely * context.scene.stature.sd)
-      continue;
+    if (known && std::abs(height - known->height) > kLikely * known->sd) continue;
     const auto other = look_for_walk(window, with_height(context.scene.model, height));
     if (other) sizes.push_back({{height, 0}, *other});
   }

@@ -43,8 +43,12 @@ LineCondition subjects_lines(const SearchWindow& window);
 std::vector<Eigen::Vector2d> camera_positions(const TrackerScene& scene);
 
 // The height that explains the window best near that line, which was found with figures of
-// `height`.
-SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double height);
+// `height`. `known` as in nearest_walk.
+SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double height,
+                   const LinePrior& known = {});
+
+// What a scene says of the line of a walk whose start it gives.
+LinePrior given_line(const TrackContext& context, const DetectedWalk& given);
 
 // The size and the line that explain the window best. Figures of a wrong size may give a line that
 // is far off, so that the line is searched with other sizes, too.

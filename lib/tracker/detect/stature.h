@@ -5,10 +5,12 @@
 // top of the head shows how tall the person is. For each of several heights the best line near the
 // one that was found is searched (tracker/detect/detector.h). The peak of the log-posterior is the
 // height, its curvature gives the standard deviation (Laplace's approximation: Tierney & Kadane,
-// JASA 81, 1986).
+// JASA 81, 1986). Hair, shoes, clothes and posture make figures of a wrong size fit better, so that
+// the images of one video know less than that.
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "tracker/detect/detector.h"
 #include "tracker/state/particle.h"
@@ -20,10 +22,6 @@ struct Stature {
   double height, sd;  // m
 };
 
-// What is known of a height that nobody states: adults of both sexes, with a spread that is wide
-// enough for others if the images show them. By hand.
-inline constexpr Stature kUsualStature{1.70, 0.15};
-
 // The score of a figure of that height, m.
 using FigureScore = std::function<WindowScore(double height)>;
 
@@ -32,10 +30,19 @@ struct SizedWalk {
   DetectedWalk walk;  // its line for that height
 };
 
-// `walk`: the walk in a window's frames, dt apart, as it was found with figures of `height`.
-// `known`: of the height before the images. `camera_position` as in nearest_walk.
-SizedWalk size_up(const DetectedWalk& walk, double height, const Stature& known, size_t frames,
-                  const FigureScore& score, double dt, const Eigen::Vector2d& camera_position);
+// The frames of a window, dt apart, in which a person is seen.
+struct SizedWindow {
+  size_t frames;
+  double dt;                        // s
+  Eigen::Vector2d camera_position;  // as in nearest_walk
+  double metres_per_px;             // of the video that shows the person largest
+  LinePrior known{};                // of the line, as in nearest_walk
+};
+
+// `walk`: the walk in the window, as it was found with figures of `height`. `known`: of the height
+// before the images; nullopt: it is that of some adult, or of a child.
+SizedWalk size_up(const DetectedWalk& walk, double height, const std::optional<Stature>& known,
+                  const FigureScore& score, const SizedWindow& window);
 
 // The same person with another height, all lengths in proportion; lengths that a scene states stay
 // the same, and so does the mass.

@@ -139,7 +139,8 @@ SizedWalk WalkSearch::with_size(const TrackContext& context, const SearchMoment&
 
 SizedWalk WalkSearch::with_size_along(const TrackContext& context, const SearchMoment& moment,
                                       const DetectedWalk& walk) const {
-  return sized_up(view(context, moment), walk, context.body().subject.height);
+  return sized_up(view(context, moment), walk, context.body().subject.height,
+                  given_line(context, walk));
 }
 
 std::optional<StandingStart> WalkSearch::standing_lead(const TrackContext& context,

@@ -54,7 +54,7 @@ class WalkSearch {
   // That walk together with an estimate of the subject's height.
   SizedWalk with_size(const TrackContext& context, const SearchMoment& moment,
                       const DetectedWalk& walk) const;
-  // The same for a walk whose line is certain.
+  // The same for a walk whose start the scene gives.
   SizedWalk with_size_along(const TrackContext& context, const SearchMoment& moment,
                             const DetectedWalk& walk) const;
   // To be called when the size of the subject has changed.
