@@ -32,6 +32,7 @@ struct Region {
   double metres_per_px = .01;  // at the subject
   bool picture = false;        // whether the evidence has to contain the image itself
   bool points = true;          // whether a pose network may be run
+  PixelRect subject{};         // the part around the subject; empty: all of it
 };
 
 // The whole image, with the subject at the size given.

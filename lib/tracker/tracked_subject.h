@@ -20,6 +20,8 @@ struct TrackedSubject {
   bool wants_size() const { return !scene.size_known && !stature; }
   // `estimate`: nullopt if the height is not estimated.
   void set_height(double height, const std::optional<Stature>& estimate);
+  // Whether others near the subject are followed, whom outlines show.
+  bool follows_others() const { return config.others && scene.pictures; }
   // Whether keypoints count for more than outlines (tracker/start/keypoint_lead.h).
   bool keypoints_lead() const { return walktrack::keypoints_lead(scene.observation); }
   // From now on. A walk is then found by as little evidence as if there were keypoints alone.

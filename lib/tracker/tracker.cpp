@@ -19,6 +19,14 @@ size_t frames_between_windows(double dt) {
   return static_cast<size_t>(std::max(1L, std::lround(kBetweenWindows / dt)));
 }
 
+// Where the subject is in the newest frame; nullopt if nobody is followed.
+std::optional<Eigen::Vector2d> newest_place(const TrackMode& mode) {
+  if (const Tracking* now = std::get_if<Tracking>(&mode)) return now->mean_pose.root.head<2>();
+  const Starting* start = std::get_if<Starting>(&mode);
+  if (!start || start->hypotheses.frames() == 0) return std::nullopt;
+  return start->hypotheses.records().back().estimate.pose.root.head<2>();
+}
+
 }  // namespace
 
 Tracker::Tracker(TrackerScene scene, const GaitPrior& prior, const TrackerConfig& config,
@@ -54,11 +62,20 @@ std::vector<FrameRecord> Tracker::finish() {
 void Tracker::consume(const SceneEvidence& evidence, Records& out) {
   if (is_searching(mode_)) return search(evidence, out);
   const bool tracked = tracking();
-  Records records = follow(subject_.context(), evidence, frame_++, mode_);
-  if (records.size() <= waiting_.size()) waiting_.push_back(evidence);  // this frame waits as well
+  const std::optional<SceneEvidence> rest = without_others(evidence);
+  const SceneEvidence& subjects = rest ? *rest : evidence;
+  Records records = follow(subject_.context(), subjects, frame_++, mode_);
+  if (const auto newest = newest_place(mode_)) expect_subject(subject_.context(), *newest, people_);
+  if (records.size() <= waiting_.size()) waiting_.push_back(subjects);  // this frame waits as well
   if (held_enough(mode_)) records = decide_held(subject_.context(), waiting_, true, starts_, mode_);
-  report(std::move(records), evidence, out);
+  report(std::move(records), subjects, out);
   if (tracked && !tracking()) ++losses_;
+}
+
+std::optional<SceneEvidence> Tracker::without_others(const SceneEvidence& evidence) {
+  if (!subject_.follows_others()) return std::nullopt;
+  follow_others(subject_.context(), evidence, people_);
+  return walktrack::without_others(subject_.context(), people_, evidence);
 }
 
 // Frames of a start are reported when it has been decided who walks there, and which leg is which,
@@ -107,6 +124,7 @@ void Tracker::begin(WindowStart start, Records& out) {
   frame_ = start.first_frame + static_cast<uint32_t>(start.frames.size());
   waiting_ = std::move(start.frames);
   Tracking* now = std::get_if<Tracking>(&mode_);
+  people_ = std::move(start.people);
   if (now && holds_frames(subject_.context())) {
     now->held = held_start(subject_.context(), start.first_frame, std::move(start.records),
                            start.legs_in_doubt);
@@ -118,6 +136,7 @@ void Tracker::begin(WindowStart start, Records& out) {
 
 // Starts in the window's first frame at the place that the scene states.
 void Tracker::start_given(Records& out) {
+  people_ = alone(subject_.scene.initial->position, subject_.scene.initial->velocity);
   start_as_given(subject_, search_, frame_, starts_, mode_);
   for (const SceneEvidence& each : search_.take()) consume(each, out);
 }
@@ -125,7 +144,7 @@ void Tracker::start_given(Records& out) {
 TrackerState Tracker::state() const {
   const Tracking& now = tracked();
   return {frame_,    starts_,   now.filter.state(), now.monitor, losses_, now.p_legs_swapped,
-          now.speed, stature(), keypoints_lead()};
+          now.speed, stature(), keypoints_lead(),   people_};
 }
 
 void Tracker::resume(TrackerState state) {
@@ -137,6 +156,7 @@ void Tracker::resume(TrackerState state) {
   frame_ = state.frame;
   starts_ = state.starts;
   losses_ = state.losses;
+  people_ = std::move(state.people);
   if (state.stature) subject_.set_height(state.stature->height, state.stature);
   if (state.keypoints_lead) subject_.let_keypoints_lead();
 }

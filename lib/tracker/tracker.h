@@ -25,6 +25,7 @@
 
 #include "tracker/detect/walk_search.h"
 #include "tracker/modes/track_mode.h"
+#include "tracker/others/nearby_people.h"
 #include "tracker/start/window_start.h"
 #include "tracker/tracked_subject.h"
 
@@ -41,6 +42,7 @@ struct TrackerState {
   double speed = 0;  // m/s
   std::optional<Stature> stature;
   bool keypoints_lead = false;
+  NearbyPeople people;
 };
 
 class Tracker {
@@ -76,6 +78,9 @@ class Tracker {
   // The place of that mean over the ground; also after resume().
   Eigen::Vector2d mean_place() const { return walktrack::mean_place(tracked()); }
 
+  // Whether somebody else may be near the subject, so that more of the picture is of interest.
+  bool somebody_is_near() const { return tracking() && walktrack::somebody_is_near(people_); }
+
   // Times that the track was lost after it had been found.
   int losses() const { return losses_; }
   // The body that is tracked: the scene's model, until the height has been estimated if the scene
@@ -104,6 +109,7 @@ class Tracker {
   void begin(WindowStart start, Records& out);
   void start_given(Records& out);
   void report(Records records, const SceneEvidence& newest, Records& out);
+  std::optional<SceneEvidence> without_others(const SceneEvidence& evidence);
 
   const Tracking& tracked() const { return std::get<Tracking>(mode_); }
   // Whether the scene states a walk that has not been used yet.
@@ -111,6 +117,7 @@ class Tracker {
 
   TrackedSubject subject_;
   TrackMode mode_;
+  NearbyPeople people_;  // while the subject is followed
   WalkSearch search_;
   std::deque<SceneEvidence> waiting_;  // frames that are tracked and not reported yet
   uint32_t frame_ = 0;                 // the next to be tracked

@@ -36,6 +36,8 @@ struct TrackerConfig {
   // Whether frames before several cameras are held back, so that a track whose legs switch, or
   // that leaves the legs, can be started again (tracker/start/new_start.h).
   bool start_again = true;
+  // Whether other people near the subject are followed (tracker/others/nearby_people.h).
+  bool others = true;
 };
 
 }  // namespace tracker

@@ -119,12 +119,30 @@ void fields(Archive& archive, T& value) {
   archive(last_seen, log_likelihoods, a_count(below), a_count(outscored), a_count(off), fits);
 }
 
+template <typename Archive, ArchivedAs<MovingPerson> T>
+void fields(Archive& archive, T& value) {
+  auto& [mean, covariance] = value;
+  archive(mean, covariance);
+}
+
+template <typename Archive, ArchivedAs<OtherPerson> T>
+void fields(Archive& archive, T& value) {
+  auto& [place, seen, unseen] = value;
+  archive(place, a_count(seen), a_count(unseen));
+}
+
+template <typename Archive, ArchivedAs<NearbyPeople> T>
+void fields(Archive& archive, T& value) {
+  auto& [subject, usual_score, frames, others] = value;
+  archive(subject, usual_score, a_count(frames), others);
+}
+
 template <typename Archive, ArchivedAs<TrackerState> T>
 void fields(Archive& archive, T& value) {
-  auto& [frame, starts, filter, monitor, losses, p_legs_swapped, speed, stature, keypoints_lead] =
-      value;
+  auto& [frame, starts, filter, monitor, losses, p_legs_swapped, speed, stature, keypoints_lead,
+         people] = value;
   archive(frame, starts, filter, monitor, a_count(losses), a_share(p_legs_swapped), speed, stature,
-          keypoints_lead);
+          keypoints_lead, people);
 }
 
 template <typename Archive, ArchivedAs<BackgroundModel> T>
@@ -149,8 +167,8 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<Region> T>
 void fields(Archive& archive, T& value) {
-  auto& [area, metres_per_px, picture, points] = value;
-  archive(area, metres_per_px, picture, points);
+  auto& [area, metres_per_px, picture, points, subject] = value;
+  archive(area, metres_per_px, picture, points, subject);
 }
 
 template <typename Archive, ArchivedAs<GreyImage> T>

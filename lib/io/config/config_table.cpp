@@ -179,6 +179,8 @@ void add_track(ParameterTable& table) {
       "time after which the track is lost if the figure lies on none of the detected people, s");
   m.number("reacquire_within", &M::reacquire_within, 0, 1000,
            "time for which a lost subject is searched only within walking distance, s");
+  t.flag("others", &T::others,
+         "whether other people near the subject are followed, so that their pixels do not count");
   t.number("model_error", &T::model_error, 0, 100,
            "factor on the part of the 90 % bands that is not the particles' spread");
   t.choice("estimate", &T::estimate,

@@ -195,12 +195,20 @@ Region TrackRun::region(size_t camera) const {
     region.picture = tracker_.wants_picture();
     return region;
   }
-  constexpr double kReach = 0.5;  // m around the last pose, for the limbs
-  constexpr double kHasty = 0.5;  // m/s; error of the speed that the search region allows for
-  Region region = person_region(setup_.scene.cameras[camera], tracker_.mean_place(),
-                                tracker_.body().subject.height,
-                                kReach + 2 * setup_.scene.dt * (tracker_.speed() + kHasty));
-  region.points = !in_doubt_only() || names_.in_doubt();
+  constexpr double kReach = 0.5;   // m around the last pose, for the limbs
+  constexpr double kHasty = 0.5;   // m/s; error of the speed that the search region allows for
+  constexpr double kOthers = 1.5;  // m around that, in which somebody else is followed
+  const auto around = [&](double margin) {
+    return person_region(setup_.scene.cameras[camera], tracker_.mean_place(),
+                         tracker_.body().subject.height, margin);
+  };
+  const double margin = kReach + 2 * setup_.scene.dt * (tracker_.speed() + kHasty);
+  Region region = around(margin);
+  region.points = !region.area.empty() && (!in_doubt_only() || names_.in_doubt());
+  if (tracker_.somebody_is_near()) {
+    region.subject = region.area;
+    region.area = around(margin + kOthers).area;
+  }
   return region;
 }
 

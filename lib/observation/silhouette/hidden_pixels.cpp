@@ -28,18 +28,6 @@ int reach_px(double metres, double metres_per_px) {
   return std::max(1, static_cast<int>(std::lround(metres / metres_per_px)));
 }
 
-// The log-ratio of the part that explains each pixel of a row best, nats.
-void best_ratios(const LogRatioPlanes& planes, int y, std::span<float> out) {
-  constexpr auto kUnit = static_cast<float>(1 / LogRatioPlanes::kNat);
-  for (int plane = 0; plane < planes.count; ++plane) {
-    const std::span<const int32_t> row = planes.row(plane, y);
-    for (size_t x = 0; x < out.size(); ++x) {
-      const float ratio = kUnit * static_cast<float>(row[x + 1] - row[x]);
-      out[x] = plane == 0 ? ratio : std::max(out[x], ratio);
-    }
-  }
-}
-
 cv::Mat ratio_image(const LogRatioPlanes& planes) {
   const PixelRect& area = planes.area;
   cv::Mat out(area.height(), area.width(), CV_32F);

@@ -31,6 +31,17 @@ void set_row(LogRatioPlanes& planes, int plane, int y, std::span<const float> lo
   }
 }
 
+void best_ratios(const LogRatioPlanes& planes, int y, std::span<float> out) {
+  constexpr auto kUnit = static_cast<float>(1 / LogRatioPlanes::kNat);
+  for (int plane = 0; plane < planes.count; ++plane) {
+    const std::span<const int32_t> row = planes.row(plane, y);
+    for (size_t x = 0; x < out.size(); ++x) {
+      const float ratio = kUnit * static_cast<float>(row[x + 1] - row[x]);
+      out[x] = plane == 0 ? ratio : std::max(out[x], ratio);
+    }
+  }
+}
+
 double log_ratio_at(const LogRatioPlanes& planes, Appearance appearance, int x, int y) {
   const PixelRect& area = planes.area;
   if (planes.count == 0 || x < area.x0 || x >= area.x1 || y < area.y0 || y >= area.y1) return 0;

@@ -58,6 +58,9 @@ void resize(LogRatioPlanes& planes, const PixelRect& area, int count);
 void set_row(LogRatioPlanes& planes, int plane, int y, std::span<const float> log_ratios,
              double clip);
 
+// The log-ratio of the part that explains each pixel of a row best, nats.
+void best_ratios(const LogRatioPlanes& planes, int y, std::span<float> out);
+
 // The log-ratio of one pixel, nats; 0 outside the area.
 double log_ratio_at(const LogRatioPlanes& planes, Appearance appearance, int x, int y);
 

@@ -231,7 +231,32 @@ void WalkSearch::weigh_at(const TrackContext& context, FoundWalk& found) {
   for (DetectedWalk* walk : walks) walk->score += mean_score(context, *walk);
 }
 
-void WalkSearch::weigh_as_searched() {
+NearbyPeople WalkSearch::hide_others(const TrackContext& context, FoundWalk& found) {
+  NearbyPeople people = alone(found.walk.position, found.walk.velocity);
+  const auto expect_in = [&](size_t frame) {
+    const DetectedWalk then = moved(found.walk, double(frame) * context.scene.dt);
+    people.subject.mean << then.position, then.velocity;
+  };
+  std::vector<std::pair<size_t, SceneEvidence>> rest;
+  for (size_t i = 0; i < window_.size(); ++i) {
+    expect_in(i);
+    follow_others(context, window_[i], people);
+    if (auto without = without_others(context, people, window_[i]))
+      rest.emplace_back(i, *std::move(without));
+  }
+  expect_in(window_.size());
+  if (rest.empty()) return people;
+  std::vector<DetectedWalk*> walks{&found.walk};
+  if (found.first) walks.push_back(&*found.first);
+  for (DetectedWalk* walk : walks) walk->score -= mean_score(context, *walk);
+  for (auto& [i, without] : rest) std::swap(window_[i], without);
+  for (DetectedWalk* walk : walks) walk->score += mean_score(context, *walk);
+  with_others_ = std::move(rest);
+  return people;
+}
+
+void WalkSearch::restore_evidence() {
+  for (auto& [i, frame] : std::exchange(with_others_, {})) window_[i] = std::move(frame);
   for (std::deque<SceneEvidence>* frames : {&waiting_, &window_}) {
     for (SceneEvidence& frame : *frames) {
       for (size_t c = 0; c < search_weights_.size(); ++c)
@@ -257,6 +282,7 @@ std::deque<SceneEvidence> WalkSearch::take() {
   passed_.reset();
   slight_walks_ = {};
   search_weights_.clear();
+  with_others_.clear();
   return std::exchange(window_, {});
 }
 

@@ -4,11 +4,13 @@
 
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "tracker/detect/search_window.h"
 #include "tracker/detect/slight_walks.h"
 #include "tracker/detect/standing_start.h"
+#include "tracker/others/nearby_people.h"
 
 namespace walktrack {
 inline namespace tracker {
@@ -82,8 +84,11 @@ class WalkSearch {
   // Weighs the pixels of all frames as those of a subject at the places of a walk, whose score
   // changes accordingly; frames come with the weights of a subject at a usual distance.
   void weigh_at(const TrackContext& context, FoundWalk& found);
-  // Undoes this.
-  void weigh_as_searched();
+  // Follows others who are near the walk through the window; from then on their pixels are no
+  // evidence, and the score of the walk changes accordingly. Returns who is near after the window.
+  NearbyPeople hide_others(const TrackContext& context, FoundWalk& found);
+  // Undoes both.
+  void restore_evidence();
 
   // Moves the beginning of the window forward by a frame. Returns whether the oldest of the frames
   // that wait was dropped.
@@ -118,6 +123,7 @@ class WalkSearch {
   std::optional<size_t> passed_;  // windows since the last one that was looked at
   SlightWalks slight_walks_;      // of the newest windows
   std::optional<HalfHidden> half_hidden_;
+  std::vector<std::pair<size_t, SceneEvidence>> with_others_;  // frames of the window, before
   std::vector<double> search_weights_;  // by camera, while the frames are weighed at a walk
 };
 

@@ -17,6 +17,7 @@ struct SearchedWindow {
   uint32_t& starts;
   TrackMode& mode;
   bool outlines_misled = false;  // in one of the trials
+  NearbyPeople people{};         // after the window
 
   const Searching& searching() const { return std::get<Searching>(mode); }
   SearchMoment moment() const { return {first_frame, searching().last_seen}; }
@@ -49,8 +50,12 @@ std::optional<WindowStart> start_of(SearchedWindow& window, std::optional<Trial>
   search.reach_back(lead);
   window.mode = std::move(trial->mode);
   const size_t untracked = search.waiting();
-  return WindowStart{search.take(), window.first_frame - static_cast<uint32_t>(lead),
-                     std::move(trial->records), trial->legs_in_doubt, untracked};
+  return WindowStart{search.take(),
+                     window.first_frame - static_cast<uint32_t>(lead),
+                     std::move(trial->records),
+                     trial->legs_in_doubt,
+                     untracked,
+                     std::move(window.people)};
 }
 
 std::optional<WindowStart> start_at(SearchedWindow& window, const DetectedWalk& walk, size_t lead) {
@@ -89,9 +94,16 @@ void weigh_at(SearchedWindow& window, FoundWalk& found) {
     window.search.weigh_at(window.subject.context(), found);
 }
 
+// What is evidence about somebody who walks there.
+void prepare_evidence(SearchedWindow& window, FoundWalk& found) {
+  weigh_at(window, found);
+  if (window.subject.follows_others())
+    window.people = window.search.hide_others(window.subject.context(), found);
+}
+
 // Starts where the subject stands before the walk, if they do; otherwise with the walk.
 std::optional<WindowStart> start_sized(SearchedWindow& window, FoundWalk found) {
-  weigh_at(window, found);
+  prepare_evidence(window, found);
   const auto standing = found.lead == 0
                             ? window.search.standing_lead(window.subject.context(), found.walk)
                             : std::nullopt;
@@ -109,7 +121,7 @@ std::optional<WindowStart> start_unsized(SearchedWindow& window, const FoundWalk
       window.search.with_size(window.subject.context(), window.moment(), found.walk);
   set_height(window, sized.stature.height, sized.stature);
   FoundWalk walk{sized.walk, found.lead};
-  weigh_at(window, walk);
+  prepare_evidence(window, walk);
   std::optional<WindowStart> start = start_walking(window, walk);
   if (!start) set_height(window, height_before, std::nullopt);
   return start;
@@ -121,7 +133,7 @@ std::optional<WindowStart> start_with_walk(SearchedWindow& window) {
   if (!walk) return std::nullopt;
   std::optional<WindowStart> start =
       window.subject.wants_size() ? start_unsized(window, *walk) : start_sized(window, *walk);
-  if (!start) window.search.weigh_as_searched();
+  if (!start) window.search.restore_evidence();
   return start;
 }
 

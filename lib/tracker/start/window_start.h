@@ -25,6 +25,7 @@ struct WindowStart {
   std::vector<FrameRecord> records;  // of those that are finished
   bool legs_in_doubt;                // before several cameras
   size_t untracked;                  // number of frames before them in which nobody was tracked
+  NearbyPeople people;               // after the window
 };
 
 // `first_frame` is the number of the window's first frame, `starts` the number of trials so far.

@@ -53,8 +53,8 @@ bool alike(const CutOut& a, const CutOut& b) {
 
 CutOut cut_out_around(const Region& region, int shrink, double height) {
   const double side = kCutOutMargin * height / region.metres_per_px * shrink;
-  return square(0.5 * shrink * (region.area.x0 + region.area.x1),
-                0.5 * shrink * (region.area.y0 + region.area.y1), side);
+  const PixelRect& there = region.subject.empty() ? region.area : region.subject;
+  return square(0.5 * shrink * (there.x0 + there.x1), 0.5 * shrink * (there.y0 + there.y1), side);
 }
 
 std::optional<CutOut> cut_out_around(const DetectedPerson& person) {
