@@ -75,7 +75,9 @@ void Tracker::consume(const SceneEvidence& evidence, Records& out) {
 std::optional<SceneEvidence> Tracker::without_others(const SceneEvidence& evidence) {
   if (!subject_.follows_others()) return std::nullopt;
   follow_others(subject_.context(), evidence, people_);
-  return walktrack::without_others(subject_.context(), people_, evidence);
+  auto rest = walktrack::without_others(subject_.context(), people_, evidence);
+  if (rest) ++frames_beside_others_;
+  return rest;
 }
 
 // Frames of a start are reported when it has been decided who walks there, and which leg is which,
@@ -143,8 +145,17 @@ void Tracker::start_given(Records& out) {
 
 TrackerState Tracker::state() const {
   const Tracking& now = tracked();
-  return {frame_,    starts_,   now.filter.state(), now.monitor, losses_, now.p_legs_swapped,
-          now.speed, stature(), keypoints_lead(),   people_};
+  return {frame_,
+          starts_,
+          now.filter.state(),
+          now.monitor,
+          losses_,
+          now.p_legs_swapped,
+          now.speed,
+          stature(),
+          keypoints_lead(),
+          people_,
+          frames_beside_others_};
 }
 
 void Tracker::resume(TrackerState state) {
@@ -157,6 +168,7 @@ void Tracker::resume(TrackerState state) {
   starts_ = state.starts;
   losses_ = state.losses;
   people_ = std::move(state.people);
+  frames_beside_others_ = state.frames_beside_others;
   if (state.stature) subject_.set_height(state.stature->height, state.stature);
   if (state.keypoints_lead) subject_.let_keypoints_lead();
 }

@@ -43,6 +43,7 @@ struct TrackerState {
   std::optional<Stature> stature;
   bool keypoints_lead = false;
   NearbyPeople people;
+  int frames_beside_others = 0;
 };
 
 class Tracker {
@@ -80,6 +81,9 @@ class Tracker {
 
   // Whether somebody else may be near the subject, so that more of the picture is of interest.
   bool somebody_is_near() const { return tracking() && walktrack::somebody_is_near(people_); }
+
+  // Tracked frames in which pixels of others were left out, except in the window of a search.
+  int frames_beside_others() const { return frames_beside_others_; }
 
   // Times that the track was lost after it had been found.
   int losses() const { return losses_; }
@@ -123,6 +127,7 @@ class Tracker {
   uint32_t frame_ = 0;                 // the next to be tracked
   uint32_t starts_ = 0;                // tried
   int losses_ = 0;
+  int frames_beside_others_ = 0;
 };
 
 }  // namespace tracker

@@ -33,6 +33,7 @@ inline TrackerState sample_tracker() {
   out.people.subject = moving_person({1, 2}, place, {0.5, 1}, 0.5);
   out.people.usual_score = 40;
   out.people.frames = 9;
+  out.frames_beside_others = 4;
   out.people.others = {{moving_person({3, 2}, place, {0, -1}, 0.25), 5, 2}};
   return out;
 }

@@ -158,6 +158,7 @@ class TrackBesideOthers : public NearbyPeopleTest {
     };
     for (const SceneEvidence& frame : window_) keep(tracker.push(frame));
     EXPECT_EQ(tracker.somebody_is_near(), others);
+    EXPECT_EQ(tracker.frames_beside_others() > 5, others);
     keep(tracker.finish());
     double least = 1;
     for (const FrameRecord& record : records)

@@ -175,6 +175,10 @@ std::vector<std::string> TrackRun::notes() const {
   for (size_t c = 0; c < setup_.observers.size(); ++c)
     std::ranges::move(notes_on_pictures(job_.scene.cameras[c].name, setup_.observers[c]),
                       std::back_inserter(out));
+  if (frames_beside_others() > 0)
+    out.push_back(
+        fmt::format("somebody else was near the subject; their pixels were left out in {} frames",
+                    frames_beside_others()));
   if (setup_.scene.cameras.size() == 1) {
     const auto note = viewing_ray_note(motion_of(frames_), setup_.scene.cameras[0]);
     if (note) out.push_back(*note);

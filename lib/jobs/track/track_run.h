@@ -68,6 +68,7 @@ class TrackRun {
   int first_frame() const { return static_cast<int>(first_frame_); }
   int frames_read() const { return static_cast<int>(frames_read_); }
   int losses() const { return tracker_.losses(); }
+  int frames_beside_others() const { return tracker_.frames_beside_others(); }
   std::optional<Stature> stature() const { return tracker_.stature(); }
   const BodyModel& model() const { return tracker_.model(); }
   bool keypoints_lead() const { return tracker_.keypoints_lead(); }

@@ -127,6 +127,7 @@ RunNumbers numbers_of(const TrackJob& job, const TrackRun& run, const TrackedFra
                  {"lost_frames", double(counts.lost - out_of_picture)},
                  {"out_of_picture_frames", double(out_of_picture)},
                  {"losses", double(run.losses())},
+                 {"frames_beside_others", double(run.frames_beside_others())},
                  {"foot_changes", double(foot_changes(frames))},
                  {"fallen_particles", double(counts.fallen)},
                  {"diverged_particles", double(counts.diverged)},
