@@ -15,6 +15,19 @@ namespace {
 constexpr double kSlowestTemplate = 0.5, kTemplateStep = 0.2;
 constexpr int kPages = 9;
 
+// The largest log-likelihood of the figures with their roots above `position`.
+template <typename F>
+double best_of_figures(const Body& body, std::span<const Pose> figures,
+                       const Eigen::Vector2d& position, double heading, const F& log_likelihood) {
+  double best = -std::numeric_limits<double>::infinity();
+  for (Pose pose : figures) {
+    pose.root.head<2>() = position;
+    pose.heading = heading;
+    best = std::max(best, log_likelihood(PosedBody(body, pose)));
+  }
+  return best;
+}
+
 }  // namespace
 
 DetectorConfig detector_for(const TrackerScene& scene, DetectorConfig config) {
@@ -60,17 +73,24 @@ std::span<const Pose> PoseTemplates::at(double speed, double heading) const {
 
 double place_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
                    std::span<const Pose> figures, const Eigen::Vector2d& position, double heading) {
-  double best = -std::numeric_limits<double>::infinity();
-  for (Pose pose : figures) {
-    pose.root.head<2>() = position;
-    pose.heading = heading;
-    const PosedBody posed(body, pose);
+  return best_of_figures(body, figures, position, heading, [&](const PosedBody& posed) {
     double sum = 0;
     for (size_t c = 0; c < evidence.size(); ++c)
       sum += still_log_likelihood(scene.observation, evidence[c], scene.cameras[c], posed);
-    best = std::max(best, sum);
-  }
-  return best;
+    return sum;
+  });
+}
+
+double outline_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
+                     std::span<const Pose> figures, const Eigen::Vector2d& position,
+                     double heading) {
+  return best_of_figures(body, figures, position, heading, [&](const PosedBody& posed) {
+    double sum = 0;
+    for (size_t c = 0; c < evidence.size(); ++c)
+      sum += SilhouetteTerm::log_likelihood(scene.observation, evidence[c], scene.cameras[c], posed,
+                                            nullptr);
+    return sum;
+  });
 }
 
 }  // namespace tracker

@@ -70,5 +70,10 @@ class PoseTemplates {
 double place_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
                    std::span<const Pose> figures, const Eigen::Vector2d& position, double heading);
 
+// The same by outlines alone.
+double outline_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
+                     std::span<const Pose> figures, const Eigen::Vector2d& position,
+                     double heading);
+
 }  // namespace tracker
 }  // namespace walktrack

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/LU>
 
@@ -60,27 +59,17 @@ Eigen::Matrix2d look_information(const Eigen::Matrix2d& axes) {
   return axes * each.asDiagonal() * axes.transpose();
 }
 
-// Of the figure there, by outlines alone, nats.
-double outline_score(const TrackContext& context, const SceneEvidence& evidence,
-                     const Vector2d& place, const Vector2d& velocity) {
+// Of a figure that walks there, by outlines alone, nats.
+double walker_score(const TrackContext& context, const SceneEvidence& evidence,
+                    const Vector2d& place, const Vector2d& velocity) {
   const double heading = std::atan2(velocity.y(), velocity.x());
-  double best = -std::numeric_limits<double>::infinity();
-  for (Pose pose : context.subject.figures.at(velocity.norm(), heading)) {
-    pose.root.head<2>() = place;
-    pose.heading = heading;
-    const PosedBody posed(context.body(), pose);
-    double sum = 0;
-    for (size_t c = 0; c < evidence.size(); ++c)
-      sum += SilhouetteTerm::log_likelihood(context.scene.observation, evidence[c],
-                                            context.scene.cameras[c], posed, nullptr);
-    best = std::max(best, sum);
-  }
-  return best;
+  return outline_score(context.scene, evidence, context.body(),
+                       context.subject.figures.at(velocity.norm(), heading), place, heading);
 }
 
-// Moves `place` along the axes to the largest value nearby, and returns that value.
+// Moves `place` along the axes to the largest value nearby.
 template <typename F>
-double climb(const F& value, const Eigen::Matrix2d& axes, Vector2d& place) {
+void climb(const F& value, const Eigen::Matrix2d& axes, Vector2d& place) {
   double best = value(place);
   for (double step = kClimb; step > kLastClimb; step /= 2) {
     for (int i = 0; i < kClimbsOfStep; ++i) {
@@ -98,7 +87,6 @@ double climb(const F& value, const Eigen::Matrix2d& axes, Vector2d& place) {
       if (place == from) break;
     }
   }
-  return best;
 }
 
 // `theirs`: the evidence that belongs to that person. `least`: the smallest score of somebody seen.
@@ -112,11 +100,11 @@ void follow(const TrackContext& context, const SceneEvidence& theirs, double lea
   climb(
       [&](const Vector2d& tried) {
         const Vector2d off = tried - expected.position();
-        return looks * outline_score(context, theirs, tried, expected.velocity()) -
+        return looks * walker_score(context, theirs, tried, expected.velocity()) -
                0.5 * off.dot(inverse * off);
       },
       axes, place);
-  const double score = outline_score(context, theirs, place, expected.velocity());
+  const double score = walker_score(context, theirs, place, expected.velocity());
   if (score < least) {
     other.place = expected;
     ++other.unseen;
@@ -226,13 +214,13 @@ std::optional<Vector2d> somebody_new(const TrackContext& context, const SceneEvi
       rest = outlines_of(evidence);
       hide_people(context, known_places(people), kNewMargin, rest);
     }
-    const double score = outline_score(context, rest, place, slowly);
+    const double score = walker_score(context, rest, place, slowly);
     if (score <= most) continue;
     most = score;
     best = place;
   }
   if (!best) return std::nullopt;
-  climb([&](const Vector2d& tried) { return outline_score(context, rest, tried, slowly); },
+  climb([&](const Vector2d& tried) { return walker_score(context, rest, tried, slowly); },
         ray_axes(context, *best), *best);
   return is_apart(people, *best) ? best : std::nullopt;
 }
@@ -251,7 +239,7 @@ void follow_others(const TrackContext& context, const SceneEvidence& evidence,
                    NearbyPeople& people) {
   const double dt = context.scene.dt;
   const double own =
-      outline_score(context, evidence, people.subject.position(), people.subject.velocity());
+      walker_score(context, evidence, people.subject.position(), people.subject.velocity());
   double& usual = people.usual_score;
   if (people.frames == 0)
     usual = own;

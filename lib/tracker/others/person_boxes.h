@@ -4,9 +4,7 @@
 // in their box are theirs.
 #pragma once
 
-#include <optional>
 #include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
