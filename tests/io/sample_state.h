@@ -39,7 +39,13 @@ inline TrackerState sample_tracker() {
 }
 
 inline Checkpoint sample_checkpoint(const Origin& origin) {
-  return {origin, 7, 5, 1234, {sample_observer()}, {{{1, 2, 3, 4}, .01, true}}, sample_tracker()};
+  return {origin,
+          7,
+          5,
+          1234,
+          {sample_observer()},
+          {{{1, 2, 3, 4}, .01, true, true, {2, 2, 3, 4}}},
+          sample_tracker()};
 }
 
 inline FrameRecord sample_record() {

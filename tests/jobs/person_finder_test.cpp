@@ -60,6 +60,17 @@ TEST(CutOut, IsAroundTheRegion) {
   EXPECT_NEAR(cut_out.y0 + cut_out.side_px / 2.0, 210, 1);
 }
 
+TEST(CutOut, IsAroundTheSubjectsPartOfARegion) {
+  const Region narrow{{40, 20, 80, 120}, 0.02, false};
+  Region wide = narrow;
+  wide.area = {0, 10, 200, 150};
+  wide.subject = narrow.area;
+  const CutOut expected = cut_out_around(narrow, 3, 1.6), found = cut_out_around(wide, 3, 1.6);
+  EXPECT_EQ(found.x0, expected.x0);
+  EXPECT_EQ(found.y0, expected.y0);
+  EXPECT_EQ(found.side_px, expected.side_px);
+}
+
 // Wherever a person is, one of the squares contains all of them at a sufficient size.
 TEST(Squares, HoldAPersonAnywhere) {
   const double height = 130;

@@ -140,6 +140,22 @@ TEST_F(NearbyPeopleTest, WhatIsExpectedOfTheSubjectFollowsTheTrackUntilSomebodyI
   EXPECT_LT(moved_by(passing, subject_in(23)), 0.5 * followed);
 }
 
+TEST_F(NearbyPeopleTest, TheWindowOfASearchLeavesThemOutUntilThatIsUndone) {
+  other_.position.y() = -1;
+  show_both();
+  WalkSearch search;
+  for (const SceneEvidence& frame : window_) search.push(frame);
+  FoundWalk found{walk_};
+  const NearbyPeople people = search.hide_others(subject_->context(), found);
+  EXPECT_TRUE(somebody_is_near(people));
+  EXPECT_LT((people.subject.position() - subject_in(kFrames)).norm(), 1e-9);
+  EXPECT_LT(found.walk.score, 0);  // less of the figure has evidence than before
+  EXPECT_NE(search.window().back()[0].planes.prefix, window_.back()[0].planes.prefix);
+  search.restore_evidence();
+  for (size_t i = 0; i < kFrames; ++i)
+    EXPECT_EQ(search.window()[i][0].planes.prefix, window_[i][0].planes.prefix) << i;
+}
+
 // Whom the tracker follows in a scene that states where the walk begins.
 class TrackBesideOthers : public NearbyPeopleTest {
  protected:
