@@ -209,7 +209,7 @@ class PersonBoxes : public WalkedScene {
 TEST_F(PersonBoxes, APixelBelongsToWhomItIsNearer) {
   const Eigen::Vector2d own(0, 0), other(0.5, 0.1);
   EXPECT_TRUE(has_evidence({0, 0}, own, {other}));
-  EXPECT_TRUE(has_evidence({0.15, 0}, own, {other}));
+  EXPECT_TRUE(has_evidence({0.24, 0}, own, {other}));  // in both boxes, as the next one
   EXPECT_FALSE(has_evidence({0.35, 0}, own, {other}));
   EXPECT_FALSE(has_evidence({0.6, 0}, own, {other}));
   EXPECT_TRUE(has_evidence({-1, 0}, own, {other}));  // of neither
