@@ -18,9 +18,10 @@ using Eigen::Vector2d;
 
 // By hand, chosen on pedestrians of PETS (reports/other_people.md).
 //
-// Somebody new has this share of the usual score, and their pixels are this far from the subject;
-// they count when they have been seen for kCertain s. They are looked for this often, s, and up to
-// this far away, m, in steps of kStep, and kApart from the subject, and from one another.
+// Somebody new explains at least kNewShare of the usual score, outside of boxes with the margin
+// kNewMargin, m, around those who are known, and is certain after kCertain s. They are looked for
+// every kBetweenLooks s, up to kNewWithin m from the subject, at places kStep m apart, but not
+// closer to anybody known than the two last distances, m.
 constexpr double kNewShare = 0.5, kNewMargin = 0.3, kCertain = 0.1;
 constexpr double kBetweenLooks = 0.1;
 constexpr double kNewWithin = 3.5, kStep = 0.3, kApartFromSubject = 0.6, kApartFromOthers = 0.5;
@@ -209,6 +210,7 @@ std::optional<Vector2d> somebody_new(const TrackContext& context, const SceneEvi
   std::optional<Vector2d> best;
   double most = least;
   for (const Vector2d& place : places_near(people.subject.position())) {
+    // No figure in a box explains more than all of the box.
     if (!is_apart(people, place) || unexplained.around(place) < most) continue;
     if (rest.empty()) {
       rest = outlines_of(evidence);

@@ -27,7 +27,7 @@ struct OtherPerson {
 struct NearbyPeople {
   MovingPerson subject;    // as expected in the next frame
   double usual_score = 0;  // of a rigid figure at the subject's place, nats; a moving mean
-  int frames = 0;
+  int frames = 0;          // in which others were followed or looked for
   std::vector<OtherPerson> others;
 };
 

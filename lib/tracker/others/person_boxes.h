@@ -30,7 +30,7 @@ SceneEvidence outlines_of(const SceneEvidence& evidence);
 void hide_others(const TrackContext& context, std::span<const Eigen::Vector2d> others,
                  const Eigen::Vector2d& place, SceneEvidence& evidence);
 
-// The same of all pixels in boxes with that margin around people.
+// From then on the pixels in boxes around `people` with that margin, m, contain no evidence.
 void hide_people(const TrackContext& context, std::span<const Eigen::Vector2d> people,
                  double margin, SceneEvidence& evidence);
 
