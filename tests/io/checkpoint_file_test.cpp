@@ -82,6 +82,7 @@ TEST_F(CheckpointFile, IsRefusedIfItIsInconsistentEvenWithACorrectDigest) {
       {"an unknown value", [&](Checkpoint& c) { state(c).stance = static_cast<Side>(7); }},
       {"not finite", [&](Checkpoint& c) { state(c).pose.root.x() = NAN; }},
       {"not finite", [&](Checkpoint& c) { state(c).walker.qd[3] = HUGE_VAL; }},
+      {"not finite", [](Checkpoint& c) { c.tracker.people.others[0].place.mean.x() = NAN; }},
       {"a weight", [](Checkpoint& c) { c.tracker.filter.set.log_weights[0] = NAN; }},
       {"all dead", [](Checkpoint& c) { c.tracker.filter.set.log_weights[0] = -HUGE_VAL; }},
       {"different numbers", [](Checkpoint& c) { c.tracker.filter.set.log_weights.pop_back(); }},

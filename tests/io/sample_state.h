@@ -29,12 +29,12 @@ inline TrackerState sample_tracker() {
   out.filter.scale = 0.25;
   out.monitor.log_likelihoods = {1, 2};
   out.monitor.last_seen = LastSeen{{1, 2}, {3, 4}, 6};
-  const Eigen::Matrix2d place = 0.25 * Eigen::Matrix2d::Identity();
-  out.people.subject = moving_person({1, 2}, place, {0.5, 1}, 0.5);
+  const Eigen::Matrix4d covariance = 0.25 * Eigen::Matrix4d::Identity();
+  out.people.subject = {{1, 2, 0.5, 1}, covariance};
   out.people.usual_score = 40;
   out.people.frames = 9;
   out.frames_beside_others = 4;
-  out.people.others = {{moving_person({3, 2}, place, {0, -1}, 0.25), 5, 2}};
+  out.people.others = {{{{3, 2, 0, -1}, covariance}, 5, 2}};
   return out;
 }
 
