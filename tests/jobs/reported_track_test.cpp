@@ -68,12 +68,11 @@ TEST(ReportedTrack, FeetStandStillAndNothingIsLeftBehind) {
   const TemporaryFolder folder;
   const March walk = march();
   const TrackedFrames frames = frames_of(walk, 120, folder / "frames.bin");
-  const TrackedFrames moving =
-      seen_together(frames, walk.model, {}, nullptr, folder / "moving.bin");
+  const TrackedFrames moving = seen_together(frames, walk.model, {}, folder / "moving.bin");
   const std::vector<FlatFoot> flat = standing_feet(moving);
   EXPECT_GE(flat.size(), 5u);
   const TrackedFrames still =
-      seen_together(frames, walk.model, flat, nullptr, folder / "still.bin");
+      seen_together(frames, walk.model, {.flat = flat}, folder / "still.bin");
   EXPECT_FALSE(std::filesystem::exists(folder / "moving.bin"));
   EXPECT_FALSE(std::filesystem::exists(folder / "still.bin"));
   ASSERT_EQ(still.records.size(), frames.records.size());
@@ -90,12 +89,16 @@ TEST(ReportedTrack, PiecesOfALongTrackAreThoseOfTheWhole) {
   const March walk = march();
   constexpr size_t kFrames = 1300;
   const TrackedFrames frames = frames_of(walk, kFrames, folder / "frames.bin");
-  const TrackedFrames pieces =
-      seen_together(frames, walk.model, {}, nullptr, folder / "pieces.bin");
+  const TrackedFrames pieces = seen_together(frames, walk.model, {}, folder / "pieces.bin");
   std::vector<FrameRecord> records;
   for (const FrameRecord& record : frames.records)
     if (record.tracked) records.push_back(record);
-  const Poses whole = most_probable_trajectory(walk.model, {1 / walk.rate, records}).poses;
+  std::vector<Eigen::Vector2d> places;
+  for (const FrameRecord& record : records)
+    places.emplace_back(record.estimate.pose.root.head<2>());
+  const double dt = 1 / walk.rate;
+  const std::vector<WalkingDirection> ways = walking_directions(places, dt);
+  const Poses whole = most_probable_trajectory(walk.model, {dt, records, {}, 0, ways}).poses;
   ASSERT_EQ(pieces.records.size(), kFrames);
   const FreeNumbers free = free_numbers(walk.model);
   for (size_t i = 1; i < kFrames; i += 7)
@@ -115,7 +118,8 @@ TEST(ReportedTrack, SamplesAndBandsRunThroughThePieces) {
     frames.records.append(record);
   }
   const BandScene bands{{}, 0, 1};
-  const TrackedFrames out = seen_together(frames, walk.model, {}, &bands, folder / "out.bin");
+  const TrackedFrames out =
+      seen_together(frames, walk.model, {.bands = &bands}, folder / "out.bin");
   const auto step = [&](size_t frame, size_t sample) {
     const FrameRecord before = out.records[frame - 1], now = out.records[frame];
     const auto off = [&](const FrameRecord& record) -> Eigen::Vector3d {
@@ -131,6 +135,32 @@ TEST(ReportedTrack, SamplesAndBandsRunThroughThePieces) {
   }
   const auto sd = [&](size_t frame) { return out.records[frame].estimate.spread[0][0].sd; };
   EXPECT_NEAR(sd(kSeam) / sd(kSeam - 60), 1, 0.2);
+}
+
+// What is known of walks (tracker/smooth/walk_prior.h) counts, unless feet are to be judged as the
+// images have them.
+TEST(ReportedTrack, SwayingToTheSideIsBelievedOnlyByTheImages) {
+  const TemporaryFolder folder;
+  March walk = march();
+  walk.tremble = 0;
+  TrackedFrames frames{walk.rate, FrameFile(folder / "frames.bin")};
+  for (size_t i = 0; i < 90; ++i) {
+    FrameRecord record = walk.record(i);
+    record.images.pose.root.y() = 0.1 * std::sin(2 * kPi * static_cast<double>(i) / walk.rate);
+    record.images.walker = record.estimate.pose = record.images.pose;
+    for (double& each : record.images.information) each /= 4;  // they show it weakly
+    frames.records.append(record);
+  }
+  const auto swaying = [&](bool walk_prior) {
+    const TrackedFrames out =
+        seen_together(frames, walk.model, {.walk_prior = walk_prior}, folder / "out.bin");
+    double most = 0;  // in the second of its three seconds
+    for (size_t i = 30; i < 60; ++i)
+      most = std::max(most, std::abs(out.records[i].estimate.pose.root.y()));
+    return most;
+  };
+  EXPECT_GT(swaying(false), 0.08);
+  EXPECT_LT(swaying(true), 0.05);
 }
 
 TEST(ReportedTrack, WhoStandsHasBothFeetOnTheGround) {

@@ -252,7 +252,8 @@ TEST_F(Track, FeetThatAreReportedStandStill) {
   auto planted = slides(true), tracked = slides(false);
   EXPECT_LT(planted["foot_slide_mm"], 0.2 * planted["tracked_foot_slide_mm"]);
   EXPECT_EQ(tracked["foot_slide_mm"], tracked["tracked_foot_slide_mm"]);
-  EXPECT_EQ(planted["tracked_foot_slide_mm"], tracked["foot_slide_mm"]);
+  // Feet that will be held in place are judged without what is known of walks.
+  EXPECT_NE(planted["tracked_foot_slide_mm"], tracked["tracked_foot_slide_mm"]);
   EXPECT_GT(tracked["foot_slide_mm"], 5);
 }
 

@@ -1,6 +1,7 @@
 #include "tracker/smooth/trajectory.h"
 
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -9,6 +10,7 @@
 #include "core/rng.h"
 #include "fixture.h"
 #include "tests/tracker/frame_time.h"
+#include "tracker/smooth/walk_prior.h"
 
 namespace walktrack {
 namespace {
@@ -60,6 +62,13 @@ Poses most_probable(const BodyModel& model, std::span<const FrameRecord> records
   return most_probable_trajectory(model, {kDt, records, flat, settled}).poses;
 }
 
+// The same of somebody who walks in that direction.
+Poses most_probable_walk(const BodyModel& model, std::span<const FrameRecord> records,
+                         const Vector2d& ahead) {
+  const std::vector<WalkingDirection> ways(records.size(), ahead);
+  return most_probable_trajectory(model, {kDt, records, {}, 0, ways}).poses;
+}
+
 // Law: what goes on evenly, and is seen where it is, stays where it is.
 TEST(MostProbableTrajectory, WhatGoesOnEvenlyStays) {
   const BodyModel model = test_model();
@@ -78,9 +87,14 @@ TEST(MostProbableTrajectory, WhatGoesOnEvenlyStays) {
     EXPECT_LT(difference(free, records[t].estimate.pose, poses[t]).norm(), 1e-6) << t;
 }
 
+double acceleration_cost(double change, double acceleration, double dt) {
+  return 0.5 * change * change / (4. / 3 * acceleration * acceleration * 0.025 * std::pow(dt, 3));
+}
+
 // The sum in the header, term by term, of poses and the best places for them.
 double header_sum(const BodyModel& model, double dt, std::span<const FrameRecord> records,
-                  std::span<const FlatFoot> flat, std::span<const Pose> poses) {
+                  std::span<const FlatFoot> flat, const WalkingDirection& way,
+                  std::span<const Pose> poses) {
   const FreeNumbers free = free_numbers(model);
   const VectorXd s = spreads_of(free);
   const double k = std::min(1.0, 30 * dt);
@@ -89,17 +103,21 @@ double header_sum(const BodyModel& model, double dt, std::span<const FrameRecord
     const ImageInformation& images = records[t].images;
     const VectorXd d = difference(free, images.pose, poses[t]);
     const VectorXd pull = difference(free, images.walker, images.pose).cwiseQuotient(s.cwiseAbs2());
-    const VectorXd off = difference(free, images.walker, poses[t]).cwiseQuotient(s);
+    VectorXd off = difference(free, images.walker, poses[t]).cwiseQuotient(s);
+    off.head<2>().setZero();
     sum += k * (0.5 * d.dot(unpacked(free, images) * d) - d.dot(pull)) +
            0.5 * 1.5 * dt * off.squaredNorm();
     if (t > 0 && t + 1 < poses.size()) {
       const VectorXd second =
           difference(free, poses[t], poses[t + 1]) - difference(free, poses[t - 1], poses[t]);
-      for (Eigen::Index i = 0; i < second.size(); ++i) {
-        const double a = kPoseNumbers[free[static_cast<size_t>(i)]].acceleration;
-        sum += 0.5 * std::pow(second[i], 2) / (4. / 3 * a * a * 0.025 * std::pow(dt, 3));
+      for (Eigen::Index i = way ? 2 : 0; i < second.size(); ++i)
+        sum += acceleration_cost(second[i], kPoseNumbers[free[size_t(i)]].acceleration, dt);
+      if (way) {
+        sum += acceleration_cost(way->dot(second.head<2>()), kPoseNumbers[0].acceleration, dt) +
+               acceleration_cost(way->x() * second[1] - way->y() * second[0], 0.3, dt);
       }
     }
+    if (way) sum += 0.5 * dt / 0.1 * legs_aside(model.body, poses[t], *way).squaredNorm();
     const JointPositions joints = forward_kinematics(model.body, poses[t]).joints;
     for (const Side side : {Side::kLeft, Side::kRight})
       sum += 0.5 * std::pow(std::min(0.0, joints[toe(side)].z()) / 0.001, 2);
@@ -127,18 +145,27 @@ struct Contradiction {
   std::vector<FrameRecord> records;
   std::array<FlatFoot, 1> flat{FlatFoot{Side::kLeft, 2, 6}};
 
-  Contradiction() {
+  WalkingDirection way;
+
+  Contradiction(double dt, const Vector2d& velocity) {
     Rng rng(3, Purpose::kTest);
     Pose middle = upright(model);
+    if (!velocity.isZero()) way = velocity.normalized();
+    middle.heading = std::atan2(velocity.y(), velocity.x());
     middle.root.z() += 0.05;  // toes above the ground, which the ankles see to afterwards
     for (int t = 0; t < 8; ++t) {
       const Pose walker = trembling(model, middle, 0.5, rng);
       records.push_back(seen(model, trembling(model, walker, 0.5, rng)));
       records.back().images.walker = walker;
+      middle.root.head<2>() += dt * velocity;
     }
   }
   double sum(double dt, std::span<const Pose> poses) const {
-    return header_sum(model, dt, records, flat, poses);
+    return header_sum(model, dt, records, flat, way, poses);
+  }
+  Poses most_probable(double dt) const {
+    const std::vector<WalkingDirection> ways(records.size(), way);
+    return most_probable_trajectory(model, {dt, records, flat, 0, ways}).poses;
   }
   Pose aside(const Pose& pose, Eigen::Index number, double by) const {
     VectorXd values = values_of(free, pose);
@@ -147,23 +174,28 @@ struct Contradiction {
   }
 };
 
-class AtFrameRate : public testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(MostProbableTrajectory, AtFrameRate, testing::Values(15, 30, 60));
+// By the frame rate, Hz, and the subject's velocity, m/s.
+class AtFrameRate : public testing::TestWithParam<std::tuple<double, Vector2d>> {
+ protected:
+  const double dt_ = 1 / std::get<0>(GetParam());
+  const Contradiction walk_{dt_, std::get<1>(GetParam())};
+};
+INSTANTIATE_TEST_SUITE_P(MostProbableTrajectory, AtFrameRate,
+                         testing::Combine(testing::Values(15, 30, 60),
+                                          testing::Values(Vector2d(0, 0), Vector2d(0.8, -1.2))));
 
 // By an independent route: nowhere near it is the header's sum less, whichever number of whichever
 // frame changes,
 TEST_P(AtFrameRate, NoFrameElsewhereHasLessOfTheHeadersSum) {
-  const Contradiction walk;
-  const double dt = 1 / GetParam();
-  Poses poses = most_probable_trajectory(walk.model, {dt, walk.records, walk.flat}).poses;
-  const double least = walk.sum(dt, poses);
+  Poses poses = walk_.most_probable(dt_);
+  const double least = walk_.sum(dt_, poses);
   for (size_t t = 0; t < poses.size(); ++t) {
     const Pose here = poses[t];
-    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(walk.free.size()); ++k) {
+    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(walk_.free.size()); ++k) {
       for (const double by : {-0.01, 0.01}) {
-        poses[t] = walk.aside(here, k, by);
-        EXPECT_GT(walk.sum(dt, poses), least - 1e-6)
-            << t << ' ' << kPoseNumbers[walk.free[static_cast<size_t>(k)]].name << ' ' << by;
+        poses[t] = walk_.aside(here, k, by);
+        EXPECT_GT(walk_.sum(dt_, poses), least - 1e-6)
+            << t << ' ' << kPoseNumbers[walk_.free[static_cast<size_t>(k)]].name << ' ' << by;
       }
     }
     poses[t] = here;
@@ -172,16 +204,14 @@ TEST_P(AtFrameRate, NoFrameElsewhereHasLessOfTheHeadersSum) {
 
 // or that of all, with which the place of the flat sole moves.
 TEST_P(AtFrameRate, NorDoAllFramesTogether) {
-  const Contradiction walk;
-  const double dt = 1 / GetParam();
-  const Poses poses = most_probable_trajectory(walk.model, {dt, walk.records, walk.flat}).poses;
-  const double least = walk.sum(dt, poses);
-  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(walk.free.size()); ++k) {
+  const Poses poses = walk_.most_probable(dt_);
+  const double least = walk_.sum(dt_, poses);
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(walk_.free.size()); ++k) {
     for (const double by : {-0.01, 0.01}) {
       std::vector<Pose> elsewhere;
-      for (const Pose& pose : poses) elsewhere.push_back(walk.aside(pose, k, by));
-      EXPECT_GT(walk.sum(dt, elsewhere), least - 1e-6)
-          << kPoseNumbers[walk.free[static_cast<size_t>(k)]].name << ' ' << by;
+      for (const Pose& pose : poses) elsewhere.push_back(walk_.aside(pose, k, by));
+      EXPECT_GT(walk_.sum(dt_, elsewhere), least - 1e-6)
+          << kPoseNumbers[walk_.free[static_cast<size_t>(k)]].name << ' ' << by;
     }
   }
 }
@@ -230,6 +260,32 @@ TEST(MostProbableTrajectory, WhoIsHiddenFollowsWalkerAndNeighbours) {
   EXPECT_LT(std::abs(poses[10].root.y()), 0.005);
 }
 
+// What images show weakly of swaying, to and fro within a second, is believed along the walk and
+// not across it.
+TEST(MostProbableTrajectory, WhoWalksSwaysLittleToTheSide) {
+  const BodyModel model = test_model();
+  constexpr double kSway = 0.1;  // m
+  const Vector2d ahead = Vector2d(1, 2).normalized(), left(-ahead.y(), ahead.x());
+  // How far the trajectory is from what the images show, at most, m.
+  const auto disbelieved = [&](const Vector2d& direction) {
+    std::vector<FrameRecord> records;
+    Pose pose = upright(model);
+    pose.heading = std::atan2(ahead.y(), ahead.x());
+    for (int t = 0; t < 61; ++t) {
+      const double time = kDt * t;
+      pose.root.head<2>() = 1.2 * time * ahead + kSway * std::sin(2 * kPi * time) * direction;
+      records.push_back(seen(model, pose, 1));
+    }
+    const Poses poses = most_probable_walk(model, records, ahead);
+    double most = 0;
+    for (size_t t = 0; t < poses.size(); ++t)
+      most = std::max(most, (poses[t].root - records[t].images.pose.root).head<2>().norm());
+    return most;
+  };
+  EXPECT_LT(disbelieved(ahead), 0.3 * kSway);
+  EXPECT_GT(disbelieved(left), 0.7 * kSway);
+}
+
 TEST(MostProbableTrajectory, FixedOnesStayAndTheRestGoesOnFromThem) {
   const BodyModel model = test_model();
   Rng rng(5, Purpose::kTest);
@@ -263,7 +319,10 @@ TEST(MostProbableTrajectory, OneFrameOrTwoAreTheirOwn) {
 Eigen::MatrixXd precision_of(const PoseNumber& number, double sd, Eigen::Index frames) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(frames, frames);
   const double images = std::min(1.0, 30 * kDt) / (sd * sd);
-  out.diagonal().array() += images + 1.5 * kDt / (number.spread * number.spread);
+  out.diagonal().array() += images;
+  // The walker gives no evidence of a place over the ground.
+  const bool place = &number == &kPoseNumbers[0] || &number == &kPoseNumbers[1];
+  if (!place) out.diagonal().array() += 1.5 * kDt / (number.spread * number.spread);
   const double acceleration = number.acceleration;
   const double variance = 4. / 3 * acceleration * acceleration * 0.025 * std::pow(kDt, 3);
   for (Eigen::Index t = 1; t + 1 < frames; ++t) {

@@ -28,12 +28,13 @@ inline namespace jobs {
 // The files of unfinished work in a result folder.
 inline constexpr std::string_view kCheckpointFile = "checkpoint.bin", kFramesFile = "frames.bin";
 inline constexpr std::string_view kSmoothedFile = "smoothed_frames.bin",
+                                  kStandingFile = "standing_frames.bin",
                                   kNamedFile = "named_frames.bin",
                                   kPlantedFile = "planted_frames.bin";
 // The files from which a run is resumed, which only exist during the work.
 inline constexpr std::array kFilesOfWork{kCheckpointFile, kFramesFile};
-inline constexpr std::array kPassingFiles{kCheckpointFile, kFramesFile, kNamedFile, kSmoothedFile,
-                                          kPlantedFile};
+inline constexpr std::array kPassingFiles{kCheckpointFile, kFramesFile,   kNamedFile,
+                                          kSmoothedFile,   kStandingFile, kPlantedFile};
 
 // Decides when a checkpoint is worth its time.
 class CheckpointTimer {

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/SparseCholesky>
-
 #include "body/kinematics.h"
 #include "core/conventions.h"
 #include "core/rng.h"
+#include "tracker/smooth/normal_equations.h"
 #include "tracker/state/free_numbers.h"
 
 namespace walktrack {
@@ -27,17 +26,20 @@ using Eigen::VectorXd;
 constexpr double kWalkerRate = 1.5;          // w / dt, 1/s
 constexpr double kImageTime = 1.0 / 30;      // s, for which images err alike
 constexpr double kAccelerationTime = 0.025;  // tau, s
+constexpr double kSway = 0.3;                // m/s^2, of the root, across the walk
+constexpr double kAsideTime = 0.1;           // s
 constexpr double kSlide = 0.001;             // c, m
 constexpr double kSole = 0.03;               // b, m, once every
 constexpr double kSoleTime = 0.1;            // s
 constexpr int kNewtonSteps = 3;
 constexpr double kDifference = 1e-5;  // of central differences
 constexpr double kFixed = 1e12;       // information of a pose that is not to change
-constexpr double kFaint = 1e-6;       // of everything, so that nothing is unknown
 
 // Ankle and toe of the left foot, then of the right one.
 using FeetPoints = Eigen::Matrix<double, 12, 1>;
 constexpr Index kFootSize = 6, kPointSize = 3;
+// The first free numbers: the place of the root over the ground.
+constexpr Index kOverGround = 2;
 
 FeetPoints feet_points(const Body& body, const Pose& pose) {
   const JointPositions joints = forward_kinematics(body, pose).joints;
@@ -49,57 +51,6 @@ FeetPoints feet_points(const Body& body, const Pose& pose) {
 
 Index first_row(Side side) { return side == Side::kLeft ? 0 : kFootSize; }
 
-// One term of the sum: 1/2 weight (residual + slope . step)^2.
-struct Term {
-  double residual, weight;
-  std::vector<std::pair<Index, double>> slope;
-};
-
-class NormalEquations {
- public:
-  explicit NormalEquations(Index size) : right_(VectorXd::Zero(size)) {
-    for (Index i = 0; i < size; ++i) add(i, i, kFaint);
-  }
-
-  // Only one of (row, column) and (column, row).
-  void add(Index row, Index column, double value) {
-    terms_.emplace_back(static_cast<int>(std::max(row, column)),
-                        static_cast<int>(std::min(row, column)), value);
-  }
-  void pull(Index at, double by) { right_[at] += by; }
-  void add(const Term& term) {
-    for (size_t a = 0; a < term.slope.size(); ++a) {
-      const auto& [row, x] = term.slope[a];
-      right_[row] -= term.weight * x * term.residual;
-      for (size_t b = 0; b <= a; ++b)
-        add(row, term.slope[b].first, term.weight * x * term.slope[b].second);
-    }
-  }
-
-  Eigen::SparseMatrix<double> matrix() const {
-    Eigen::SparseMatrix<double> out(right_.size(), right_.size());
-    out.setFromTriplets(terms_.begin(), terms_.end());
-    return out;
-  }
-  const VectorXd& right() const { return right_; }
-
- private:
-  std::vector<Eigen::Triplet<double>> terms_;
-  VectorXd right_;
-};
-
-using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
-
-// A draw of the normal distribution about zero whose inverse covariance has been factored: with
-// P A P' = L D L', x = P' L'^-1 D^-1/2 z (Rue & Held, Gaussian Markov Random Fields, 2005,
-// algorithm 2.4).
-VectorXd drawn(const Factor& factor, Rng& rng) {
-  VectorXd z(factor.vectorD().size());
-  for (double& each : z) each = rng.normal();
-  const VectorXd scaled = z.cwiseQuotient(factor.vectorD().cwiseSqrt());
-  return factor.permutationPinv() * factor.matrixU().solve(scaled);
-}
-
 class Trajectory {
  public:
   Trajectory(const BodyModel& model, const TrajectoryFrames& frames)
@@ -109,6 +60,7 @@ class Trajectory {
         records_(frames.records),
         flat_(frames.flat),
         settled_(frames.settled),
+        ways_(frames.ways),
         spreads_(spreads_of(free_)) {
     for (const FrameRecord& record : records_) poses_.push_back(record.estimate.pose);
     for (const FlatFoot& each : flat_) places_.push_back(mean_place(each));
@@ -144,10 +96,13 @@ class Trajectory {
       add_walker(t, sum);
       if (t > 0 && t + 1 < poses_.size()) add_acceleration(t, sum);
       add_sunken_toes(t, sum);
+      add_legs_aside(t, sum);
     }
     for (size_t k = 0; k < flat_.size(); ++k) add_flat(k, sum);
     return sum;
   }
+
+  WalkingDirection way(size_t t) const { return ways_.empty() ? std::nullopt : ways_[t]; }
 
   Index numbers() const { return static_cast<Index>(free_.size()); }
   Index at(size_t frame) const { return static_cast<Index>(frame) * numbers(); }
@@ -203,33 +158,54 @@ class Trajectory {
     const ImageInformation& images = records_[t].images;
     if (images.information.empty()) return;
     const VectorXd off = difference(free_, images.walker, poses_[t]);
-    for (Index k = 0; k < numbers(); ++k)
-      sum.add(Term{off[k], kWalkerRate * dt_ / (spreads_[k] * spreads_[k]), {{at(t) + k, 1.0}}});
+    for (Index k = kOverGround; k < numbers(); ++k)
+      sum.add(
+          SquareTerm{off[k], kWalkerRate * dt_ / (spreads_[k] * spreads_[k]), {{at(t) + k, 1.0}}});
+  }
+
+  // Of the second difference of a number whose acceleration has that root mean square.
+  double acceleration_weight(double rms) const {
+    return 1 / (4.0 / 3 * rms * rms * kAccelerationTime * dt_ * dt_ * dt_);
   }
 
   void add_acceleration(size_t t, NormalEquations& sum) const {
-    const VectorXd before = difference(free_, poses_[t - 1], poses_[t]);
-    const VectorXd after = difference(free_, poses_[t], poses_[t + 1]);
-    for (Index k = 0; k < numbers(); ++k) {
-      const double rms = kPoseNumbers[free_[static_cast<size_t>(k)]].acceleration;
-      const double variance = 4.0 / 3 * rms * rms * kAccelerationTime * dt_ * dt_ * dt_;
-      sum.add(Term{after[k] - before[k],
-                   1 / variance,
-                   {{at(t - 1) + k, 1.0}, {at(t) + k, -2.0}, {at(t + 1) + k, 1.0}}});
+    const VectorXd change =
+        difference(free_, poses_[t], poses_[t + 1]) - difference(free_, poses_[t - 1], poses_[t]);
+    const auto rms = [&](Index k) {
+      return kPoseNumbers[free_[static_cast<size_t>(k)]].acceleration;
+    };
+    const WalkingDirection way = this->way(t);
+    const Vector2d ahead = way.value_or(Vector2d::UnitX()), aside(-ahead.y(), ahead.x());
+    const Vector2d over_ground = change.head<kOverGround>();
+    for (const auto& [axis, acceleration] :
+         {std::pair{ahead, rms(0)}, {aside, way ? kSway : rms(1)}}) {
+      SquareTerm term{axis.dot(over_ground), acceleration_weight(acceleration), {}};
+      for (const auto& [frame, factor] : {std::pair{t - 1, 1.0}, {t, -2.0}, {t + 1, 1.0}})
+        for (Index k = 0; k < kOverGround; ++k)
+          term.slope.emplace_back(at(frame) + k, factor * axis[k]);
+      sum.add(term);
     }
+    for (Index k = kOverGround; k < numbers(); ++k)
+      sum.add(SquareTerm{change[k],
+                         acceleration_weight(rms(k)),
+                         {{at(t - 1) + k, 1.0}, {at(t) + k, -2.0}, {at(t + 1) + k, 1.0}}});
   }
 
-  // By row of FeetPoints and free number.
-  MatrixXd feet_slopes(size_t t) const {
+  // Of a function of the frame's pose: by row of its value and free number.
+  template <typename Function>
+  MatrixXd slopes(size_t t, const Function& of) const {
     const VectorXd values = values_of(free_, poses_[t]);
-    MatrixXd out(FeetPoints::RowsAtCompileTime, numbers());
+    MatrixXd out(of(poses_[t]).size(), numbers());
     for (Index k = 0; k < numbers(); ++k) {
       const VectorXd aside = kDifference * VectorXd::Unit(numbers(), k);
-      out.col(k) = (feet_points(body_, with_values(free_, poses_[t], values + aside)) -
-                    feet_points(body_, with_values(free_, poses_[t], values - aside))) /
+      out.col(k) = (of(with_values(free_, poses_[t], values + aside)) -
+                    of(with_values(free_, poses_[t], values - aside))) /
                    (2 * kDifference);
     }
     return out;
+  }
+  MatrixXd feet_slopes(size_t t) const {
+    return slopes(t, [&](const Pose& pose) { return feet_points(body_, pose); });
   }
 
   std::vector<std::pair<Index, double>> of_frame(size_t t, const Eigen::RowVectorXd& slopes) const {
@@ -245,8 +221,18 @@ class Trajectory {
       const Index height = first_row(side) + kPointSize + 2;
       if (points[height] >= 0) continue;
       if (slopes.size() == 0) slopes = feet_slopes(t);
-      sum.add(Term{points[height], 1 / (kSlide * kSlide), of_frame(t, slopes.row(height))});
+      sum.add(SquareTerm{points[height], 1 / (kSlide * kSlide), of_frame(t, slopes.row(height))});
     }
+  }
+
+  void add_legs_aside(size_t t, NormalEquations& sum) const {
+    const WalkingDirection way = this->way(t);
+    if (!way) return;
+    const auto aside = [&](const Pose& pose) { return legs_aside(body_, pose, *way); };
+    const LegsAside off = aside(poses_[t]);
+    const MatrixXd slopes = this->slopes(t, aside);
+    for (Index i = 0; i < off.size(); ++i)
+      sum.add(SquareTerm{off[i], dt_ / kAsideTime, of_frame(t, slopes.row(i))});
   }
 
   void add_flat(size_t stretch, NormalEquations& sum) const {
@@ -257,16 +243,17 @@ class Trajectory {
       const MatrixXd slopes = feet_slopes(t);
       for (Index axis = 0; axis < 2; ++axis) {
         const Index ankle = row + axis, toe = ankle + kPointSize;
-        Term stays{0.5 * (points[ankle] + points[toe]) - places_[stretch][axis],
-                   1 / (kSlide * kSlide), of_frame(t, 0.5 * (slopes.row(ankle) + slopes.row(toe)))};
+        SquareTerm stays{0.5 * (points[ankle] + points[toe]) - places_[stretch][axis],
+                         1 / (kSlide * kSlide),
+                         of_frame(t, 0.5 * (slopes.row(ankle) + slopes.row(toe)))};
         stays.slope.emplace_back(place_of(stretch) + axis, -1.0);
         sum.add(stays);
       }
       const std::array heights{body_.lengths.ankle_height, body_.lengths.ball_height};
       for (Index point = 0; point < 2; ++point) {
         const Index height = row + point * kPointSize + 2;
-        sum.add(Term{points[height] - heights[static_cast<size_t>(point)], height_weight,
-                     of_frame(t, slopes.row(height))});
+        sum.add(SquareTerm{points[height] - heights[static_cast<size_t>(point)], height_weight,
+                           of_frame(t, slopes.row(height))});
       }
     }
   }
@@ -277,6 +264,7 @@ class Trajectory {
   std::span<const FrameRecord> records_;
   std::span<const FlatFoot> flat_;
   size_t settled_;
+  std::span<const WalkingDirection> ways_;
   VectorXd spreads_;
   Poses poses_;
   std::vector<Vector2d> places_;

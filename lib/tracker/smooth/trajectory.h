@@ -7,15 +7,18 @@
 //   + 1/2 sum_t    w_t |(x_t - m_t) / s|^2                                     the walker
 //   + 1/2 sum_t    |x_(t-1) - 2 x_t + x_(t+1)|^2 / v                           people's
 //   accelerations
+//   + 1/2 sum_walk q_t |a(x_t)|^2                                              their legs, seen
+//   along the walk (walk_prior.h)
 //   + 1/2 sum_flat |(f(x_t) - p) / c|^2 + h_t |(heights(x_t) - flat) / b|^2    flat soles do not
 //   move
 //   + 1/2 sum_t    max(0, -toe height)^2 / c^2                                 no toe in the ground
 // k = 1, or less where frames follow each other in less than 1/30 s; m_t the particles' mean, s
-// the deviations of people's poses from a walker's, v = 4/3 a^2 tau dt^3 of accelerations of a,
-// correlated for tau; f the middle of the foot over the ground. Gauss and Newton's steps, by one
-// sparse factorisation each: the trajectory of space-time constraints (Witkin & Kass, SIGGRAPH
-// 1988), with images in place of an objective, and as a Kalman smoother the linear part of it
-// (Rauch, Tung & Striebel 1965).
+// the deviations of people's poses from a walker's, without the place over the ground, which the
+// particles only know from the same images; v = 4/3 a^2 tau dt^3 of accelerations of a, correlated
+// for tau, and less across the walk than along it; f the middle of the foot over the ground. Gauss
+// and Newton's steps, by one sparse factorisation each: the trajectory of space-time constraints
+// (Witkin & Kass, SIGGRAPH 1988), with images in place of an objective, and as a Kalman smoother
+// the linear part of it (Rauch, Tung & Striebel 1965).
 //
 // With the sum's curvature there, the poses are the mean of a normal distribution (Laplace's
 // approximation). Its draws are whole trajectories: bands of joints, angles, gait and forces
@@ -28,6 +31,7 @@
 #include <vector>
 
 #include "body/flat_foot.h"
+#include "tracker/smooth/walk_prior.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {
@@ -51,6 +55,8 @@ struct TrajectoryFrames {
   std::span<const FrameRecord> records;
   std::span<const FlatFoot> flat = {};
   size_t settled = 0;
+  // By frame, the direction of the walk, with which what is known of walks counts; or none.
+  std::span<const WalkingDirection> ways = {};
 };
 
 // Which draws are wanted: one for each element of `settled`, which has its poses of the settled

@@ -64,14 +64,25 @@ void report_pose(const BodyModel& model, const Pose& pose, double velocity, Fram
   record.estimate.speed = velocity;
 }
 
+// Of the frames [begin, end).
+std::vector<WalkingDirection> directions(const TrackedFrames& frames, size_t begin, size_t end) {
+  std::vector<Eigen::Vector2d> places;
+  for (size_t i = begin; i < end; ++i)
+    places.emplace_back(frames.records[i].estimate.pose.root.head<2>());
+  return walking_directions(places, 1 / frames.frame_rate);
+}
+
 // The frames [begin, end) of one unbroken track; those before `begin` are settled already.
-void settle_track(const TrackedFrames& frames, const BodyModel& model,
-                  std::span<const FlatFoot> flat, const BandScene* bands, size_t begin, size_t end,
-                  TrackedFrames& out) {
+void settle_track(const TrackedFrames& frames, const BodyModel& model, const Together& together,
+                  size_t begin, size_t end, TrackedFrames& out) {
   const size_t track = begin;
   const double dt = 1 / frames.frame_rate;
   std::optional<Posterior> posterior;
+  const BandScene* bands = together.bands;
   if (bands) posterior.emplace(model, *bands, frames.records[begin].samples.size());
+  const std::vector<WalkingDirection> ways = together.walk_prior
+                                                 ? directions(frames, begin, end)
+                                                 : std::vector<WalkingDirection>(end - begin);
   std::vector<Poses> draws(posterior ? posterior->draws() : 0);  // of the settled frames
   while (begin < end) {
     const bool rest = end - begin <= kSettled + kAhead;
@@ -81,9 +92,10 @@ void settle_track(const TrackedFrames& frames, const BodyModel& model,
     std::vector<FrameRecord> records;
     for (size_t i = first; i < piece.end; ++i)
       records.push_back(i < begin ? out.records[i] : frames.records[i]);
-    const std::vector<FlatFoot> soles = within(flat, piece);
+    const std::vector<FlatFoot> soles = within(together.flat, piece);
+    const auto here = std::span(ways).subspan(first - track, records.size());
     const TrajectoryEstimate found =
-        most_probable_trajectory(model, {dt, records, soles, begin - first},
+        most_probable_trajectory(model, {dt, records, soles, begin - first, here},
                                  {draws, bands ? bands->seed : 0, static_cast<uint32_t>(begin)});
     for (size_t i = begin - first; i < settled - first; ++i) {
       const double speed = speed_at(found.poses, i, frames.frame_rate);
@@ -138,8 +150,7 @@ void join(FlatFoot added, std::vector<FlatFoot>& flat) {
 }  // namespace
 
 TrackedFrames seen_together(const TrackedFrames& frames, const BodyModel& model,
-                            std::span<const FlatFoot> flat, const BandScene* bands,
-                            const std::filesystem::path& file) {
+                            const Together& together, const std::filesystem::path& file) {
   TrackedFrames out{frames.frame_rate, FrameFile(file)};
   std::filesystem::remove(
       file);  // an open file can still be read, and is deleted when it is closed
@@ -150,7 +161,7 @@ TrackedFrames seen_together(const TrackedFrames& frames, const BodyModel& model,
     size_t end = i;
     while (end < count && tracked[end]) ++end;
     if (end > i) {
-      settle_track(frames, model, flat, bands, i, end, out);
+      settle_track(frames, model, together, i, end, out);
     } else {
       out.records.append(frames.records[end++]);
     }
@@ -176,11 +187,15 @@ ReportedTrack::ReportedTrack(const TrackedFrames& tracked, const BodyModel& mode
   if (says_names(tracked)) named_.emplace(named(tracked, model.body, file(kNamedFile)));
   const TrackedFrames& sided = moving();
   if (!smoothing.enabled) return;
-  smoothed_.emplace(
-      seen_together(sided, model, {}, smoothing.plant ? nullptr : &bands, file(kSmoothedFile)));
-  if (!smoothing.plant) return;
-  const std::vector<FlatFoot> flat = standing_feet(*smoothed_);
-  planted_.emplace(seen_together(sided, model, flat, &bands, file(kPlantedFile)));
+  if (!smoothing.plant) {
+    smoothed_.emplace(seen_together(sided, model, {.bands = &bands}, file(kSmoothedFile)));
+    return;
+  }
+  smoothed_.emplace(seen_together(sided, model, {.walk_prior = false}, file(kSmoothedFile)));
+  const std::vector<FlatFoot> flat =
+      standing_feet(seen_together(sided, model, {}, file(kStandingFile)));
+  planted_.emplace(
+      seen_together(sided, model, {.flat = flat, .bands = &bands}, file(kPlantedFile)));
 }
 
 }  // namespace jobs

@@ -12,14 +12,19 @@
 namespace walktrack {
 inline namespace jobs {
 
-// The frames with their most probable poses together (tracker/smooth/trajectory.h), `flat` soles
-// in place, and with bands and samples of a scene, if one is given (tracker/smooth/posterior.h).
-// Long tracks are taken in pieces that begin with what has been settled, so that memory does not
-// grow with the video. The records lie in a file of that name, which is deleted
-// when it is closed.
+// What else counts in the most probable poses of frames together.
+struct Together {
+  std::span<const FlatFoot> flat = {};  // soles in place
+  bool walk_prior = true;               // what is known of walks (tracker/smooth/walk_prior.h)
+  // With bands and samples of this scene (tracker/smooth/posterior.h), if one is given.
+  const BandScene* bands = nullptr;
+};
+
+// The frames with their most probable poses together (tracker/smooth/trajectory.h). Long tracks are
+// taken in pieces that begin with what has been settled, so that memory does not grow with the
+// video. The records lie in a file of that name, which is deleted when it is closed.
 TrackedFrames seen_together(const TrackedFrames& frames, const BodyModel& model,
-                            std::span<const FlatFoot> flat, const BandScene* bands,
-                            const std::filesystem::path& file);
+                            const Together& together, const std::filesystem::path& file);
 
 // The periods in which soles lie flat: by the gait of the track, if the feet do not move, and both
 // soles of a subject who stands.
@@ -33,7 +38,7 @@ class ReportedTrack {
   ReportedTrack(const ReportedTrack&) = delete;
   ReportedTrack& operator=(const ReportedTrack&) = delete;
 
-  // Before feet are held in place.
+  // By the images, before feet are held in place and what is known of walks counts.
   const TrackedFrames& moving() const {
     return smoothed_ ? *smoothed_ : named_ ? *named_ : tracked_;
   }
