@@ -286,6 +286,17 @@ TEST(MostProbableTrajectory, WhoWalksSwaysLittleToTheSide) {
   EXPECT_GT(disbelieved(left), 0.7 * kSway);
 }
 
+// Where the particles are over the ground follows from the same images: these alone decide. Their
+// gradient at the pose that was found with the particles' help is that of the help.
+TEST(MostProbableTrajectory, APlaceOverTheGroundIsThatOfTheImages) {
+  const BodyModel model = test_model();
+  constexpr double kOff = 0.01, kImages = 3;  // m, spreads
+  FrameRecord record = seen(model, upright(model), kImages);
+  record.images.walker.root.x() -= kOff;
+  const Poses poses = most_probable(model, {&record, 1});
+  EXPECT_NEAR(poses.at(0).root.x(), kImages * kImages * kOff, 1e-4);
+}
+
 TEST(MostProbableTrajectory, FixedOnesStayAndTheRestGoesOnFromThem) {
   const BodyModel model = test_model();
   Rng rng(5, Purpose::kTest);
