@@ -21,8 +21,9 @@ struct Together {
 };
 
 // The frames with their most probable poses together (tracker/smooth/trajectory.h). Long tracks are
-// taken in pieces that begin with what has been settled, so that memory does not grow with the
-// video. The records lie in a file of that name, which is deleted when it is closed.
+// taken in pieces that begin with what has been settled, so that of all frames only the directions
+// of the walk are in memory. The records lie in a file of that name, which is deleted when it is
+// closed.
 TrackedFrames seen_together(const TrackedFrames& frames, const BodyModel& model,
                             const Together& together, const std::filesystem::path& file);
 
@@ -38,7 +39,7 @@ class ReportedTrack {
   ReportedTrack(const ReportedTrack&) = delete;
   ReportedTrack& operator=(const ReportedTrack&) = delete;
 
-  // By the images, before feet are held in place and what is known of walks counts.
+  // Before feet are held in place; if they will be, also before what is known of walks counts.
   const TrackedFrames& moving() const {
     return smoothed_ ? *smoothed_ : named_ ? *named_ : tracked_;
   }
