@@ -30,7 +30,8 @@ inline namespace observation {
 struct Region {
   PixelRect area;
   double metres_per_px = .01;  // at the subject
-  bool picture = false;        // whether the evidence has to contain the image itself
+  bool picture = false;        // whether the evidence has to contain the image itself, its colours
+                               // if the subject's are not known yet
   bool points = true;          // whether a pose network may be run
   PixelRect subject{};         // the part around the subject; empty: all of it
 };

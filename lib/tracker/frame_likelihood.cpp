@@ -3,6 +3,10 @@
 #include <limits>
 #include <optional>
 
+#include <Eigen/Geometry>
+
+#include "tracker/walk_prior.h"
+
 namespace walktrack {
 inline namespace tracker {
 
@@ -13,6 +17,18 @@ namespace {
 double log_uprightness(const BodyModel& model, const Pose& pose) {
   const double below = 0.82 - pose.root.z() / leg_length(model.body.lengths);
   return below > 0 ? -0.5 * (below / 0.01) * (below / 0.01) : 0;
+}
+
+// Knees and ankles beside the pelvis as those of people who walk in the particle's direction.
+// Several cameras see where they are.
+double log_legs_aside(const TrackerScene& scene, const WalkerParticle& particle,
+                      const PosedBody& now) {
+  if (scene.cameras.size() != 1) return 0;
+  const WalkingDirection ahead =
+      walking_direction(Eigen::Rotation2Dd(particle.pose.heading) * particle.way);
+  if (!ahead) return 0;
+  const LegsAside off = legs_aside(now.skeleton.joints, scene.model.body.subject.height, *ahead);
+  return -0.5 * scene.dt / kLegsAsideTime * off.squaredNorm();
 }
 
 }  // namespace
@@ -33,7 +49,8 @@ double FrameLikelihood::Account::operator()(int stage) const {
 }
 
 double FrameLikelihood::Account::first_camera() const {
-  double sum = log_uprightness(frame_.scene_.model, particle_.pose);
+  double sum = log_uprightness(frame_.scene_.model, particle_.pose) +
+               log_legs_aside(frame_.scene_, particle_, now_);
   if (frame_.evidence_.empty()) return sum;
   Terms::each([&]<typename Term>() {
     if constexpr (Term::kStage == TermStage::kEarly) sum += of_camera<Term>(0, nullptr);

@@ -15,15 +15,22 @@ namespace {
 constexpr double kSlowestTemplate = 0.5, kTemplateStep = 0.2;
 constexpr int kPages = 9;
 
-// The largest log-likelihood of the figures with their roots above `position`.
+struct ScoredFigure {
+  double score = -std::numeric_limits<double>::infinity();
+  Pose pose{};
+};
+
+// The figure with the largest log-likelihood, of those with their roots above `position`.
 template <typename F>
-double best_of_figures(const Body& body, std::span<const Pose> figures,
-                       const Eigen::Vector2d& position, double heading, const F& log_likelihood) {
-  double best = -std::numeric_limits<double>::infinity();
+ScoredFigure best_of_figures(const Body& body, std::span<const Pose> figures,
+                             const Eigen::Vector2d& position, double heading,
+                             const F& log_likelihood) {
+  ScoredFigure best;
   for (Pose pose : figures) {
     pose.root.head<2>() = position;
     pose.heading = heading;
-    best = std::max(best, log_likelihood(PosedBody(body, pose)));
+    const double score = log_likelihood(PosedBody(body, pose));
+    if (score > best.score) best = {score, pose};
   }
   return best;
 }
@@ -71,8 +78,11 @@ std::span<const Pose> PoseTemplates::at(double speed, double heading) const {
   return figures_[table_heading(downhill_, heading) * kPages + of_speed];
 }
 
-double place_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
-                   std::span<const Pose> figures, const Eigen::Vector2d& position, double heading) {
+namespace {
+
+ScoredFigure best_by_all_terms(const TrackerScene& scene, const SceneEvidence& evidence,
+                               const Body& body, std::span<const Pose> figures,
+                               const Eigen::Vector2d& position, double heading) {
   return best_of_figures(body, figures, position, heading, [&](const PosedBody& posed) {
     double sum = 0;
     for (size_t c = 0; c < evidence.size(); ++c)
@@ -81,16 +91,30 @@ double place_score(const TrackerScene& scene, const SceneEvidence& evidence, con
   });
 }
 
+}  // namespace
+
+double place_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
+                   std::span<const Pose> figures, const Eigen::Vector2d& position, double heading) {
+  return best_by_all_terms(scene, evidence, body, figures, position, heading).score;
+}
+
+Pose best_figure(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
+                 std::span<const Pose> figures, const Eigen::Vector2d& position, double heading) {
+  return best_by_all_terms(scene, evidence, body, figures, position, heading).pose;
+}
+
 double outline_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
                      std::span<const Pose> figures, const Eigen::Vector2d& position,
                      double heading) {
-  return best_of_figures(body, figures, position, heading, [&](const PosedBody& posed) {
-    double sum = 0;
-    for (size_t c = 0; c < evidence.size(); ++c)
-      sum += SilhouetteTerm::log_likelihood(scene.observation, evidence[c], scene.cameras[c], posed,
-                                            nullptr);
-    return sum;
-  });
+  return best_of_figures(body, figures, position, heading,
+                         [&](const PosedBody& posed) {
+                           double sum = 0;
+                           for (size_t c = 0; c < evidence.size(); ++c)
+                             sum += SilhouetteTerm::log_likelihood(
+                                 scene.observation, evidence[c], scene.cameras[c], posed, nullptr);
+                           return sum;
+                         })
+      .score;
 }
 
 }  // namespace tracker

@@ -70,6 +70,10 @@ class PoseTemplates {
 double place_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
                    std::span<const Pose> figures, const Eigen::Vector2d& position, double heading);
 
+// That figure, placed.
+Pose best_figure(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
+                 std::span<const Pose> figures, const Eigen::Vector2d& position, double heading);
+
 // The same by outlines alone.
 double outline_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
                      std::span<const Pose> figures, const Eigen::Vector2d& position,

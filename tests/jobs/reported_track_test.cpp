@@ -137,7 +137,7 @@ TEST(ReportedTrack, SamplesAndBandsRunThroughThePieces) {
   EXPECT_NEAR(sd(kSeam) / sd(kSeam - 60), 1, 0.2);
 }
 
-// What is known of walks (tracker/smooth/walk_prior.h) counts, unless feet are to be judged as the
+// What is known of walks (tracker/walk_prior.h) counts, unless feet are to be judged as the
 // images have them.
 TEST(ReportedTrack, SwayingToTheSideIsBelievedOnlyByTheImages) {
   const TemporaryFolder folder;

@@ -125,6 +125,9 @@ TEST(SearchWindow, TooLargeForMemoryIsRefusedWithAdvice) {
   fine.observation.person_px = 4000;  // nothing is shrunk
   coarse.observation.person_px = 40;
   EXPECT_DOUBLE_EQ(search_window_bytes(scene, fine, 30), 2.0 * 640 * 480 * 36 * 4);
+  Scene one = scene;  // whose subject is searched by their clothes as well
+  one.cameras.pop_back();
+  EXPECT_DOUBLE_EQ(search_window_bytes(one, fine, 30), 640 * 480 * 36 * 16);
   EXPECT_NO_THROW(require_room_for_search(scene, fine, kFastestRate));
   for (SceneCamera& camera : scene.cameras)
     camera.camera.width_px = camera.camera.height_px = kMostPixelsAlongASide;

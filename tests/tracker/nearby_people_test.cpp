@@ -151,7 +151,7 @@ TEST_F(NearbyPeopleTest, TheWindowOfASearchLeavesThemOutUntilThatIsUndone) {
   EXPECT_LT((people.subject.position() - subject_in(kFrames)).norm(), 1e-9);
   EXPECT_LT(found.walk.score, 0);  // less of the figure has evidence than before
   EXPECT_NE(search.window().back()[0].planes.prefix, window_.back()[0].planes.prefix);
-  search.restore_evidence();
+  search.restore_evidence(subject_->context());
   for (size_t i = 0; i < kFrames; ++i)
     EXPECT_EQ(search.window()[i][0].planes.prefix, window_[i][0].planes.prefix) << i;
 }

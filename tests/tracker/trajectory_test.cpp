@@ -10,7 +10,7 @@
 #include "core/rng.h"
 #include "fixture.h"
 #include "tests/tracker/frame_time.h"
-#include "tracker/smooth/walk_prior.h"
+#include "tracker/walk_prior.h"
 
 namespace walktrack {
 namespace {
@@ -117,8 +117,9 @@ double header_sum(const BodyModel& model, double dt, std::span<const FrameRecord
                acceleration_cost(way->x() * second[1] - way->y() * second[0], 0.3, dt);
       }
     }
-    if (way) sum += 0.5 * dt / 0.1 * legs_aside(model.body, poses[t], *way).squaredNorm();
     const JointPositions joints = forward_kinematics(model.body, poses[t]).joints;
+    if (way)
+      sum += 0.5 * dt / 0.1 * legs_aside(joints, model.body.subject.height, *way).squaredNorm();
     for (const Side side : {Side::kLeft, Side::kRight})
       sum += 0.5 * std::pow(std::min(0.0, joints[toe(side)].z()) / 0.001, 2);
   }

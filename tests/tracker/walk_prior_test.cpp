@@ -1,4 +1,4 @@
-#include "tracker/smooth/walk_prior.h"
+#include "tracker/walk_prior.h"
 
 #include <cmath>
 
@@ -53,13 +53,17 @@ Pose stepping(const Body& body) {
   return pose;
 }
 
+LegsAside legs_aside(const Body& body, const Pose& pose, double direction) {
+  return walktrack::legs_aside(forward_kinematics(body, pose).joints, body.subject.height,
+                               Vector2d(std::cos(direction), std::sin(direction)));
+}
+
 // By hand: distances from the line through the pelvis in the direction of the walk.
 TEST(LegsAside, AreDistancesFromTheLineOfTheWalk) {
   const Body body = test_model().body;
   const Pose pose = stepping(body);
   const double direction = 0.3, stature = body.subject.height;
-  const LegsAside found =
-      legs_aside(body, pose, Vector2d(std::cos(direction), std::sin(direction)));
+  const LegsAside found = legs_aside(body, pose, direction);
   const JointPositions joints = forward_kinematics(body, pose).joints;
   const Eigen::Rotation2Dd back(-direction);
   const auto to_left = [&](Joint joint) {
@@ -75,17 +79,16 @@ TEST(LegsAside, AreDistancesFromTheLineOfTheWalk) {
 TEST(LegsAside, TurnWithTheWalkAndAreSwappedByAMirror) {
   const Body body = test_model().body;
   const Pose pose = stepping(body);
-  const LegsAside found = legs_aside(body, pose, Vector2d(std::cos(0.3), std::sin(0.3)));
+  const LegsAside found = legs_aside(body, pose, 0.3);
   Pose turned = pose;
   turned.heading += 2;
   turned.root.head<2>() = Vector2d(-3, 5);
-  EXPECT_LT((legs_aside(body, turned, Vector2d(std::cos(2.3), std::sin(2.3))) - found).norm(),
-            1e-9);
+  EXPECT_LT((legs_aside(body, turned, 2.3) - found).norm(), 1e-9);
   Pose mirrored = pose;
   mirrored.heading *= -1;
   mirrored.list *= -1;
   std::swap(mirrored.legs[0], mirrored.legs[1]);
-  const LegsAside swapped = legs_aside(body, mirrored, Vector2d(std::cos(-0.3), std::sin(-0.3)));
+  const LegsAside swapped = legs_aside(body, mirrored, -0.3);
   EXPECT_LT((swapped - LegsAside(found[1], found[0], found[3], found[2])).norm(), 1e-9);
 }
 
@@ -95,7 +98,7 @@ TEST(LegsAside, LegsThatHangDownAreUsual) {
   const Body body = test_model().body;
   Pose pose;
   pose.root.z() = leg_length(body.lengths);
-  const LegsAside found = legs_aside(body, pose, Vector2d::UnitX());
+  const LegsAside found = legs_aside(body, pose, 0);
   EXPECT_LT(found.cwiseAbs().maxCoeff(), 1.5);
 }
 

@@ -119,7 +119,7 @@ TEST_F(Search, WeighsPixelsByTheDistanceOfAWalkUntilThatIsUndone) {
     EXPECT_NEAR(frame[0].pixel_weight, kNear, 0.05 * kNear);
   // The speed's prior has a share in the score.
   EXPECT_NEAR(found->walk.score, score * kNear / kUsual, 0.05 * score);
-  search.restore_evidence();
+  search.restore_evidence(subject_->context());
   for (const SceneEvidence& frame : search.window()) EXPECT_EQ(frame[0].pixel_weight, kUsual);
 }
 

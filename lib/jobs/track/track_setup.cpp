@@ -22,6 +22,9 @@ namespace {
 // further off may be seen at a lower resolution.
 constexpr double kNearShare = 0.7;
 constexpr double kFallbackDistance = 10;  // m, where no place on the ground is in view
+// Of each pixel while a subject is searched by their clothes (tracker/detect/clothes.h): its colour
+// and the background's density; log-ratios of all classes, in less than half of the picture.
+constexpr double kClothesBytes = 2 * sizeof(uint16_t) + 2 * sizeof(int32_t);
 
 // Expected height of the subject in the image.
 double expected_height_px(const Scene& scene, const Camera& camera, const DetectorConfig& config) {
@@ -133,8 +136,11 @@ double search_window_bytes(const Scene& scene, const Config& config, double fram
   }
   const double flow_bytes =
       is_on(config.observation.flow) ? sizeof(FlowCell) + sizeof(EarlierPixel) : 0;
+  const ObservationConfig& terms = config.observation;
+  const bool clothes =
+      scene.cameras.size() == 1 && terms.background.enabled && terms.foreground.enabled;
   return std::ceil(config.tracker.detector.window * frame_rate) * pixels *
-         (sizeof(int32_t) + flow_bytes);
+         (sizeof(int32_t) + flow_bytes + (clothes ? kClothesBytes : 0));
 }
 
 void require_room_for_search(const Scene& scene, const Config& config, double frame_rate) {

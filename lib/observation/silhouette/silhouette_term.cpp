@@ -1,7 +1,7 @@
 #include "observation/silhouette/silhouette_term.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/errors.h"
@@ -107,10 +107,12 @@ void SilhouetteTerm::Memory::complete(const ObserverSetting& setting, ObservedFr
   if (frame.bgr.empty()) {
     out.planes.count = 0;
     out.planes.area = {};
+    out.colours = {};
     return;
   }
   const BackgroundConfig& background = setting.config.background;
   if (uses_colours(setting.config)) fill_planes(setting, frame, prepared, out.planes);
+  out.colours = seen_colours(setting, frame, prepared);
   if (background.enabled && background.drift_rate > 0)
     follow_drift(*background_, background, frame.bgr, prepared.gain,
                  static_cast<int>(frames_ % kDriftRows), kDriftRows);
@@ -121,8 +123,16 @@ void SilhouetteTerm::Memory::complete(const ObserverSetting& setting, ObservedFr
 // One generic plane until the subject's colours are known; without a background, no plane until
 // then.
 int SilhouetteTerm::Memory::planes_wanted(const ObservationConfig& config) const {
-  if (config.foreground.enabled && appearance_.any_learned()) return appearance_.classes();
+  if (knows_colours(config)) return appearance_.classes();
   return config.background.enabled ? 1 : 0;
+}
+
+bool SilhouetteTerm::Memory::knows_colours(const ObservationConfig& config) const {
+  return config.foreground.enabled && appearance_.any_learned();
+}
+
+uint16_t SilhouetteTerm::Memory::bin_of(const ColourPatch& patch, size_t index) const {
+  return bins_.bin(patch.luma[index], patch.orange[index], patch.green[index]);
 }
 
 void SilhouetteTerm::Memory::fill_planes(const ObserverSetting& setting, const ObservedFrame& frame,
@@ -130,8 +140,8 @@ void SilhouetteTerm::Memory::fill_planes(const ObserverSetting& setting, const O
   const PixelRect& area = frame.region.area;
   const ObservationConfig& config = setting.config;
   if (!config.background.enabled && scene_.empty()) scene_ = scene_table(bins_, frame.bgr);
-  const bool learned = config.foreground.enabled && appearance_.any_learned();
-  planes.plane_of = learned ? appearance_.class_of() : std::array<int, kAppearanceCount>{};
+  planes.plane_of =
+      knows_colours(config) ? appearance_.class_of() : std::array<int, kAppearanceCount>{};
   resize(planes, area, planes_wanted(config));
   if (planes.count == 0 || area.empty()) return;
   for_bands(area, setting.threads,
@@ -148,8 +158,7 @@ void SilhouetteTerm::Memory::fill_rows(const ObserverSetting& setting, const Pre
   std::vector<float> of_scene(width), ratio(width);
   for (int y = begin; y < end; ++y) {
     const size_t at = seen.index(area.x0, y);
-    for (size_t i = 0; i < width; ++i)
-      colours[i] = bins_.bin(seen.luma[at + i], seen.orange[at + i], seen.green[at + i]);
+    for (size_t i = 0; i < width; ++i) colours[i] = bin_of(seen, at + i);
     const float* behind = prepared.behind.data() + width * static_cast<size_t>(y - area.y0);
     if (!config.background.enabled) {
       for (size_t i = 0; i < width; ++i) of_scene[i] = scene_[colours[i]];
@@ -167,25 +176,41 @@ void SilhouetteTerm::Memory::fill_rows(const ObserverSetting& setting, const Pre
   }
 }
 
+SeenColours SilhouetteTerm::Memory::seen_colours(const ObserverSetting& setting,
+                                                 const ObservedFrame& frame,
+                                                 const Prepared& prepared) const {
+  const bool wanted = frame.region.picture && setting.config.background.enabled &&
+                      setting.config.foreground.enabled && !knows_colours(setting.config);
+  if (!wanted) return {};
+  const PixelRect& area = frame.region.area;
+  SeenColours seen;
+  seen.area = area;
+  seen.colourless = background_->change.colourless;
+  seen.bin.reserve(prepared.behind.size());
+  seen.behind.reserve(prepared.behind.size());
+  constexpr auto kNat = static_cast<float>(LogRatioPlanes::kNat);
+  constexpr float kMost = std::numeric_limits<int16_t>::max();
+  for (int y = area.y0; y < area.y1; ++y) {
+    for (int x = area.x0; x < area.x1; ++x) {
+      const bool unknown = setting.occluded && setting.mask.at<uint8_t>(y, x);
+      const float behind = kNat * prepared.behind[seen.bin.size()];
+      seen.bin.push_back(bin_of(prepared.colours, prepared.colours.index(x, y)));
+      seen.behind.push_back(unknown ? SeenColours::kUnknown
+                                    : static_cast<int16_t>(std::clamp(behind, -kMost, kMost)));
+    }
+  }
+  return seen;
+}
+
 void SilhouetteTerm::Memory::learn(const ObserverSetting& setting, const CameraEvidence& evidence,
                                    const FoundPose& found) {
   if (!setting.config.foreground.enabled) return;
-  AppearanceModel::Counts counts = appearance_.empty_counts();
-  const CapsuleList inner = scaled_radii(found.capsules, kInner);
-  for (const VisibleRun& run : visible_runs(evidence.planes.area, inner)) {
-    const Appearance appearance = inner[static_cast<size_t>(run.capsule)].appearance;
-    const auto cls = static_cast<size_t>(appearance_.class_of()[static_cast<size_t>(appearance)]);
-    for (int x = run.x0; x < run.x1; ++x) {
-      const size_t i = patch_.index(x, run.y);
-      if (setting.occluded && setting.mask.at<uint8_t>(run.y, x)) continue;
-      const double ratio = log_ratio_at(evidence.planes, appearance, x, run.y);
-      const double foreground = 1 / (1 + std::exp(-ratio));
-      counts.weights[cls][bins_.bin(patch_.luma[i], patch_.orange[i], patch_.green[i])] +=
-          static_cast<float>(foreground);
-      counts.seen[cls] += 1;
-    }
-  }
-  appearance_.learn(bins_, counts);
+  const auto bin_at = [&](int x, int y) -> std::optional<uint16_t> {
+    if (setting.occluded && setting.mask.at<uint8_t>(y, x)) return std::nullopt;
+    return bin_of(patch_, patch_.index(x, y));
+  };
+  appearance_.learn(bins_, colours_inside(scaled_radii(found.capsules, kInner), evidence.planes,
+                                          appearance_, bin_at));
 }
 
 SilhouetteTerm::State SilhouetteTerm::Memory::state() const {

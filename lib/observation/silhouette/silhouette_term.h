@@ -9,6 +9,7 @@
 
 #include "observation/background/appearance.h"
 #include "observation/background/background.h"
+#include "observation/background/seen_colours.h"
 #include "observation/silhouette/planes.h"
 #include "observation/term.h"
 
@@ -27,6 +28,7 @@ struct SilhouetteTerm {
 
   struct Evidence {
     LogRatioPlanes planes;  // empty if foreground and background are both off
+    SeenColours colours;    // empty unless Region::picture, and if the subject's are known
   };
 
   struct State {
@@ -64,6 +66,10 @@ struct SilhouetteTerm {
                      const Prepared& prepared, LogRatioPlanes& planes);
     void fill_rows(const ObserverSetting& setting, const Prepared& prepared, int begin, int end,
                    LogRatioPlanes& planes) const;
+    bool knows_colours(const ObservationConfig& config) const;
+    uint16_t bin_of(const ColourPatch& patch, size_t index) const;
+    SeenColours seen_colours(const ObserverSetting& setting, const ObservedFrame& frame,
+                             const Prepared& prepared) const;
 
     std::optional<BackgroundModel> background_;
     AppearanceModel appearance_;

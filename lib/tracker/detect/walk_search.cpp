@@ -1,10 +1,13 @@
 #include "tracker/detect/walk_search.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "core/parallel_for.h"
+#include "tracker/detect/clothes.h"
 #include "tracker/detect/half_hidden.h"
 
 namespace walktrack {
@@ -20,6 +23,8 @@ constexpr double kMostPatience = 0.7;
 // Shares of the score by which walking explains a window better than standing: clearly; in a window
 // beside one with a clear walk. By hand; sensitivity not measured.
 constexpr double kClearWalk = 0.15, kPromisingWalk = 0.1;
+// Of a window in which a walk has been found already.
+constexpr double kAlreadyFound = -std::numeric_limits<double>::infinity();
 
 // Nats, of the figure of a walk whose place is that in the frame.
 double score_at(const TrackContext& context, const SceneEvidence& frame, const DetectedWalk& walk) {
@@ -81,8 +86,10 @@ std::optional<FoundWalk> WalkSearch::find(const TrackContext& context, const Sea
   const bool last_chance = static_cast<int>(window_.size()) <= frames_in(kShortestWindow, dt);
   if (half_hidden_ && now < half_hidden_->search_at && !last_chance) return std::nullopt;
   const std::optional<DetectedWalk> walk = find_here(context, moment, kClearWalk);
-  if (!half_hidden_ && (!walk || walk->hidden_frames == 0 || last_chance))
-    return walk ? std::optional(FoundWalk{*walk}) : std::nullopt;
+  if (!half_hidden_ && !walk) return std::nullopt;
+  if (!half_hidden_ && walk->hidden_frames == 0)
+    return FoundWalk{in_its_clothes(context, moment, *walk)};
+  if (!half_hidden_ && last_chance) return FoundWalk{*walk};
   if (!half_hidden_) half_hidden_ = HalfHidden{*walk, now, now};
   const uint32_t waited = now - half_hidden_->frame;
   const bool clear = walk && walk->hidden_frames == 0;
@@ -114,6 +121,26 @@ std::optional<DetectedWalk> WalkSearch::find_here(const TrackContext& context,
   const bool believed = walk && (!reach || reach->contains(walk->position)) &&
                         walks_clearly(context, moment.first_frame, *walk, clearly);
   return believed ? walk : std::nullopt;
+}
+
+DetectedWalk WalkSearch::in_its_clothes(const TrackContext& context, const SearchMoment& moment,
+                                        DetectedWalk walk) {
+  const auto clothes = clothes_of(context, window_, walk);
+  if (!clothes) return walk;
+  walk.score -= mean_score(context, walk);
+  const auto compare = [&](std::deque<SceneEvidence>& frames, double first) {
+    parallel_for(frames.size(), context.threads, [&](size_t i) {
+      const double seconds = context.scene.dt * (first + double(i));
+      compare_with(*clothes, context, moved(walk, std::max(0.0, seconds)).position, frames[i]);
+    });
+  };
+  compare(waiting_, -double(waiting_.size()));  // in which the subject may stand there
+  compare(window_, 0);
+  compare(later_, double(window_.size()));
+  clothed_ = true;
+  forget_scores();
+  walk.score += mean_score(context, walk);
+  return find_here(context, moment, kAlreadyFound).value_or(walk);
 }
 
 const std::vector<Place>& WalkSearch::candidates(const SearchWindow& window, size_t index) {
@@ -255,7 +282,7 @@ NearbyPeople WalkSearch::hide_others(const TrackContext& context, FoundWalk& fou
   return people;
 }
 
-void WalkSearch::restore_evidence() {
+void WalkSearch::restore_evidence(const TrackContext& context) {
   for (auto& [i, frame] : std::exchange(with_others_, {})) window_[i] = std::move(frame);
   for (std::deque<SceneEvidence>* frames : {&waiting_, &window_}) {
     for (SceneEvidence& frame : *frames) {
@@ -264,6 +291,10 @@ void WalkSearch::restore_evidence() {
     }
   }
   search_weights_.clear();
+  if (!std::exchange(clothed_, false)) return;
+  for (std::deque<SceneEvidence>* frames : {&waiting_, &window_, &later_})
+    for (SceneEvidence& frame : *frames) forget_clothes(context, frame);
+  forget_scores();
 }
 
 bool WalkSearch::slide(const TrackContext& context) {
@@ -283,10 +314,15 @@ std::deque<SceneEvidence> WalkSearch::take() {
   slight_walks_ = {};
   search_weights_.clear();
   with_others_.clear();
+  clothed_ = false;
+  for (SceneEvidence& frame : window_) drop_colours(frame);
   return std::exchange(window_, {});
 }
 
-std::deque<SceneEvidence> WalkSearch::take_later() { return std::exchange(later_, {}); }
+std::deque<SceneEvidence> WalkSearch::take_later() {
+  for (SceneEvidence& frame : later_) drop_colours(frame);
+  return std::exchange(later_, {});
+}
 
 }  // namespace tracker
 }  // namespace walktrack

@@ -51,7 +51,9 @@ class WalkSearch {
   std::optional<size_t> look(const TrackContext& context, const SearchMoment& moment, size_t step);
   // The walk through the window; nullopt if nobody walks there, or not clearly enough. If the
   // subject is half hidden at first, the place is uncertain: the walk is searched once more after
-  // that. Both walks begin where the first one was found.
+  // that. Both walks begin where the first one was found. A subject who is whole is found once more
+  // by the colours of their clothes (tracker/detect/clothes.h), with which frames are compared from
+  // then on.
   std::optional<FoundWalk> find(const TrackContext& context, const SearchMoment& moment);
   // That walk together with an estimate of the subject's height.
   SizedWalk with_size(const TrackContext& context, const SearchMoment& moment,
@@ -87,8 +89,8 @@ class WalkSearch {
   // Follows others who are near the walk through the window; from then on their pixels are no
   // evidence, and the score of the walk changes accordingly. Returns who is near after the window.
   NearbyPeople hide_others(const TrackContext& context, FoundWalk& found);
-  // Undoes both.
-  void restore_evidence();
+  // Undoes these, and what find() has done to the evidence.
+  void restore_evidence(const TrackContext& context);
 
   // Moves the beginning of the window forward by a frame. Returns whether the oldest of the frames
   // that wait was dropped.
@@ -99,6 +101,10 @@ class WalkSearch {
   std::deque<SceneEvidence> take_later();
 
  private:
+  // The same walk, or a better one, by the colours that it has: the frames are compared with them
+  // until restore_evidence().
+  DetectedWalk in_its_clothes(const TrackContext& context, const SearchMoment& moment,
+                              DetectedWalk walk);
   // Nats a frame, of a walk through the window.
   double mean_score(const TrackContext& context, const DetectedWalk& walk) const;
   SearchWindow view(const TrackContext& context, const SearchMoment& moment) const;
@@ -125,6 +131,7 @@ class WalkSearch {
   std::optional<HalfHidden> half_hidden_;
   std::vector<std::pair<size_t, SceneEvidence>> with_others_;  // frames of the window, before
   std::vector<double> search_weights_;  // by camera, while the frames are weighed at a walk
+  bool clothed_ = false;                // whether frames are compared with the subject's clothes
 };
 
 }  // namespace tracker

@@ -27,7 +27,6 @@ constexpr double kWalkerRate = 1.5;          // w / dt, 1/s
 constexpr double kImageTime = 1.0 / 30;      // s, for which images err alike
 constexpr double kAccelerationTime = 0.025;  // tau, s
 constexpr double kSway = 0.3;                // m/s^2, of the root, across the walk
-constexpr double kAsideTime = 0.1;           // s
 constexpr double kSlide = 0.001;             // c, m
 constexpr double kSole = 0.03;               // b, m, once every
 constexpr double kSoleTime = 0.1;            // s
@@ -228,11 +227,13 @@ class Trajectory {
   void add_legs_aside(size_t t, NormalEquations& sum) const {
     const WalkingDirection way = this->way(t);
     if (!way) return;
-    const auto aside = [&](const Pose& pose) { return legs_aside(body_, pose, *way); };
+    const auto aside = [&](const Pose& pose) {
+      return legs_aside(forward_kinematics(body_, pose).joints, body_.subject.height, *way);
+    };
     const LegsAside off = aside(poses_[t]);
     const MatrixXd slopes = this->slopes(t, aside);
     for (Index i = 0; i < off.size(); ++i)
-      sum.add(SquareTerm{off[i], dt_ / kAsideTime, of_frame(t, slopes.row(i))});
+      sum.add(SquareTerm{off[i], dt_ / kLegsAsideTime, of_frame(t, slopes.row(i))});
   }
 
   void add_flat(size_t stretch, NormalEquations& sum) const {

@@ -31,7 +31,7 @@
 #include <vector>
 
 #include "body/flat_foot.h"
-#include "tracker/smooth/walk_prior.h"
+#include "tracker/walk_prior.h"
 #include "tracker/walker_filter.h"
 
 namespace walktrack {

@@ -133,7 +133,7 @@ std::optional<WindowStart> start_with_walk(SearchedWindow& window) {
   if (!walk) return std::nullopt;
   std::optional<WindowStart> start =
       window.subject.wants_size() ? start_unsized(window, *walk) : start_sized(window, *walk);
-  if (!start) window.search.restore_evidence();
+  if (!start) window.search.restore_evidence(window.subject.context());
   return start;
 }
 

@@ -15,7 +15,7 @@ inline namespace jobs {
 // What else counts in the most probable poses of frames together.
 struct Together {
   std::span<const FlatFoot> flat = {};  // soles in place
-  bool walk_prior = true;               // what is known of walks (tracker/smooth/walk_prior.h)
+  bool walk_prior = true;               // what is known of walks (tracker/walk_prior.h)
   // With bands and samples of this scene (tracker/smooth/posterior.h), if one is given.
   const BandScene* bands = nullptr;
 };

@@ -1,9 +1,7 @@
-#include "tracker/smooth/walk_prior.h"
+#include "tracker/walk_prior.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "body/kinematics.h"
 
 namespace walktrack {
 inline namespace tracker {
@@ -22,24 +20,29 @@ constexpr Aside kKneeAside{.044, .020}, kAnkleAside{.022, .026};
 
 }  // namespace
 
+WalkingDirection walking_direction(const Eigen::Vector2d& velocity) {
+  if (velocity.norm() <= kSlowest) return std::nullopt;
+  return velocity.normalized();
+}
+
 std::vector<WalkingDirection> walking_directions(std::span<const Eigen::Vector2d> places,
                                                  double dt) {
   std::vector<WalkingDirection> out(places.size());
   const auto half = static_cast<size_t>(std::lround(kHalfWindow / dt));
   for (size_t t = 0; t < places.size(); ++t) {
     const size_t before = t - std::min(t, half), after = std::min(t + half, places.size() - 1);
-    const Eigen::Vector2d way = places[after] - places[before];
-    if (way.norm() > kSlowest * dt * static_cast<double>(after - before)) out[t] = way.normalized();
+    if (after > before)
+      out[t] = walking_direction((places[after] - places[before]) /
+                                 (dt * static_cast<double>(after - before)));
   }
   return out;
 }
 
-LegsAside legs_aside(const Body& body, const Pose& pose, const Eigen::Vector2d& ahead) {
-  const JointPositions joints = forward_kinematics(body, pose).joints;
+LegsAside legs_aside(const JointPositions& joints, double stature, const Eigen::Vector2d& ahead) {
   const Eigen::Vector2d left(-ahead.y(), ahead.x());
   const auto off = [&](Joint joint, Side side, const Aside& usual) {
     const double to_left = left.dot((joints[joint] - joints[Joint::kPelvis]).head<2>());
-    const double aside = (side == Side::kLeft ? to_left : -to_left) / body.subject.height;
+    const double aside = (side == Side::kLeft ? to_left : -to_left) / stature;
     return (aside - usual.mean) / usual.sd;
   };
   return {off(Joint::kLeftKnee, Side::kLeft, kKneeAside),
