@@ -37,32 +37,32 @@ std::optional<AppearanceModel> clothes_of(const TrackContext& context,
   const auto figures = context.subject.figures.at(walk.velocity.norm(), heading);
   std::optional<AppearanceModel> clothes;
   for (size_t i = 0; i < window.size(); ++i) {
-    const auto& [planes, seen] = static_cast<const SilhouetteTerm::Evidence&>(window[i][0]);
+    const SeenColours& seen = window[i][0].colours;
     if (seen.empty()) continue;
     if (!clothes) clothes = unknown_clothes(context, seen);
     const Eigen::Vector2d place = moved(walk, double(i) * context.scene.dt).position;
     const PosedBody figure(context.body(), best_figure(context.scene, window[i], context.body(),
                                                        figures, place, heading));
     const CapsuleList parts = project_parts(context.scene.cameras[0], figure.parts);
-    clothes->learn(bins, colours_inside(scaled_radii(parts, kCertainlyBody), planes, *clothes,
-                                        [&](int x, int y) { return seen.bin_at(x, y); }));
+    clothes->learn(bins, colours_inside(scaled_radii(parts, kCertainlyBody), window[i][0].planes,
+                                        *clothes, [&](int x, int y) { return seen.bin_at(x, y); }));
   }
   return clothes && clothes->any_learned() ? clothes : std::nullopt;
 }
 
 void compare_with(const AppearanceModel& clothes, const TrackContext& context,
                   const Eigen::Vector2d& place, SceneEvidence& frame) {
-  auto& [planes, seen] = static_cast<SilhouetteTerm::Evidence&>(frame[0]);
+  const SeenColours& seen = frame[0].colours;
   if (seen.empty()) return;
   compare_with(clothes, seen, area_around(context, place, seen), context.scene.observation.clip,
-               planes);
+               frame[0].planes);
 }
 
 void forget_clothes(const TrackContext& context, SceneEvidence& frame) {
-  auto& [planes, seen] = static_cast<SilhouetteTerm::Evidence&>(frame[0]);
+  const SeenColours& seen = frame[0].colours;
   if (seen.empty()) return;
   compare_with(unknown_clothes(context, seen), seen, seen.area, context.scene.observation.clip,
-               planes);
+               frame[0].planes);
 }
 
 void drop_colours(SceneEvidence& frame) {
