@@ -10,79 +10,13 @@
 #include "core/parallel_for.h"
 #include "observation/background/background_sampler.h"
 #include "observation/shrink.h"
+#include "tests/observation/person_at_wall.h"
 #include "tests/observation/picture_terms.h"
 #include "tests/observation/rendered.h"
 #include "tests/observation/scenes.h"
 
 namespace walktrack {
 namespace {
-
-// A textured wall, the same for one key whatever is drawn in front of it.
-cv::Mat wall(int width, int height) {
-  Rng rng(11, Purpose::kTest);
-  cv::Mat image(height, width, CV_8UC3);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double base = 110 + 30 * std::sin(0.11 * x) * std::cos(0.07 * y);
-      for (int c = 0; c < 3; ++c)
-        image.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uint8_t>(base + 10 * c + 4 * rng.normal());
-    }
-  }
-  return image;
-}
-
-cv::Vec3b clothes(Appearance appearance) {
-  switch (appearance) {
-    case Appearance::kTrunk:
-      return {150, 60, 60};
-    case Appearance::kLegs:
-      return {40, 50, 130};
-    case Appearance::kFeet:
-      return {30, 30, 30};
-    case Appearance::kHead:
-      return {140, 170, 220};
-    case Appearance::kArms:
-      return {140, 170, 220};
-  }
-  return {};
-}
-
-void draw_body(cv::Mat& image, const CapsuleList& capsules) {
-  for (const VisibleRun& run : visible_runs({0, 0, image.cols, image.rows}, capsules)) {
-    const cv::Vec3b colour = clothes(capsules[static_cast<size_t>(run.capsule)].appearance);
-    for (int x = run.x0; x < run.x1; ++x) {
-      // Stripes give the flow term texture.
-      const int stripe = (x + 2 * run.y) / 3 % 2 * 30;
-      for (int c = 0; c < 3; ++c)
-        image.at<cv::Vec3b>(run.y, x)[c] = cv::saturate_cast<uint8_t>(colour[c] + stripe);
-    }
-  }
-}
-
-struct World {
-  Body body = make_body(Subject{}, {});
-  Camera camera = camera_at({0, -5, 1.2}, {0, 0, 0.9}, 320, 320, 240);
-  cv::Mat empty = wall(320, 240);
-
-  Pose pose(double x) const {
-    Pose out;
-    out.root = {x, 0, 0.92};
-    out.legs[0] = {0.4, 0, 0, 0.1, 0};
-    out.legs[1] = {-0.2, 0, 0, 0.3, 0};
-    return out;
-  }
-  CapsuleList capsules(const Pose& p) const { return project_parts(camera, posed(body, p)); }
-  cv::Mat frame(const Pose& p) const {
-    cv::Mat image = empty.clone();
-    draw_body(image, capsules(p));
-    return image;
-  }
-  Observer observer(const ObservationConfig& config, int threads = 1) const {
-    BackgroundSampler sampler(config.background);
-    sampler.add(empty);
-    return Observer(config, {camera, 1, appearances_of(body), sampler.model(), {}, threads});
-  }
-};
 
 // In an eighth of the light the true place is as much more probable than one beside it.
 TEST(Observer, SeesInTheDark) {
@@ -291,94 +225,6 @@ TEST(Observer, OccludersSayNothing) {
   };
   EXPECT_LT(seen(150), 0);
   EXPECT_GE(seen(170), 0);
-}
-
-// The observation of somebody in front of the wall, whose left quarter is occluded, with the
-// colours of its pixels.
-struct Coloured {
-  World world;
-  ObservationConfig config;
-  Observer observer = observed();
-  Region region = [this] {
-    Region out = whole_image(observer.camera(), 0.01);
-    out.picture = true;
-    return out;
-  }();
-  CameraEvidence seen = look();
-
-  Observer observed() {
-    config.background.drift_rate = 0;
-    BackgroundSampler sampler(config.background);
-    sampler.add(world.empty);
-    const Polygon left{{-1, -1}, {80, -1}, {80, 240}, {-1, 240}};
-    return Observer(config, {world.camera, 1, appearances_of(world.body), sampler.model(), {left}});
-  }
-  CameraEvidence look() {
-    CameraEvidence out;
-    observer.observe(world.frame(world.pose(0)), region, out);
-    return out;
-  }
-  AppearanceModel unknown() const { return {config.foreground, appearances_of(world.body)}; }
-  LogRatioPlanes compared(const AppearanceModel& model, const PixelRect& area) const {
-    LogRatioPlanes out;
-    compare_with(model, seen.colours, area, config.clip, out);
-    return out;
-  }
-};
-
-// By how much planes differ inside `area`, nats.
-double difference(const LogRatioPlanes& a, const LogRatioPlanes& b, const PixelRect& area) {
-  double most = 0;
-  for (int k = 0; k < kAppearanceCount; ++k)
-    for (int y = area.y0; y < area.y1; ++y)
-      for (int x = area.x0; x < area.x1; ++x)
-        most = std::max(most, std::abs(log_ratio_at(a, Appearance(k), x, y) -
-                                       log_ratio_at(b, Appearance(k), x, y)));
-  return most;
-}
-
-// Log densities of the background are kept to 1 / 256 nat, and log-ratios are as well.
-constexpr double kRounded = 2.0 / 256;
-
-TEST(SeenColours, ComparedWithUnknownClothesAreTheSameEvidence) {
-  const Coloured scene;
-  const PixelRect all = scene.seen.planes.area, part{70, 20, 250, 200};
-  EXPECT_EQ(scene.seen.planes.count, 1);
-  const LogRatioPlanes whole = scene.compared(scene.unknown(), all);
-  EXPECT_EQ(whole.count, 1);
-  EXPECT_LT(difference(whole, scene.seen.planes, all), kRounded);
-  EXPECT_EQ(log_ratio_at(whole, Appearance::kTrunk, 75, 120), 0) << "occluded";
-  EXPECT_NE(log_ratio_at(whole, Appearance::kTrunk, 85, 120), 0);
-  const LogRatioPlanes inside = scene.compared(scene.unknown(), part);
-  EXPECT_LT(difference(inside, scene.seen.planes, part), kRounded);
-  EXPECT_EQ(log_ratio_at(inside, Appearance::kTrunk, 260, 120), 0) << "outside the part";
-}
-
-// Colours that are learned from a frame that was kept are those that the observer learns from it.
-TEST(SeenColours, TeachWhatTheObserverLearns) {
-  Coloured scene;
-  constexpr double kInner = 0.75;  // of the observer
-  const CapsuleList parts = scene.world.capsules(scene.world.pose(0));
-  const SeenColours& seen = scene.seen.colours;
-  AppearanceModel clothes = scene.unknown();
-  clothes.learn(ColourBins(),
-                colours_inside(scaled_radii(parts, kInner), scene.seen.planes, clothes,
-                               [&](int x, int y) { return seen.bin_at(x, y); }));
-  scene.observer.learn(scene.seen, parts);
-  const LogRatioPlanes next = scene.look().planes;
-  EXPECT_EQ(next.count, clothes.classes());
-  EXPECT_LT(difference(scene.compared(clothes, next.area), next, next.area), kRounded);
-  EXPECT_GT(difference(scene.seen.planes, next, next.area), 1) << "the clothes have been learned";
-}
-
-TEST(SeenColours, AreOnlyKeptWithThePictureAndWhileTheClothesAreUnknown) {
-  Coloured scene;
-  EXPECT_FALSE(scene.seen.colours.empty());
-  scene.region.picture = false;
-  EXPECT_TRUE(scene.look().colours.empty());
-  scene.region.picture = true;
-  scene.observer.learn(scene.look(), scene.world.capsules(scene.world.pose(0)));
-  EXPECT_TRUE(scene.look().colours.empty());
 }
 
 // The background behind people who always stood there is unknown, whatever else moves.

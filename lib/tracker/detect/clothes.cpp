@@ -11,7 +11,7 @@ namespace {
 // and .5 the last is best on the videos of tracker/reports/one_camera.md.
 constexpr double kCertainlyBody = 0.5;
 // Metres beside the place, and share of the subject's height in the image on each side, in which a
-// subject who is nearer or farther lies as well. By hand.
+// subject who is nearer or farther lies as well. By hand; sensitivity not measured.
 constexpr double kLimbs = 0.5, kOtherDistance = 0.5;
 
 AppearanceModel unknown_clothes(const TrackContext& context, const SeenColours& seen) {
