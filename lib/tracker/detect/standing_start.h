@@ -9,6 +9,12 @@
 namespace walktrack {
 inline namespace tracker {
 
+// Somebody who stands has the same outline in every frame, and what is wrong with it (clothes,
+// arms, a body that is wider than the figure) does not average out as it does while they walk.
+// Where keypoints lead, whose errors change from frame to frame, the outlines of these frames count
+// for so much; reports/standing.md has the measurement.
+inline constexpr double kStillOutlines = 0.1;
+
 // That body on straight legs, with the root above the origin and heading 0.
 Pose standing_pose(const BodyModel& model);
 

@@ -258,6 +258,11 @@ void WalkSearch::weigh_at(const TrackContext& context, FoundWalk& found) {
   for (DetectedWalk* walk : walks) walk->score += mean_score(context, *walk);
 }
 
+void WalkSearch::weigh_as_standing() {
+  for (SceneEvidence& frame : waiting_)
+    for (CameraEvidence& evidence : frame) evidence.pixel_weight *= kStillOutlines;
+}
+
 NearbyPeople WalkSearch::hide_others(const TrackContext& context, FoundWalk& found) {
   NearbyPeople people = alone(found.walk.position, found.walk.velocity);
   const auto expect_in = [&](size_t frame) {

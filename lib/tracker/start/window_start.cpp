@@ -86,6 +86,15 @@ std::optional<WindowStart> start_walking(SearchedWindow& window, const FoundWalk
   return start_of(window, std::move(trial), found.lead);
 }
 
+// The subject standing before the walk, if they do.
+std::optional<StandingStart> standing_before_walk(SearchedWindow& window, const FoundWalk& found) {
+  if (found.lead > 0) return std::nullopt;
+  const TrackedSubject& subject = window.subject;
+  if (subject.keypoints_lead() && subject.scene.cameras.size() == 1)
+    window.search.weigh_as_standing();
+  return window.search.standing_lead(subject.context(), found.walk);
+}
+
 // The frames of a search weigh pixels as if the subject were at a usual distance; the trial weighs
 // them at the walk, as the frames after it. Several cameras keep the weights of the search,
 // with which two telephones are tracked better (observation/reports/weights.md).
@@ -104,10 +113,7 @@ void prepare_evidence(SearchedWindow& window, FoundWalk& found) {
 // Starts where the subject stands before the walk, if they do; otherwise with the walk.
 std::optional<WindowStart> start_sized(SearchedWindow& window, FoundWalk found) {
   prepare_evidence(window, found);
-  const auto standing = found.lead == 0
-                            ? window.search.standing_lead(window.subject.context(), found.walk)
-                            : std::nullopt;
-  if (standing) {
+  if (const auto standing = standing_before_walk(window, found)) {
     std::optional<WindowStart> start = start_at(window, standing->detected, standing->frames);
     if (start || window.outlines_misled) return start;
   }
