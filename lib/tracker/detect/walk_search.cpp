@@ -258,9 +258,9 @@ void WalkSearch::weigh_at(const TrackContext& context, FoundWalk& found) {
   for (DetectedWalk* walk : walks) walk->score += mean_score(context, *walk);
 }
 
-void WalkSearch::weigh_as_standing() {
+void WalkSearch::weigh_waiting(double share) {
   for (SceneEvidence& frame : waiting_)
-    for (CameraEvidence& evidence : frame) evidence.pixel_weight *= kStillOutlines;
+    for (CameraEvidence& evidence : frame) evidence.pixel_weight *= share;
 }
 
 NearbyPeople WalkSearch::hide_others(const TrackContext& context, FoundWalk& found) {

@@ -86,8 +86,9 @@ class WalkSearch {
   // Weighs the pixels of all frames as those of a subject at the places of a walk, whose score
   // changes accordingly; frames come with the weights of a subject at a usual distance.
   void weigh_at(const TrackContext& context, FoundWalk& found);
-  // Weighs the frames before the window, in which the subject may stand (kStillOutlines).
-  void weigh_as_standing();
+  // Multiplies the weight of the pixels of the frames before the window, in which the subject may
+  // stand (kStillOutlines).
+  void weigh_waiting(double share);
   // Follows others who are near the walk through the window; from then on their pixels are no
   // evidence, and the score of the walk changes accordingly. Returns who is near after the window.
   NearbyPeople hide_others(const TrackContext& context, FoundWalk& found);

@@ -86,15 +86,6 @@ std::optional<WindowStart> start_walking(SearchedWindow& window, const FoundWalk
   return start_of(window, std::move(trial), found.lead);
 }
 
-// The subject standing before the walk, if they do.
-std::optional<StandingStart> standing_before_walk(SearchedWindow& window, const FoundWalk& found) {
-  if (found.lead > 0) return std::nullopt;
-  const TrackedSubject& subject = window.subject;
-  if (subject.keypoints_lead() && subject.scene.cameras.size() == 1)
-    window.search.weigh_as_standing();
-  return window.search.standing_lead(subject.context(), found.walk);
-}
-
 // The frames of a search weigh pixels as if the subject were at a usual distance; the trial weighs
 // them at the walk, as the frames after it. Several cameras keep the weights of the search,
 // with which two telephones are tracked better (observation/reports/weights.md).
@@ -110,11 +101,29 @@ void prepare_evidence(SearchedWindow& window, FoundWalk& found) {
     window.people = window.search.hide_others(window.subject.context(), found);
 }
 
+// Starts where the subject stands before the walk; nullopt if they do not stand, or if the trial
+// fails.
+std::optional<WindowStart> start_standing(SearchedWindow& window, const DetectedWalk& walk) {
+  const auto standing = window.search.standing_lead(window.subject.context(), walk);
+  return standing ? start_at(window, standing->detected, standing->frames) : std::nullopt;
+}
+
+// With less weight of still outlines first, if that is better for this subject.
+std::optional<WindowStart> start_standing_still(SearchedWindow& window, const DetectedWalk& walk) {
+  const TrackedSubject& subject = window.subject;
+  if (subject.keypoints_lead() && subject.scene.cameras.size() == 1) {
+    window.search.weigh_waiting(kStillOutlines);
+    if (auto start = start_standing(window, walk)) return start;
+    window.search.weigh_waiting(1 / kStillOutlines);
+  }
+  return start_standing(window, walk);
+}
+
 // Starts where the subject stands before the walk, if they do; otherwise with the walk.
 std::optional<WindowStart> start_sized(SearchedWindow& window, FoundWalk found) {
   prepare_evidence(window, found);
-  if (const auto standing = standing_before_walk(window, found)) {
-    std::optional<WindowStart> start = start_at(window, standing->detected, standing->frames);
+  if (found.lead == 0) {
+    std::optional<WindowStart> start = start_standing_still(window, found.walk);
     if (start || window.outlines_misled) return start;
   }
   return start_walking(window, found);
