@@ -1,6 +1,8 @@
 #include "tracker/start/window_start.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -108,6 +110,72 @@ TEST_F(WindowStartTest, OneCameraWeighsTheFramesOfAStartAtTheSubjectsDistance) {
     for (const SceneEvidence& frame : started->frames)
       EXPECT_NEAR(frame[0].pixel_weight, one ? 0.04 : 0.2, 0.002) << one;
   }
+}
+
+// Somebody who stands for a while and then walks, at the side of the first camera.
+class StandingFirst : public WindowStartTest {
+ protected:
+  static constexpr uint32_t kStood = 12;
+  static constexpr double kStrong = 9;  // outlines that count for a ninth still suffice
+  // `times`: the evidence while they stand, as a multiple of that while they walk.
+  void show_standing_first(const std::vector<Eigen::Vector3d>& places, double times) {
+    show(0.2, kVideoFrames, places);
+    const auto strengthen = [](double factor, CameraEvidence& evidence) {
+      for (int32_t& sum : evidence.planes.prefix)
+        sum = static_cast<int32_t>(std::lround(factor * sum));
+    };
+    for (SceneEvidence& frame : window_)
+      for (CameraEvidence& evidence : frame) strengthen(kStrong, evidence);
+    Pose standing = standing_pose(subject_->scene.model);
+    standing.root.head<2>() = walk_.position;
+    for (size_t t = 0; t < kStood; ++t) {
+      SceneEvidence& frame = window_.emplace_front();
+      for (const Camera& camera : subject_->scene.cameras) {
+        frame.push_back(evidence_of(camera, subject_->scene.model.body, standing));
+        strengthen(times * kStrong, frame.back());
+      }
+    }
+  }
+  // A start with the frames in which they walk.
+  std::optional<WindowStart> started() {
+    WalkSearch search;
+    for (const SceneEvidence& frame : window_) search.push(frame);
+    search.let_go(kStood);
+    TrackMode mode = Searching{WalkerFilter(subject_->config.filter, 1, 1), {}};
+    return start_in_window(*subject_, search, kStood, starts_, mode);
+  }
+  // The weight of the pixels while they stand, as a share of that when they begin to walk.
+  static double still_share(const WindowStart& start) {
+    return start.frames[0][0].pixel_weight / start.frames[kStood][0].pixel_weight;
+  }
+};
+
+TEST_F(StandingFirst, TheirOutlinesCountLessBeforeOneCameraWhereKeypointsLead) {
+  struct Case {
+    bool one, lead;
+    double share;
+  };
+  for (const Case& tried : {Case{true, true, 0.1}, {true, false, 1}, {false, true, 1}}) {
+    SCOPED_TRACE(testing::Message() << tried.one << tried.lead);
+    std::vector<Eigen::Vector3d> places{{0, -4, 1}};
+    if (!tried.one) places.emplace_back(4, -1, 1);
+    show_standing_first(places, 1);
+    if (tried.lead) subject_->let_keypoints_lead();
+    const auto start = started();
+    ASSERT_TRUE(start);
+    EXPECT_EQ(start->first_frame, 0u);
+    EXPECT_NEAR(still_share(*start), tried.share, 0.05 * tried.share);
+  }
+}
+
+// A tenth of so little evidence shows nobody.
+TEST_F(StandingFirst, TheyAreFoundByAllOfTheirOutlinesIfLessShowsNobody) {
+  show_standing_first({{0, -4, 1}}, 0.06);
+  subject_->let_keypoints_lead();
+  const auto start = started();
+  ASSERT_TRUE(start);
+  EXPECT_EQ(start->first_frame, 0u);
+  EXPECT_NEAR(still_share(*start), 1, 0.05);
 }
 
 }  // namespace
