@@ -41,6 +41,18 @@ TEST(StandingStart, OutlivesABadFrameButNoGap) {
   EXPECT_EQ(standing_before(kWalk, gone, kDt, {})->frames, 8u);
 }
 
+// Keypoints are evidence in some of the frames only.
+TEST(StandingStart, BeginsWithTheVideoIfTheFirstFramesShowALittleOfThem) {
+  const auto found = [](double first_frames) {
+    const auto score = [&](size_t back, const Vector2d& place, double heading) {
+      return back > 18 && back <= 20 ? std::optional(first_frames) : Stood{}(back, place, heading);
+    };
+    return standing_before(kWalk, score, kDt, {})->frames;
+  };
+  EXPECT_EQ(found(DetectorConfig{}.least_score + 1), 20u);
+  EXPECT_EQ(found(DetectorConfig{}.least_score - 1), 18u);
+}
+
 TEST(StandingStart, NobodyStoodWhereTheVideoBeginsOrNothingIsSeen) {
   EXPECT_FALSE(standing_before(kWalk, Stood{.frames = 0}, kDt, {}));
   EXPECT_FALSE(standing_before(kWalk, Stood{.at = {9, 9}}, kDt, {}));

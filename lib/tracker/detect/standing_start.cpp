@@ -62,14 +62,22 @@ std::optional<StandingStart> standing_before(const DetectedWalk& walk, const Sta
   }
   if (!(best > config.least_score)) return std::nullopt;
   const double least = std::max(config.least_score, kAsGood * best);
-  double pending = 0;  // of the latest frames that explain too little
+  double pending = 0;      // of the latest frames that explain too little
+  bool seen_there = true;  // in all of these, by more than an empty scene
+  const auto add_pending = [&](size_t frames) {
+    out.frames = frames;
+    out.score += std::exchange(pending, 0);
+    seen_there = true;
+  };
   for (size_t back = 1; back - out.frames <= frames_of(kGap); ++back) {
     const auto nats = score(back, out.detected.position, heading);
-    if (!nats) break;
+    if (!nats) {  // the video begins
+      if (seen_there) add_pending(back - 1);
+      break;
+    }
     pending += *nats;
-    if (*nats < least) continue;
-    out.frames = back;
-    out.score += std::exchange(pending, 0);
+    if (*nats < config.least_score) seen_there = false;
+    if (*nats >= least) add_pending(back);
   }
   if (out.frames == 0) return std::nullopt;
   return out;
