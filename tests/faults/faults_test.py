@@ -8,7 +8,7 @@ import tomllib
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
-LEAST = 187  # caught: all
+LEAST = 191  # caught: all
 
 
 def main():
