@@ -71,7 +71,7 @@ std::optional<StandingStart> standing_before(const DetectedWalk& walk, const Sta
   };
   for (size_t back = 1; back - out.frames <= frames_of(kGap); ++back) {
     const auto nats = score(back, out.detected.position, heading);
-    if (!nats) {  // the video begins
+    if (!nats) {  // there is no frame before these
       if (seen_there) add_pending(back - 1);
       break;
     }

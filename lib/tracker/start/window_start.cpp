@@ -108,7 +108,7 @@ std::optional<WindowStart> start_standing(SearchedWindow& window, const Detected
   return standing ? start_at(window, standing->detected, standing->frames) : std::nullopt;
 }
 
-// With less weight of still outlines first, if that is better for this subject.
+// The same, with less weight of still outlines first where keypoints lead before one camera.
 std::optional<WindowStart> start_standing_still(SearchedWindow& window, const DetectedWalk& walk) {
   const TrackedSubject& subject = window.subject;
   if (subject.keypoints_lead() && subject.scene.cameras.size() == 1) {
