@@ -18,23 +18,24 @@ constexpr CrossSection kSkullLow{.0400, .0500}, kSkullHigh{.0420, .0520};
 constexpr CrossSection kNeck{.0330, .0340};
 constexpr CrossSection kUpperArmTop{.0295, .0295}, kElbow{.0245, .0245}, kWrist{.0158, .0158};
 
-CrossSection scaled(CrossSection share, double height) {
-  return {share.lateral * height, share.forward * height};
+CrossSection scaled(CrossSection share, double size) {
+  return {share.lateral * size, share.forward * size};
 }
 
 Eigen::Vector3d up(double length) { return {0, 0, length}; }
 
 void add_trunk(Body& body) {
   const double h = body.subject.height;
+  const double w = h * body.subject.girth;
   const double waist = .40 * body.lengths.trunk, chest = .78 * body.lengths.trunk;
   body.parts.push_back({Segment::kPelvis, Joint::kPelvis, up(-.010 * h), up(.030 * h),
-                        scaled(kHips, h), scaled(kHips, h), Appearance::kLegs});
-  body.parts.push_back({Segment::kTrunk, Joint::kPelvis, up(.035 * h), up(waist), scaled(kHips, h),
-                        scaled(kWaist, h), Appearance::kTrunk});
-  body.parts.push_back({Segment::kTrunk, Joint::kPelvis, up(waist), up(chest), scaled(kWaist, h),
-                        scaled(kChest, h), Appearance::kTrunk});
+                        scaled(kHips, w), scaled(kHips, w), Appearance::kLegs});
+  body.parts.push_back({Segment::kTrunk, Joint::kPelvis, up(.035 * h), up(waist), scaled(kHips, w),
+                        scaled(kWaist, w), Appearance::kTrunk});
+  body.parts.push_back({Segment::kTrunk, Joint::kPelvis, up(waist), up(chest), scaled(kWaist, w),
+                        scaled(kChest, w), Appearance::kTrunk});
   body.parts.push_back({Segment::kTrunk, Joint::kPelvis, up(chest), up(body.lengths.trunk),
-                        scaled(kChest, h), scaled(kShoulders, h), Appearance::kTrunk});
+                        scaled(kChest, w), scaled(kShoulders, w), Appearance::kTrunk});
 }
 
 void add_head(Body& body) {
@@ -49,18 +50,19 @@ void add_head(Body& body) {
 
 void add_leg(Body& body, Side side) {
   const double h = body.subject.height;
+  const double w = h * body.subject.girth;
   const BodyLengths& l = body.lengths;
   const bool left = side == Side::kLeft;
   const Segment thigh = left ? Segment::kLeftThigh : Segment::kRightThigh;
   const Segment shank = left ? Segment::kLeftShank : Segment::kRightShank;
   const Segment foot = left ? Segment::kLeftFoot : Segment::kRightFoot;
   const double calf = -.30 * l.shank;
-  body.parts.push_back({thigh, hip(side), up(-l.thigh), up(0), scaled(kKnee, h),
-                        scaled(kThighTop, h), Appearance::kLegs});
+  body.parts.push_back({thigh, hip(side), up(-l.thigh), up(0), scaled(kKnee, w),
+                        scaled(kThighTop, w), Appearance::kLegs});
   body.parts.push_back(
-      {shank, knee(side), up(calf), up(0), scaled(kCalf, h), scaled(kKnee, h), Appearance::kLegs});
-  body.parts.push_back({shank, knee(side), up(-l.shank), up(calf), scaled(kAnkle, h),
-                        scaled(kCalf, h), Appearance::kLegs});
+      {shank, knee(side), up(calf), up(0), scaled(kCalf, w), scaled(kKnee, w), Appearance::kLegs});
+  body.parts.push_back({shank, knee(side), up(-l.shank), up(calf), scaled(kAnkle, w),
+                        scaled(kCalf, w), Appearance::kLegs});
   const CrossSection heel = scaled(kHeel, h), toes = scaled(kToes, h);
   const double heel_back = .23 * l.foot - heel.lateral, toe_ahead = .77 * l.foot - toes.lateral;
   body.parts.push_back({foot, ankle(side),
@@ -71,6 +73,7 @@ void add_leg(Body& body, Side side) {
 
 void add_arm(Body& body, Side side) {
   const double h = body.subject.height;
+  const double w = h * body.subject.girth;
   const BodyLengths& l = body.lengths;
   const bool left = side == Side::kLeft;
   const Joint shoulder = left ? Joint::kLeftShoulder : Joint::kRightShoulder;
@@ -78,10 +81,10 @@ void add_arm(Body& body, Side side) {
   const Segment upper = left ? Segment::kLeftUpperArm : Segment::kRightUpperArm;
   const Segment fore = left ? Segment::kLeftForearm : Segment::kRightForearm;
   const double hand = .075 * h;  // a loosely closed hand extends the forearm
-  body.parts.push_back({upper, shoulder, up(-l.upper_arm), up(0), scaled(kElbow, h),
-                        scaled(kUpperArmTop, h), Appearance::kTrunk});
-  body.parts.push_back({fore, elbow, up(-l.forearm - hand), up(0), scaled(kWrist, h),
-                        scaled(kElbow, h), Appearance::kArms});
+  body.parts.push_back({upper, shoulder, up(-l.upper_arm), up(0), scaled(kElbow, w),
+                        scaled(kUpperArmTop, w), Appearance::kTrunk});
+  body.parts.push_back({fore, elbow, up(-l.forearm - hand), up(0), scaled(kWrist, w),
+                        scaled(kElbow, w), Appearance::kArms});
 }
 
 }  // namespace

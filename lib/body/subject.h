@@ -21,6 +21,7 @@ struct Subject {
   double height = 1.75;
   double mass = 70;
   SubjectLengths lengths;
+  double girth = 1;  // factor of all breadths and depths except those of head and feet
 };
 
 // Resolved lengths of one body, metres.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "tracker/start/girth.h"
+
 namespace walktrack {
 inline namespace tracker {
 
@@ -20,6 +22,14 @@ TrackedSubject::TrackedSubject(TrackerScene stated_scene, const GaitPrior& gait,
 void TrackedSubject::let_keypoints_lead() {
   walktrack::let_keypoints_lead(scene.observation);
   config.detector.least_score = config.detector.least_points_score;
+}
+
+bool TrackedSubject::wants_girth() const {
+  return !scene.girth_known && !girth && scene.cameras.size() == 1 && scene.pictures;
+}
+
+void TrackedSubject::set_girth(double wanted) {
+  scene.model.body = with_girth(scene.model.body, wanted);
 }
 
 void TrackedSubject::set_height(double height, const std::optional<Stature>& estimate) {

@@ -1,5 +1,5 @@
 // The subject of a tracker in its scene: what is stated, and what the search of a walk adds to it,
-// which is the height and whether keypoints lead.
+// which is the height, the girth, and whether keypoints lead.
 #pragma once
 
 #include <optional>
@@ -20,6 +20,10 @@ struct TrackedSubject {
   bool wants_size() const { return !scene.size_known && !stature; }
   // `estimate`: nullopt if the height is not estimated.
   void set_height(double height, const std::optional<Stature>& estimate);
+  // Whether a start before one camera may widen the figure (tracker/start/girth.h); the first one
+  // that succeeds decides.
+  bool wants_girth() const;
+  void set_girth(double wanted);
   // Whether others near the subject are followed, whom outlines show.
   bool follows_others() const { return config.others && scene.pictures; }
   // Whether keypoints count for more than outlines (tracker/start/keypoint_lead.h).
@@ -34,6 +38,7 @@ struct TrackedSubject {
   int threads;
   SubjectModel model;              // for the scene's body
   std::optional<Stature> stature;  // the estimated height
+  std::optional<double> girth;     // that of the first start before one camera, if it was unknown
 };
 
 }  // namespace tracker

@@ -145,17 +145,9 @@ void Tracker::start_given(Records& out) {
 
 TrackerState Tracker::state() const {
   const Tracking& now = tracked();
-  return {frame_,
-          starts_,
-          now.filter.state(),
-          now.monitor,
-          losses_,
-          now.p_legs_swapped,
-          now.speed,
-          stature(),
-          keypoints_lead(),
-          people_,
-          frames_beside_others_};
+  return {
+      frame_,    starts_,   now.filter.state(), now.monitor,      losses_, now.p_legs_swapped,
+      now.speed, stature(), subject_.girth,     keypoints_lead(), people_, frames_beside_others_};
 }
 
 void Tracker::resume(TrackerState state) {
@@ -170,6 +162,8 @@ void Tracker::resume(TrackerState state) {
   people_ = std::move(state.people);
   frames_beside_others_ = state.frames_beside_others;
   if (state.stature) subject_.set_height(state.stature->height, state.stature);
+  subject_.girth = state.girth;
+  if (state.girth) subject_.set_girth(*state.girth);
   if (state.keypoints_lead) subject_.let_keypoints_lead();
 }
 

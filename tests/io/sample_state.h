@@ -34,6 +34,7 @@ inline TrackerState sample_tracker() {
   out.people.usual_score = 40;
   out.people.frames = 9;
   out.frames_beside_others = 4;
+  out.girth = 1.25;
   out.people.others = {{{{3, 2, 0, -1}, covariance}, 5, 2}};
   return out;
 }

@@ -29,7 +29,8 @@ class SubjectFile : public testing::Test {
 
 TEST_F(SubjectFile, AFileStatesWhatAMapStates) {
   const std::string map =
-      "{height: 1.612, height_sd: 0.03, mass: 55, lengths: {thigh: 0.41, forearm: 0.25}}";
+      "{height: 1.612, height_sd: 0.03, mass: 55, girth: 1.2, lengths: {thigh: 0.41, forearm: "
+      "0.25}}";
   folder_.write("anna.yaml", map);
   const StatedSubject inside = read("subject: " + map), apart = read("subject: anna.yaml");
   EXPECT_EQ(apart.file, folder_.path() / "anna.yaml");
@@ -41,7 +42,8 @@ TEST_F(SubjectFile, AFileStatesWhatAMapStates) {
     EXPECT_EQ(each.subject.lengths.thigh, 0.41);
     EXPECT_EQ(each.subject.lengths.forearm, 0.25);
     EXPECT_FALSE(each.subject.lengths.shank);
-    EXPECT_TRUE(each.height_stated && each.mass_stated);
+    EXPECT_EQ(each.subject.girth, 1.2);
+    EXPECT_TRUE(each.height_stated && each.mass_stated && each.girth_stated);
   }
 }
 
@@ -62,6 +64,11 @@ TEST_F(SubjectFile, WhatIsWrittenIsReadAgain) {
   EXPECT_FALSE(again.mass_stated);
   EXPECT_EQ(again.subject.mass, Subject{}.mass);
   EXPECT_THAT(subject_text(stated), Not(HasSubstr("mass")));
+  EXPECT_FALSE(again.girth_stated);
+  stated.girth_stated = true;
+  stated.subject.girth = 1.32;
+  folder_.write("subject.yaml", subject_text(stated));
+  EXPECT_EQ(read("subject: subject.yaml").subject.girth, 1.32);
 }
 
 TEST_F(SubjectFile, NamesTheFileAndTheMistake) {
@@ -73,6 +80,8 @@ TEST_F(SubjectFile, NamesTheFileAndTheMistake) {
   EXPECT_THAT(error_of("subject: {height_sd: 0.1}"), HasSubstr("height_sd: found no 'height'"));
   EXPECT_THAT(error_of("subject: {height: 1.7, height_sd: 0}"),
               HasSubstr("height_sd: found '0', allowed: a number from 0.001 to 0.5"));
+  EXPECT_THAT(error_of("subject: {girth: 130}"),
+              HasSubstr("girth: found '130', allowed: a number from 0.5 to 2"));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace walktrack {
 namespace {
 
 constexpr size_t kWatched = 36;
-const Eigen::Vector2d kEye(0, -6), kBegin(-0.8, 0.4), kVelocity(1.3, 0);
+const Eigen::Vector2d kWatcher(0, -6), kBegin(-0.8, 0.4), kVelocity(1.3, 0);
 
 DetectedWalk walk_off_by(const Eigen::Vector2d& shift) {
   return {.position = kBegin + shift, .velocity = kVelocity};
@@ -32,7 +32,7 @@ FigureScore person_of(double height, double width) {
 
 constexpr double kNear = 0.004, kFar = 0.025;  // m for each pixel
 
-SizedWindow seen_at(double metres_per_px) { return {kWatched, kDt, kEye, metres_per_px}; }
+SizedWindow seen_at(double metres_per_px) { return {kWatched, kDt, kWatcher, metres_per_px}; }
 
 SizedWalk sized(double height, double width, const std::optional<Stature>& known = {}) {
   return size_up(walk_off_by({0.1, -0.15}), 1.75, known, person_of(height, width), seen_at(kNear));

@@ -12,6 +12,7 @@
 #include "fixture.h"
 #include "made_evidence.h"
 #include "tests/observation/scenes.h"
+#include "tracker/start/girth.h"
 #include "tracker/tracked_subject.h"
 
 namespace walktrack {
@@ -28,16 +29,19 @@ class WalkedScene : public testing::Test {
     for (const Eigen::Vector3d& from : places)
       scene.cameras.push_back(camera_at(from, {0, 0, 0.9}, 200, kEvidenceWidth, kEvidenceHeight));
     const PriorGait gait = usual_gait(scene.model, prior_, kSpeed, 0);
+    const Body person = with_girth(scene.model.body, girth_);
     window_.clear();
+    poses_.clear();
     for (size_t t = 0; t < frames; ++t) {
       const double strides = phase + static_cast<double>(t) * kDt / (2 * gait.period);
       const double steps = 2 * (strides - std::floor(strides));
       Pose pose = pose_in_gait(scene.model, gait, steps < 1 ? Side::kLeft : Side::kRight,
                                steps - std::floor(steps));
       pose.root.head<2>() = walk_.position + static_cast<double>(t) * kDt * walk_.velocity;
+      poses_.push_back(pose);
       SceneEvidence& frame = window_.emplace_back();
       for (const Camera& camera : scene.cameras) {
-        frame.push_back(evidence_of(camera, scene.model.body, pose));
+        frame.push_back(evidence_of(camera, person, pose));
         if (hide) hide(t, frame.back());
       }
     }
@@ -55,6 +59,8 @@ class WalkedScene : public testing::Test {
 
   GaitPrior prior_ = load_gait_prior();
   DetectedWalk walk_{.position = {-0.8, 0}, .velocity = {kSpeed, 0}};
+  double girth_ = 1;         // of who walks there; the figure's is 1
+  std::vector<Pose> poses_;  // the true ones
   std::deque<SceneEvidence> window_;
   std::optional<TrackedSubject> subject_;
 };

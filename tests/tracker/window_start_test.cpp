@@ -112,6 +112,58 @@ TEST_F(WindowStartTest, OneCameraWeighsTheFramesOfAStartAtTheSubjectsDistance) {
   }
 }
 
+TEST_F(WindowStartTest, BeforeOneCameraAWidePersonIsTriedAgainWithAWiderFigure) {
+  girth_ = 1.4;
+  show(0.2, kVideoFrames, {{0, -3, 1}});
+  const auto started = start();
+  ASSERT_TRUE(started);
+  EXPECT_GE(starts_, 2u);
+  ASSERT_TRUE(subject_->girth);
+  EXPECT_NEAR(*subject_->girth + 0.05, girth_, 0.1);  // as in girth_test.cpp
+  EXPECT_EQ(subject_->scene.model.body.subject.girth, *subject_->girth);
+  EXPECT_LT(error(*started), 0.08);
+}
+
+TEST_F(WindowStartTest, ATrackThatIsResumedKeepsItsGirth) {
+  girth_ = 1.4;
+  show(0.2, 2 * kVideoFrames, {{0, -3, 1}});
+  Tracker tracker(subject_->scene, prior_, subject_->config, 1, 1);
+  for (const SceneEvidence& frame : window_)
+    if (!tracker.has_state()) tracker.push(frame);
+  ASSERT_TRUE(tracker.has_state());
+  ASSERT_TRUE(tracker.girth());
+  Tracker other(subject_->scene, prior_, subject_->config, 1, 1);
+  other.resume(tracker.state());
+  EXPECT_EQ(other.girth(), tracker.girth());
+  EXPECT_EQ(other.body().subject.girth, tracker.girth());
+}
+
+TEST_F(WindowStartTest, TheGirthOfAUsualPersonIsDecidedByTheFirstStart) {
+  show(0.2, kVideoFrames, {{0, -4, 1}});
+  EXPECT_TRUE(subject_->wants_girth());
+  ASSERT_TRUE(start());
+  EXPECT_EQ(subject_->girth, 1);
+  EXPECT_FALSE(subject_->wants_girth());
+}
+
+TEST_F(WindowStartTest, AGirthThatTheSceneStatesStays) {
+  girth_ = 1.4;
+  show(0.2, kVideoFrames, {{0, -3, 1}});
+  subject_->scene.girth_known = true;
+  ASSERT_TRUE(start());
+  EXPECT_FALSE(subject_->girth);
+  EXPECT_EQ(subject_->scene.model.body.subject.girth, 1);
+}
+
+TEST_F(WindowStartTest, AFigureThatWasWidenedForNothingIsAUsualOneAgain) {
+  girth_ = 1.4;
+  show(0.2, kVideoFrames, {{0, -3, 1}}, [](size_t frame, CameraEvidence& evidence) {
+    if (frame >= 14) hide_left_of(kEvidenceWidth, evidence);
+  });
+  start();
+  EXPECT_EQ(subject_->scene.model.body.subject.girth, subject_->girth.value_or(1));
+}
+
 // Somebody who stands for a while and then walks, at the side of the first camera.
 class StandingFirst : public WindowStartTest {
  protected:

@@ -139,10 +139,10 @@ void fields(Archive& archive, T& value) {
 
 template <typename Archive, ArchivedAs<TrackerState> T>
 void fields(Archive& archive, T& value) {
-  auto& [frame, starts, filter, monitor, losses, p_legs_swapped, speed, stature, keypoints_lead,
-         people, frames_beside_others] = value;
+  auto& [frame, starts, filter, monitor, losses, p_legs_swapped, speed, stature, girth,
+         keypoints_lead, people, frames_beside_others] = value;
   archive(frame, starts, filter, monitor, a_count(losses), a_share(p_legs_swapped), speed, stature,
-          keypoints_lead, people, a_count(frames_beside_others));
+          girth, keypoints_lead, people, a_count(frames_beside_others));
 }
 
 template <typename Archive, ArchivedAs<BackgroundModel> T>

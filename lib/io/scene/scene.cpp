@@ -137,6 +137,7 @@ void state_subject(const StatedSubject& stated, Scene& scene) {
   scene.height_given = stated.height_stated && !stated.height_sd;
   scene.height_sd = stated.height_sd;
   scene.mass_given = stated.mass_stated;
+  scene.girth_given = stated.girth_stated;
   scene.subject_file = stated.file;
 }
 

@@ -69,6 +69,7 @@ struct Scene {
   Eigen::Vector3d gravity{0, 0, -9.80665};  // world axes, m/s^2; a slope tilts it
   Subject subject;
   bool height_given = true, mass_given = true;  // otherwise usual values are used
+  bool girth_given = false;                     // otherwise one camera may estimate it
   std::optional<double> height_sd;              // m, of a height that is known roughly
   std::filesystem::path subject_file;           // that states the subject; empty = the scene
   std::optional<InitialState> initial;

@@ -27,6 +27,7 @@ constexpr std::array kLengths{
 };
 
 constexpr double kLeastSd = 0.001, kMostSd = 0.5;  // m, of a height
+constexpr double kLeastGirth = 0.5, kMostGirth = 2;
 
 SubjectLengths read_lengths(const YamlValue& value) {
   std::vector<std::string> names;
@@ -49,6 +50,8 @@ StatedSubject read_map(const YamlValue& value) {
     out.height_sd = value.at("height_sd").number(kLeastSd, kMostSd);
   }
   if (out.mass_stated) out.subject.mass = value.at("mass").number(0.5, 1000);
+  out.girth_stated = value.has("girth");
+  if (out.girth_stated) out.subject.girth = value.at("girth").number(kLeastGirth, kMostGirth);
   if (value.has("lengths")) out.subject.lengths = read_lengths(value.at("lengths"));
   return out;
 }
@@ -57,7 +60,7 @@ StatedSubject read_map(const YamlValue& value) {
 
 StatedSubject read_subject(const YamlValue& value, const std::filesystem::path& folder) {
   if (!value.is_scalar()) {
-    value.only_keys({"height", "height_sd", "mass", "lengths", "near"});
+    value.only_keys({"height", "height_sd", "mass", "girth", "lengths", "near"});
     return read_map(value);
   }
   const std::filesystem::path file = resolved(folder, value.text());
@@ -65,7 +68,7 @@ StatedSubject read_subject(const YamlValue& value, const std::filesystem::path& 
     value.fail(fmt::format("'{}'", value.text()),
                fmt::format("a map, or a file that exists ({} does not)", file.string()));
   const YamlValue map = YamlValue::from_file(file.string());
-  map.only_keys({"height", "height_sd", "mass", "lengths"});
+  map.only_keys({"height", "height_sd", "mass", "girth", "lengths"});
   StatedSubject out = read_map(map);
   out.file = file;
   return out;
@@ -82,6 +85,8 @@ std::string subject_text(const StatedSubject& stated) {
         "with this knowledge\n",
         *stated.height_sd);
   if (stated.mass_stated) out += fmt::format("mass: {:.1f}  # kg\n", subject.mass);
+  if (stated.girth_stated)
+    out += fmt::format("girth: {:.2f}  # of trunk and limbs, times a usual one\n", subject.girth);
   std::string lengths;
   for (const auto& [name, member] : kLengths)
     if (const auto& length = subject.lengths.*member)

@@ -18,7 +18,7 @@ inline constexpr const char* kSubjectFile = "subject.yaml";
 struct StatedSubject {
   Subject subject;                  // usual values for what is not stated
   std::optional<double> height_sd;  // m; then the height is only known so well
-  bool height_stated = false, mass_stated = false;
+  bool height_stated = false, mass_stated = false, girth_stated = false;
   std::filesystem::path file;  // which states it; empty = the scene itself
 };
 

@@ -242,6 +242,7 @@ OptimiseOutcome written_result(const Given& given, OptimiseOutcome outcome,
                                            .height_sd = std::nullopt,
                                            .height_stated = true,
                                            .mass_stated = is_mass_stated(job),
+                                           .girth_stated = track.scene.girth_given,
                                            .file = {}}));
   const int threads = thread_count(job.config.values.threads);
   std::vector<ReportClip> clips;

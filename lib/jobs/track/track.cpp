@@ -134,10 +134,10 @@ void finish(const ResultFolder& folder, const TrackOutcome& outcome, const std::
   partial ? folder.finish_partial(record) : folder.finish(record);
 }
 
-// Of an estimated height, for other videos of the same person.
+// Of an estimated height or girth, for other videos of the same person.
 void write_subject(const TrackJob& job, const TrackRun& run, const ResultFolder& folder) {
-  if (!run.stature()) return;
-  folder.write(kSubjectFile, subject_text(known_subject(job.scene, run.stature())));
+  if (!run.stature() && !run.girth()) return;
+  folder.write(kSubjectFile, subject_text(known_subject(job.scene, run.stature(), run.girth())));
 }
 
 // Frames of the filter are reported as they are.
@@ -205,7 +205,7 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   outcome.status = judge(run, quality, video, interrupted, control, outcome.message);
   if (outcome.status == TrackStatus::kQualityFailed) outcome.failed_checks = failures(quality);
   outcome.tracked = frame_counts(track.frames()).tracked;
-  if (run.stature()) control.say(size_note(job.scene, *run.stature()));
+  for (const std::string& note : subject_notes(job.scene, run)) control.say(note);
   for (const std::string& note : run.notes()) control.say(note);
   const JointUncertainty uncertainty = uncertainty_of(track.frames());
   WrittenTables tables;

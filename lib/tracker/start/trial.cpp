@@ -6,7 +6,6 @@
 
 #include "tracker/moves/mirror_legs.h"
 #include "tracker/start/attempt.h"
-#include "tracker/start/keypoint_lead.h"
 #include "tracker/start/set_off.h"
 #include "tracker/start/stride_fit.h"
 
@@ -103,8 +102,6 @@ Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& wi
   const double log_likelihood = total_log_likelihood(attempt);
   if (is_searching(attempt.mode) || log_likelihood < walk_score)
     return {Searching{filter_of(std::move(attempt.mode)), before.last_seen}};
-  if (may_lead(context.scene) && figure_is_too_thin(context.scene, window, attempt.records))
-    return {.mode = before, .outlines_misled = true};
   return {.mode = std::move(attempt.mode),
           .records = std::move(attempt.records),
           .log_likelihood = log_likelihood,

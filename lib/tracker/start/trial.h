@@ -4,10 +4,6 @@
 //
 // A start labels the legs by outlines, which from the side look the same with the legs swapped. If
 // the images (tracker/start/leg_label_evidence.h) do not clearly agree, both labels are tried.
-//
-// A trial that succeeds is dropped all the same if the outlines of its poses fit badly while the
-// keypoints may decide (tracker/start/keypoint_lead.h); the search starts again with keypoints
-// leading.
 #pragma once
 
 #include <deque>
@@ -22,7 +18,6 @@ inline namespace tracker {
 struct Trial {
   TrackMode mode;                      // after the window's frames; Searching: the trial has failed
   std::vector<FrameRecord> records{};  // of the frames that are finished, not refined
-  bool outlines_misled = false;        // the reason why the trial has failed
   double log_likelihood = 0;           // of the window's frames together, nats, by the particles
   bool legs_in_doubt = false;          // before several cameras
 };
@@ -31,7 +26,7 @@ struct Trial {
 double total_log_likelihood(std::span<const FrameRecord> records);
 
 // `window`: the frames from number `first_frame` on. `number` counts the starts from 1. `before`:
-// the mode from which the walk is tried, and that of a trial that was dropped.
+// the mode from which the walk is tried.
 Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& window,
                 uint32_t first_frame, const DetectedWalk& walk, uint32_t number,
                 const Searching& before);

@@ -1,7 +1,9 @@
 #include "tracker/start/window_start.h"
 
+#include <span>
 #include <utility>
 
+#include "tracker/start/girth.h"
 #include "tracker/start/keypoint_lead.h"
 #include "tracker/start/trial.h"
 
@@ -10,17 +12,23 @@ inline namespace tracker {
 
 namespace {
 
+// How often a figure is widened: what fits better with it shows the girth better.
+constexpr int kMostWider = 3;
+
 struct SearchedWindow {
   TrackedSubject& subject;
   WalkSearch& search;
   uint32_t first_frame;
   uint32_t& starts;
   TrackMode& mode;
-  bool outlines_misled = false;  // in one of the trials
-  NearbyPeople people{};         // after the window
+  std::optional<double> girth{};  // that a trial asks for
+  bool outlines_misled = false;   // in one of the trials
+  int wider = 0;                  // how often the figure has been widened
+  NearbyPeople people{};          // after the window
 
   const Searching& searching() const { return std::get<Searching>(mode); }
   SearchMoment moment() const { return {first_frame, searching().last_seen}; }
+  bool other_figure_wanted() const { return girth || outlines_misled; }
 };
 
 void set_height(SearchedWindow& window, double height, const std::optional<Stature>& estimate) {
@@ -28,19 +36,46 @@ void set_height(SearchedWindow& window, double height, const std::optional<Statu
   window.search.forget_places();
 }
 
+// Whether a trial's figure is too thin for the subject; notes what is wanted instead.
+bool figure_misleads(SearchedWindow& window, std::span<const FrameRecord> records) {
+  const TrackedSubject& subject = window.subject;
+  const std::deque<SceneEvidence>& frames = window.search.window();
+  if (subject.wants_girth() && window.wider < kMostWider) {
+    window.girth = clearly_larger_girth(subject.scene, frames, records);
+    if (window.girth) return true;
+  }
+  if (!may_lead(subject.scene) || !figure_is_too_thin(subject.scene, frames, records)) return false;
+  window.outlines_misled = true;
+  return true;
+}
+
+// The figure that a trial has asked for; false if none has.
+bool change_figure(SearchedWindow& window) {
+  if (!window.other_figure_wanted()) return false;
+  if (const auto girth = std::exchange(window.girth, {})) {
+    window.subject.set_girth(*girth);
+    ++window.wider;
+  } else {
+    window.subject.let_keypoints_lead();
+  }
+  window.outlines_misled = false;
+  window.search.forget_scores();
+  return true;
+}
+
 // Tracks the window's frames from a walk on, and `lead` frames before them; nullopt if the trial
-// fails.
+// fails or is dropped.
 std::optional<Trial> tried(SearchedWindow& window, const DetectedWalk& walk, size_t lead) {
   WalkSearch& search = window.search;
   search.reach_back(lead);
   const uint32_t first = window.first_frame - static_cast<uint32_t>(lead);
   Trial trial = try_start(window.subject.context(), search.window(), first, walk, ++window.starts,
                           window.searching());
+  const bool failed = is_searching(trial.mode);
+  const bool dropped = !failed && figure_misleads(window, trial.records);
   search.let_go(lead);
-  if (trial.outlines_misled) window.outlines_misled = true;
-  if (!is_searching(trial.mode)) return trial;
-  window.mode = std::move(trial.mode);
-  return std::nullopt;
+  if (failed) window.mode = std::move(trial.mode);
+  return failed || dropped ? std::nullopt : std::optional(std::move(trial));
 }
 
 std::optional<WindowStart> start_of(SearchedWindow& window, std::optional<Trial> trial,
@@ -124,7 +159,7 @@ std::optional<WindowStart> start_sized(SearchedWindow& window, FoundWalk found) 
   prepare_evidence(window, found);
   if (found.lead == 0) {
     std::optional<WindowStart> start = start_standing_still(window, found.walk);
-    if (start || window.outlines_misled) return start;
+    if (start || window.other_figure_wanted()) return start;
   }
   return start_walking(window, found);
 }
@@ -158,12 +193,15 @@ std::optional<WindowStart> start_in_window(TrackedSubject& subject, WalkSearch& 
                                            uint32_t first_frame, uint32_t& starts,
                                            TrackMode& mode) {
   SearchedWindow window{subject, search, first_frame, starts, mode};
-  std::optional<WindowStart> start = start_with_walk(window);
-  if (start || !window.outlines_misled) return start;
-  subject.let_keypoints_lead();
-  search.forget_scores();
-  window.outlines_misled = false;
-  return start_with_walk(window);
+  std::optional<WindowStart> start;
+  do start = start_with_walk(window);
+  while (!start && change_figure(window));
+  if (start && subject.wants_girth()) subject.girth = subject.scene.model.body.subject.girth;
+  if (!start && window.wider > 0) {
+    subject.set_girth(1);
+    search.forget_scores();
+  }
+  return start;
 }
 
 void start_as_given(TrackedSubject& subject, WalkSearch& search, uint32_t first_frame,

@@ -1,10 +1,12 @@
 // The start of a track in the window of a search: a walk is detected in it, the height is estimated
 // if it is unknown, and the window's frames are tracked as a trial (tracker/start/trial.h).
 //
-// If the trial shows that outlines mislead (tracker/start/keypoint_lead.h), keypoints lead from
-// then on, and the walk is detected anew. Of a subject who was half hidden at first two walks are
-// tried, and the one that explains the frames better is taken. A subject who stood before the walk
-// is tracked from there on (tracker/detect/standing_start.h), unless that trial fails.
+// If the trial shows that the figure is too thin for the subject, the trial is dropped and the walk
+// detected anew: with a wider figure if the outlines tell its girth (tracker/start/girth.h), and
+// with keypoints that lead from then on otherwise (tracker/start/keypoint_lead.h). Of a subject who
+// was half hidden at first two walks are tried, and the one that explains the frames better is
+// taken. A subject who stood before the walk is tracked from there on
+// (tracker/detect/standing_start.h), unless that trial fails.
 #pragma once
 
 #include <cstdint>

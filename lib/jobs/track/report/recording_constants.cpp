@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "observation/keypoints/keypoint_errors.h"
+#include "tracker/start/girth.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -31,6 +32,18 @@ RecordingConstant height_constant(const ConstantSources& sources) {
                 "shanks are in proportion to it: {:.0f} mm at the hips.",
                 kMmPerM * kHipShare * stature.sd);
   return {"height_m", "Height of the subject", stature.height, stature.sd, "m", 2, effect};
+}
+
+RecordingConstant girth_constant(double girth) {
+  constexpr double kPercent = 100;
+  return {"girth_percent",
+          "Girth of the subject, of a usual one",
+          kPercent * girth,
+          kPercent * kGirthSd,
+          "%",
+          0,
+          "Trunk and limbs are so wide. One camera would see a figure that is too thin nearer than "
+          "the subject, or crouching."};
 }
 
 RecordingConstant lag_constant(const ConstantSources& sources) {
@@ -90,6 +103,7 @@ std::vector<RecordingConstant> recording_constants(const ConstantSources& source
                                      NamedKind{PointKind::kAnkle, "ankle", "ankles"}};
   std::vector<RecordingConstant> out;
   if (sources.stature) out.push_back(height_constant(sources));
+  if (sources.girth) out.push_back(girth_constant(*sources.girth));
   if (sources.lag) out.push_back(lag_constant(sources));
   for (const NamedKind& kind : kKinds) add_offsets(sources, kind, out);
   return out;

@@ -1,6 +1,6 @@
-// What a track has estimated that holds for the whole recording: the subject's height, the lag
-// between two cameras, and where keypoints lie beside the joints. Each with its standard deviation
-// and what it did to the result; only those that the scene leaves open.
+// What a track has estimated that holds for the whole recording: the subject's height and girth,
+// the lag between two cameras, and where keypoints lie beside the joints. Each with its standard
+// deviation and what it did to the result; only those that the scene leaves open.
 #pragma once
 
 #include <optional>
@@ -21,6 +21,7 @@ struct ConstantSources {
   double frame_rate = 0;  // Hz, of the scene
   double speed = 0;       // m/s, mean of the subject's
   std::optional<Stature> stature;
+  std::optional<double> girth;
   std::optional<FoundLag> lag;
   std::span<const KeypointTerm::State> keypoints;  // by camera
 };

@@ -13,6 +13,7 @@
 #include "jobs/track/report/track_quality.h"
 #include "jobs/track/results/keypoint_results.h"
 #include "tracker/overlaps.h"
+#include "tracker/start/girth.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -98,6 +99,18 @@ double simulated_percent(const TrackedFrames& frames) {
 
 bool is_paced(const TrackJob& job) { return job.config.values.budget.frame_ms > 0; }
 
+std::string size_note(const Scene& scene, const Stature& stature) {
+  const std::string stated =
+      scene.height_sd
+          ? fmt::format("the scene says that the subject is {:.2f} m tall, give or take {:.2f}",
+                        scene.subject.height, *scene.height_sd)
+          : "the scene does not say how tall the subject is";
+  return fmt::format(
+      "{}: {:.2f} m, give or take {:.2f}, {} the images; subject.yaml has it for other "
+      "videos of the same person",
+      stated, stature.height, stature.sd, scene.height_sd ? "with" : "from");
+}
+
 std::string pace_note(const BudgetConfig& budget) {
   return fmt::format(
       "not deterministic: {} to {} particles, as many as {:g} ms a frame allowed on this machine",
@@ -110,7 +123,7 @@ std::vector<std::string> notes_of(const TrackJob& job, const TrackRun& run,
   if (!outcome.message.empty()) out.push_back(outcome.message);
   out.insert(out.end(), outcome.checks.begin(), outcome.checks.end());
   if (is_paced(job)) out.push_back(pace_note(job.config.values.budget));
-  if (run.stature()) out.push_back(size_note(job.scene, *run.stature()));
+  for (const std::string& note : subject_notes(job.scene, run)) out.push_back(note);
   for (const std::string& note : run.notes()) out.push_back(note);
   return out;
 }
@@ -141,6 +154,7 @@ RunNumbers numbers_of(const TrackJob& job, const TrackRun& run, const TrackedFra
     out.emplace_back("estimated_height_m", run.stature()->height);
     out.emplace_back("estimated_height_sd_m", run.stature()->sd);
   }
+  if (run.girth()) out.emplace_back("estimated_girth", *run.girth());
   if (outcome.lag) {
     out.emplace_back("lag_frames_" + job.scene.cameras[outcome.lag->camera].name,
                      outcome.lag->frames);
@@ -205,16 +219,15 @@ FrameCounts frame_counts(const TrackedFrames& frames) {
   return out;
 }
 
-std::string size_note(const Scene& scene, const Stature& stature) {
-  const std::string stated =
-      scene.height_sd
-          ? fmt::format("the scene says that the subject is {:.2f} m tall, give or take {:.2f}",
-                        scene.subject.height, *scene.height_sd)
-          : "the scene does not say how tall the subject is";
-  return fmt::format(
-      "{}: {:.2f} m, give or take {:.2f}, {} the images; subject.yaml has it for other "
-      "videos of the same person",
-      stated, stature.height, stature.sd, scene.height_sd ? "with" : "from");
+std::vector<std::string> subject_notes(const Scene& scene, const TrackRun& run) {
+  std::vector<std::string> out;
+  if (run.stature()) out.push_back(size_note(scene, *run.stature()));
+  if (run.girth())
+    out.push_back(fmt::format(
+        "the outlines show that the subject's trunk and limbs are {:.2f} times as wide as usual, "
+        "give or take {:.2f}; subject.yaml has it for other videos of the same person",
+        *run.girth(), kGirthSd));
+  return out;
 }
 
 RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& run,
@@ -230,8 +243,8 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
   out.notes = notes_of(job, run, outcome);
   out.numbers = numbers_of(job, run, frames, outcome, tables.totals);
   const std::vector<KeypointTerm::State> keypoints = run.keypoints();
-  out.constants = recording_constants(
-      {job.scene, frames.frame_rate, mean_speed(frames), run.stature(), outcome.lag, keypoints});
+  out.constants = recording_constants({job.scene, frames.frame_rate, mean_speed(frames),
+                                       run.stature(), run.girth(), outcome.lag, keypoints});
   out.quality = quality;
   out.by_frame = series_of(job, run, frames);
   out.digest = tables.digest;

@@ -20,8 +20,8 @@ struct FrameCounts {
 };
 FrameCounts frame_counts(const TrackedFrames& frames);
 
-// The estimated size of the subject, if the scene does not state it, as a sentence.
-std::string size_note(const Scene& scene, const Stature& stature);
+// What was estimated of the subject because the scene does not state it, a sentence each.
+std::vector<std::string> subject_notes(const Scene& scene, const TrackRun& run);
 
 RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& run,
                     const TrackedFrames& frames, const TrackOutcome& outcome,

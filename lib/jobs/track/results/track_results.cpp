@@ -183,13 +183,16 @@ Scene with_stature(const Scene& scene, const std::optional<Stature>& stature) {
   return out;
 }
 
-StatedSubject known_subject(const Scene& scene, const std::optional<Stature>& stature) {
+StatedSubject known_subject(const Scene& scene, const std::optional<Stature>& stature,
+                            const std::optional<double>& girth) {
   StatedSubject out{.subject = with_stature(scene, stature).subject,
                     .height_sd = scene.height_sd,
                     .height_stated = scene.height_given || scene.height_sd || stature,
                     .mass_stated = scene.mass_given,
+                    .girth_stated = scene.girth_given || girth,
                     .file = {}};
   if (stature) out.height_sd = stature->sd;
+  if (girth) out.subject.girth = *girth;
   return out;
 }
 

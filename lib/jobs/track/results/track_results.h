@@ -36,7 +36,8 @@ Outputs track_outputs(const TrackJob& job);
 Scene with_stature(const Scene& scene, const std::optional<Stature>& stature);
 
 // What is known of the scene's subject after the track, for other scenes of the same person.
-StatedSubject known_subject(const Scene& scene, const std::optional<Stature>& stature);
+StatedSubject known_subject(const Scene& scene, const std::optional<Stature>& stature,
+                            const std::optional<double>& girth);
 
 struct WrittenTables {
   std::string digest;  // of joints.csv and uncertainty.csv
