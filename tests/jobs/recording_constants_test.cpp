@@ -35,7 +35,7 @@ TEST(RecordingConstants, AGirthIsStatedInPercentOfAUsualOne) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].name, "girth_percent");
   EXPECT_NEAR(found[0].value, 128, 1e-9);
-  EXPECT_NEAR(found[0].sd, 9, 1e-9);
+  EXPECT_NEAR(found[0].sd, 6, 1e-9);
 }
 
 TEST(RecordingConstants, ALagIsStatedInSecondsAndByWhatItWouldHaveDone) {

@@ -146,6 +146,15 @@ TEST_F(WindowStartTest, TheGirthOfAUsualPersonIsDecidedByTheFirstStart) {
   EXPECT_FALSE(subject_->wants_girth());
 }
 
+TEST_F(WindowStartTest, SomebodyWhoIsALittleWideIsTrackedWithAUsualFigure) {
+  girth_ = 1.25;
+  show(0.2, kVideoFrames, {{0, -3, 1}});
+  ASSERT_TRUE(start());
+  EXPECT_GE(starts_, 3u) << "a wider figure was tried";
+  EXPECT_EQ(subject_->girth, 1);
+  EXPECT_EQ(subject_->scene.model.body.subject.girth, 1);
+}
+
 TEST_F(WindowStartTest, AGirthThatTheSceneStatesStays) {
   girth_ = 1.4;
   show(0.2, kVideoFrames, {{0, -3, 1}});

@@ -15,9 +15,8 @@ namespace {
 // Outlines are explained best by figures that are so much wider than people, since pixels that are
 // half covered count as theirs: fitted on ten people of known girth (tracker/reports/girth.md).
 constexpr double kOutlinesWiden = 0.05;
-// By how much a girth has to be larger than a usual one, and than one that is an estimate already.
-// The first one is the least that leaves a real woman in a coat alone, whose feet slide otherwise.
-constexpr double kClearlyWide = 0.2, kStillWider = 0.05;
+// By how much a girth has to be larger than a usual one to be tried, and than one that is tried.
+constexpr double kWorthTrying = 0.1, kStillWider = 0.03;
 constexpr double kWidest = 1.5;     // by hand
 constexpr double kGirthStep = 0.1;  // between the girths that are compared; a parabola is put
                                     // through the best one and its neighbours
@@ -59,6 +58,25 @@ double outlines_score(const TrackerScene& scene, const Body& body,
   return sum;
 }
 
+// The girth that explains the outlines best, if it is that of the scene's body or larger;
+// otherwise less than that.
+double best_girth(const TrackerScene& scene, const std::deque<SceneEvidence>& window,
+                  std::span<const FrameRecord> records) {
+  const auto score = [&](double girth) {
+    return outlines_score(scene, with_girth(scene.model.body, girth), window, records);
+  };
+  double girth = scene.model.body.subject.girth, below = score(girth - kGirthStep),
+         best = score(girth), above = score(girth + kGirthStep);
+  if (below > best) return girth - kGirthStep;
+  while (above > best && girth < kWidest + kOutlinesWiden) {
+    girth += kGirthStep;
+    below = std::exchange(best, above);
+    above = score(girth + kGirthStep);
+  }
+  const double found = girth + kGirthStep * top_of_parabola(below, best, above);
+  return std::min(found - kOutlinesWiden, kWidest);
+}
+
 }  // namespace
 
 Body with_girth(const Body& body, double girth) {
@@ -67,26 +85,13 @@ Body with_girth(const Body& body, double girth) {
   return make_body(subject, body.groups);
 }
 
-std::optional<double> clearly_larger_girth(const TrackerScene& scene,
-                                           const std::deque<SceneEvidence>& window,
-                                           std::span<const FrameRecord> records) {
+std::optional<double> larger_girth(const TrackerScene& scene,
+                                   const std::deque<SceneEvidence>& window,
+                                   std::span<const FrameRecord> records) {
   if (across_ray(scene, records) < kSeenFromSide) return std::nullopt;
-  const double now = scene.model.body.subject.girth;
-  const auto score = [&](double girth) {
-    return outlines_score(scene, with_girth(scene.model.body, girth), window, records);
-  };
-  double girth = now, below = score(now - kGirthStep), best = score(now),
-         above = score(now + kGirthStep);
-  if (best <= below) return std::nullopt;
-  while (above > best && girth < kWidest + kOutlinesWiden) {
-    girth += kGirthStep;
-    below = std::exchange(best, above);
-    above = score(girth + kGirthStep);
-  }
-  const double found =
-      std::min(girth + kGirthStep * top_of_parabola(below, best, above) - kOutlinesWiden, kWidest);
-  return found - now >= (now > 1 ? kStillWider : kClearlyWide) ? std::optional(found)
-                                                               : std::nullopt;
+  const double now = scene.model.body.subject.girth, best = best_girth(scene, window, records);
+  const bool larger = best - now >= (now > 1 ? kStillWider : kWorthTrying);
+  return larger ? std::optional(best) : std::nullopt;
 }
 
 }  // namespace tracker

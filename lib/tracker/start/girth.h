@@ -19,15 +19,20 @@ namespace walktrack {
 inline namespace tracker {
 
 // Standard deviation of such a girth, from people rendered here (tracker/reports/girth.md).
-inline constexpr double kGirthSd = 0.09;
+inline constexpr double kGirthSd = 0.06;
 
 // The girth (Subject::girth) at which the figures of a start's poses explain the outlines best, if
-// it is clearly larger than that of the scene's body; nullopt otherwise, and if the subject faces
-// the camera or turns their back on it. `records`: of the first frames of `window`, before one
+// it is larger than that of the scene's body; nullopt otherwise, and if the subject faces the
+// camera or turns their back on it. The poses of a figure that is too thin show less than the
+// girth, so that the next start shows more. `records`: of the first frames of `window`, before one
 // camera.
-std::optional<double> clearly_larger_girth(const TrackerScene& scene,
-                                           const std::deque<SceneEvidence>& window,
-                                           std::span<const FrameRecord> records);
+std::optional<double> larger_girth(const TrackerScene& scene,
+                                   const std::deque<SceneEvidence>& window,
+                                   std::span<const FrameRecord> records);
+
+// Who is less wide than this in the end is tracked with the figure of a usual girth: the least that
+// leaves a real woman in a coat alone, whose feet slide otherwise (tracker/reports/girth.md).
+inline constexpr double kClearlyWide = 1.22;
 
 // The same person with that girth.
 Body with_girth(const Body& body, double girth);

@@ -12,8 +12,8 @@ inline namespace tracker {
 
 namespace {
 
-// How often a figure is widened: what fits better with it shows the girth better.
-constexpr int kMostWider = 3;
+// How often a figure is widened: what fits better with it shows the girth better. By hand.
+constexpr int kMostWider = 4;
 
 struct SearchedWindow {
   TrackedSubject& subject;
@@ -24,6 +24,7 @@ struct SearchedWindow {
   std::optional<double> girth{};  // that a trial asks for
   bool outlines_misled = false;   // in one of the trials
   int wider = 0;                  // how often the figure has been widened
+  bool usual_girth = false;       // widening has shown that the subject is not clearly wide
   NearbyPeople people{};          // after the window
 
   const Searching& searching() const { return std::get<Searching>(mode); }
@@ -36,15 +37,28 @@ void set_height(SearchedWindow& window, double height, const std::optional<Statu
   window.search.forget_places();
 }
 
+// The girth that a trial asks for. The figure is widened step by step, and a usual one again if it
+// does not get clearly wide.
+std::optional<double> other_girth(SearchedWindow& window, std::span<const FrameRecord> records) {
+  const TrackedSubject& subject = window.subject;
+  if (!subject.wants_girth() || window.usual_girth) return std::nullopt;
+  std::optional<double> larger;
+  if (window.wider < kMostWider)
+    larger = larger_girth(subject.scene, window.search.window(), records);
+  if (larger || window.wider == 0 || subject.scene.model.body.subject.girth >= kClearlyWide)
+    return larger;
+  window.usual_girth = true;
+  return 1;
+}
+
 // Whether a trial's figure is too thin for the subject; notes what is wanted instead.
 bool figure_misleads(SearchedWindow& window, std::span<const FrameRecord> records) {
   const TrackedSubject& subject = window.subject;
-  const std::deque<SceneEvidence>& frames = window.search.window();
-  if (subject.wants_girth() && window.wider < kMostWider) {
-    window.girth = clearly_larger_girth(subject.scene, frames, records);
-    if (window.girth) return true;
-  }
-  if (!may_lead(subject.scene) || !figure_is_too_thin(subject.scene, frames, records)) return false;
+  window.girth = other_girth(window, records);
+  if (window.girth) return true;
+  if (!may_lead(subject.scene) ||
+      !figure_is_too_thin(subject.scene, window.search.window(), records))
+    return false;
   window.outlines_misled = true;
   return true;
 }
