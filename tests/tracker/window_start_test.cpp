@@ -164,15 +164,6 @@ TEST_F(WindowStartTest, AGirthThatTheSceneStatesStays) {
   EXPECT_EQ(subject_->scene.model.body.subject.girth, 1);
 }
 
-TEST_F(WindowStartTest, AFigureThatWasWidenedForNothingIsAUsualOneAgain) {
-  girth_ = 1.4;
-  show(0.2, kVideoFrames, {{0, -3, 1}}, [](size_t frame, CameraEvidence& evidence) {
-    if (frame >= 14) hide_left_of(kEvidenceWidth, evidence);
-  });
-  start();
-  EXPECT_EQ(subject_->scene.model.body.subject.girth, subject_->girth.value_or(1));
-}
-
 // Somebody who stands for a while and then walks, at the side of the first camera.
 class StandingFirst : public WindowStartTest {
  protected:

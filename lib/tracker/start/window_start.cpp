@@ -47,7 +47,6 @@ std::optional<double> other_girth(SearchedWindow& window, std::span<const FrameR
     larger = larger_girth(subject.scene, window.search.window(), records);
   if (larger || window.wider == 0 || subject.scene.model.body.subject.girth >= kClearlyWide)
     return larger;
-  window.usual_girth = true;
   return 1;
 }
 
@@ -63,11 +62,15 @@ bool figure_misleads(SearchedWindow& window, std::span<const FrameRecord> record
   return true;
 }
 
-// The figure that a trial has asked for; false if none has.
+// Takes the figure that a trial has asked for, or a usual one if nobody was found with a wider one;
+// false if there is no other to try.
 bool change_figure(SearchedWindow& window) {
+  const bool found_nobody = window.wider > 0 && !window.usual_girth;
+  if (!window.other_figure_wanted() && found_nobody) window.girth = 1;
   if (!window.other_figure_wanted()) return false;
   if (const auto girth = std::exchange(window.girth, {})) {
     window.subject.set_girth(*girth);
+    window.usual_girth = *girth == 1;
     ++window.wider;
   } else {
     window.subject.let_keypoints_lead();
@@ -211,10 +214,6 @@ std::optional<WindowStart> start_in_window(TrackedSubject& subject, WalkSearch& 
   do start = start_with_walk(window);
   while (!start && change_figure(window));
   if (start && subject.wants_girth()) subject.girth = subject.scene.model.body.subject.girth;
-  if (!start && window.wider > 0) {
-    subject.set_girth(1);
-    search.forget_scores();
-  }
   return start;
 }
 
