@@ -31,7 +31,7 @@ std::optional<double> larger_girth(const TrackerScene& scene,
                                    std::span<const FrameRecord> records);
 
 // Who is less wide than this in the end is tracked with the figure of a usual girth: the least that
-// leaves a real woman in a coat alone, whose feet slide otherwise (tracker/reports/girth.md).
+// leaves a real woman of usual girth alone, whose feet slide otherwise (tracker/reports/girth.md).
 inline constexpr double kClearlyWide = 1.22;
 
 // The same person with that girth.
