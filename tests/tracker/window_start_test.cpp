@@ -146,13 +146,34 @@ TEST_F(WindowStartTest, TheGirthOfAUsualPersonIsDecidedByTheFirstStart) {
   EXPECT_FALSE(subject_->wants_girth());
 }
 
-TEST_F(WindowStartTest, SomebodyWhoIsALittleWideIsTrackedWithAUsualFigure) {
+// As if no other figure had been tried.
+TEST_F(WindowStartTest, SomebodyWhoIsALittleWideKeepsTheStartOfTheUsualFigure) {
   girth_ = 1.25;
-  show(0.2, kVideoFrames, {{0, -3, 1}});
-  ASSERT_TRUE(start());
-  EXPECT_GE(starts_, 3u) << "a wider figure was tried";
-  EXPECT_EQ(subject_->girth, 1);
-  EXPECT_EQ(subject_->scene.model.body.subject.girth, 1);
+  for (const bool height_known : {true, false}) {
+    SCOPED_TRACE(height_known);
+    std::vector<WindowStart> found;
+    std::vector<double> heights;
+    for (const bool girth_known : {true, false}) {
+      show(0.2, kVideoFrames, {{0, -3, 1}});
+      subject_->scene.girth_known = girth_known;
+      subject_->scene.size_known = height_known;
+      starts_ = 0;
+      auto started = start();
+      ASSERT_TRUE(started);
+      EXPECT_EQ(starts_ > 1, !girth_known) << "a wider figure is tried";
+      EXPECT_EQ(subject_->girth, girth_known ? std::nullopt : std::optional(1.0));
+      EXPECT_EQ(subject_->scene.model.body.subject.girth, 1);
+      EXPECT_EQ(subject_->stature.has_value(), !height_known);
+      heights.push_back(subject_->scene.model.body.subject.height);
+      found.push_back(*std::move(started));
+    }
+    EXPECT_EQ(heights[0], heights[1]);
+    EXPECT_EQ(found[0].first_frame, found[1].first_frame);
+    EXPECT_EQ(found[0].frames.size(), found[1].frames.size());
+    ASSERT_EQ(found[0].records.size(), found[1].records.size());
+    for (size_t i = 0; i < found[0].records.size(); ++i)
+      EXPECT_EQ(found[0].records[i].estimate.pose.root, found[1].records[i].estimate.pose.root);
+  }
 }
 
 TEST_F(WindowStartTest, AGirthThatTheSceneStatesStays) {

@@ -15,17 +15,28 @@ namespace {
 // How often a figure is widened: what fits better with it shows the girth better. By hand.
 constexpr int kMostWider = 4;
 
+// A start with the usual figure, which stands if the subject turns out not to be clearly wide.
+struct UsualStart {
+  std::optional<Stature> stature;  // if the height is estimated
+  WindowStart start;
+  TrackMode mode;     // after the window's frames
+  WalkSearch search;  // after the start
+  double log_likelihood;
+  bool outlines_misled;  // in its trial
+};
+
 struct SearchedWindow {
   TrackedSubject& subject;
   WalkSearch& search;
   uint32_t first_frame;
   uint32_t& starts;
   TrackMode& mode;
-  std::optional<double> girth{};  // that a trial asks for
-  bool outlines_misled = false;   // in one of the trials
-  int wider = 0;                  // how often the figure has been widened
-  bool usual_girth = false;       // widening has shown that the subject is not clearly wide
-  NearbyPeople people{};          // after the window
+  std::optional<double> girth{};      // that a trial asks for
+  bool outlines_misled = false;       // in one of the trials
+  int wider = 0;                      // how often the figure has been widened
+  bool usual_girth = false;           // widening has shown that the subject is not clearly wide
+  std::optional<UsualStart> usual{};  // while wider figures are tried
+  NearbyPeople people{};              // after the window
 
   const Searching& searching() const { return std::get<Searching>(mode); }
   SearchMoment moment() const { return {first_frame, searching().last_seen}; }
@@ -50,34 +61,73 @@ std::optional<double> other_girth(SearchedWindow& window, std::span<const FrameR
   return 1;
 }
 
-// Whether a trial's figure is too thin for the subject; notes what is wanted instead.
-bool figure_misleads(SearchedWindow& window, std::span<const FrameRecord> records) {
-  const TrackedSubject& subject = window.subject;
-  window.girth = other_girth(window, records);
-  if (window.girth) return true;
-  if (!may_lead(subject.scene) ||
-      !figure_is_too_thin(subject.scene, window.search.window(), records))
-    return false;
-  window.outlines_misled = true;
-  return true;
+bool outlines_mislead(const SearchedWindow& window, std::span<const FrameRecord> records) {
+  const TrackerScene& scene = window.subject.scene;
+  return may_lead(scene) && figure_is_too_thin(scene, window.search.window(), records);
 }
 
-// Takes the figure that a trial has asked for, or a usual one if nobody was found with a wider one;
-// false if there is no other to try.
-bool change_figure(SearchedWindow& window) {
+// The start of a trial that begins with the first frame of the search's window, so many frames
+// before the window that was searched.
+WindowStart start_from(WalkSearch& search, uint32_t first_frame, size_t lead, Trial&& trial,
+                       NearbyPeople people) {
+  const size_t untracked = search.waiting();
+  return {search.take(),
+          first_frame - static_cast<uint32_t>(lead),
+          std::move(trial.records),
+          trial.legs_in_doubt,
+          untracked,
+          std::move(people)};
+}
+
+// Keeps what the usual figure finds while wider ones are tried; of two walks the better one.
+void keep_usual(SearchedWindow& window, Trial&& trial, size_t lead) {
+  const double score = trial.log_likelihood;
+  if (window.wider > 0 || (window.usual && window.usual->log_likelihood >= score)) return;
+  const bool misled = outlines_mislead(window, trial.records);
+  TrackMode mode = std::move(trial.mode);
+  WalkSearch search = window.search;
+  WindowStart start = start_from(search, window.first_frame, lead, std::move(trial), window.people);
+  window.usual = {
+      window.subject.stature, std::move(start), std::move(mode), std::move(search), score, misled};
+}
+
+// Whether a trial's figure is too thin for the subject; notes what is wanted instead.
+bool figure_misleads(SearchedWindow& window, std::span<const FrameRecord> records) {
+  window.girth = other_girth(window, records);
+  if (!window.girth && outlines_mislead(window, records)) window.outlines_misled = true;
+  return window.other_figure_wanted();
+}
+
+// What the usual figure has found, unless its outlines mislead.
+std::optional<WindowStart> usual_start(SearchedWindow& window) {
+  std::optional<UsualStart> usual = std::exchange(window.usual, {});
+  window.outlines_misled = usual && usual->outlines_misled;
+  if (!usual || usual->outlines_misled) return std::nullopt;
+  if (usual->stature) window.subject.set_height(usual->stature->height, usual->stature);
+  window.mode = std::move(usual->mode);
+  window.search = std::move(usual->search);
+  return std::move(usual->start);
+}
+
+// Takes the figure that a trial has asked for, or a usual one if nobody was found with a wider one.
+// Returns whether there is another one to search with, unless a start with it is known already.
+bool change_figure(SearchedWindow& window, std::optional<WindowStart>& start) {
   const bool found_nobody = window.wider > 0 && !window.usual_girth;
   if (!window.other_figure_wanted() && found_nobody) window.girth = 1;
-  if (!window.other_figure_wanted()) return false;
+  const bool other = window.other_figure_wanted();
   if (const auto girth = std::exchange(window.girth, {})) {
     window.subject.set_girth(*girth);
     window.usual_girth = *girth == 1;
     ++window.wider;
-  } else {
-    window.subject.let_keypoints_lead();
+    window.outlines_misled = false;
+    if (window.usual_girth) start = usual_start(window);
   }
-  window.outlines_misled = false;
+  if (std::exchange(window.outlines_misled, false)) {
+    window.subject.let_keypoints_lead();
+    window.usual.reset();
+  }
   window.search.forget_scores();
-  return true;
+  return other && !start;
 }
 
 // Tracks the window's frames from a walk on, and `lead` frames before them; nullopt if the trial
@@ -90,6 +140,7 @@ std::optional<Trial> tried(SearchedWindow& window, const DetectedWalk& walk, siz
                           window.searching());
   const bool failed = is_searching(trial.mode);
   const bool dropped = !failed && figure_misleads(window, trial.records);
+  if (dropped && window.girth) keep_usual(window, std::move(trial), lead);
   search.let_go(lead);
   if (failed) window.mode = std::move(trial.mode);
   return failed || dropped ? std::nullopt : std::optional(std::move(trial));
@@ -98,16 +149,10 @@ std::optional<Trial> tried(SearchedWindow& window, const DetectedWalk& walk, siz
 std::optional<WindowStart> start_of(SearchedWindow& window, std::optional<Trial> trial,
                                     size_t lead) {
   if (!trial) return std::nullopt;
-  WalkSearch& search = window.search;
-  search.reach_back(lead);
+  window.search.reach_back(lead);
   window.mode = std::move(trial->mode);
-  const size_t untracked = search.waiting();
-  return WindowStart{search.take(),
-                     window.first_frame - static_cast<uint32_t>(lead),
-                     std::move(trial->records),
-                     trial->legs_in_doubt,
-                     untracked,
-                     std::move(window.people)};
+  return start_from(window.search, window.first_frame, lead, *std::move(trial),
+                    std::move(window.people));
 }
 
 std::optional<WindowStart> start_at(SearchedWindow& window, const DetectedWalk& walk, size_t lead) {
@@ -165,7 +210,8 @@ std::optional<WindowStart> start_standing_still(SearchedWindow& window, const De
   const TrackedSubject& subject = window.subject;
   if (subject.keypoints_lead() && subject.scene.cameras.size() == 1) {
     window.search.weigh_waiting(kStillOutlines);
-    if (auto start = start_standing(window, walk)) return start;
+    auto start = start_standing(window, walk);
+    if (start || window.other_figure_wanted()) return start;
     window.search.weigh_waiting(1 / kStillOutlines);
   }
   return start_standing(window, walk);
@@ -212,7 +258,7 @@ std::optional<WindowStart> start_in_window(TrackedSubject& subject, WalkSearch& 
   SearchedWindow window{subject, search, first_frame, starts, mode};
   std::optional<WindowStart> start;
   do start = start_with_walk(window);
-  while (!start && change_figure(window));
+  while (!start && change_figure(window, start));
   if (start && subject.wants_girth()) subject.girth = subject.scene.model.body.subject.girth;
   return start;
 }
