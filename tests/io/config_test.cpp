@@ -37,6 +37,7 @@ TEST(ConfigFile, NamesLineKeyFoundAndAllowed) {
               HasSubstr("c.yaml:2: seed: found the key twice"));
   EXPECT_THAT(message_for_file("- 1\n"), HasSubstr("found a list, allowed: a map of keys"));
   EXPECT_THAT(message_for_file("seed: {a\n"), HasSubstr("broken YAML"));
+  EXPECT_THAT(message_for_file(std::string("seed: 1\0", 8)), HasSubstr("bytes that are no text"));
 }
 
 // For one release files and --set may use the former name of a key; a message states the new one.

@@ -7,6 +7,7 @@
 #include "core/conventions.h"
 #include "core/errors.h"
 #include "tests/io/sample_files.h"
+#include "tests/message_of.h"
 
 namespace walktrack {
 namespace {
@@ -180,6 +181,12 @@ TEST_F(SceneFile, LiftsPositionsOntoATiltedGround) {
                            "initial: {position: [2, 0], heading: 0}\n");
   // (2, 0, -0.2) is on the plane, |(2, 0, -0.2)| from the origin along the ground.
   EXPECT_LT((scene.initial->position - Vector2d(std::hypot(2, 0.2), 0)).norm(), 1e-12);
+}
+
+TEST_F(SceneFile, IsNoVideo) {
+  EXPECT_THAT(message_of<InputError>([&] { read_scene(folder_.path() / "a.mp4"); }),
+              testing::AllOf(HasSubstr("a.mp4: found a video, allowed: a scene"),
+                             HasSubstr("'walktrack init'")));
 }
 
 TEST_F(SceneFile, NamesPlaceFoundAndAllowed) {

@@ -110,6 +110,8 @@ YamlValue YamlValue::from_file(const std::string& path) {
 }
 
 YamlValue YamlValue::from_text(const std::string& text, const std::string& name) {
+  if (text.find('\0') != std::string::npos)
+    throw InputError(describe({name, 0, ""}, "bytes that are no text", "a text in YAML"));
   try {
     refuse_silent_losses(text, name);
     YAML::Node node = YAML::Load(text);

@@ -13,6 +13,7 @@
 #include "io/archive/files.h"
 #include "io/calibration/calibration.h"
 #include "io/config/yaml.h"
+#include "io/scene/scene_template.h"
 #include "io/scene/subject_file.h"
 
 namespace walktrack {
@@ -266,6 +267,11 @@ void read_range(const YamlValue& root, Scene& scene) {
 }  // namespace
 
 Scene read_scene(const fs::path& path) {
+  if (is_video_file(path)) {
+    throw InputError(
+        describe({path.string(), 0, ""}, "a video",
+                 "a scene, which names videos and cameras: 'walktrack init' writes it"));
+  }
   const YamlValue root = YamlValue::from_file(path.string());
   root.only_keys({"cameras", "frame_rate", "ground", "gravity", "subject", "initial", "occluders",
                   "truth", "first_frame", "last_frame"});
