@@ -15,22 +15,18 @@ namespace {
 constexpr double kSlowestTemplate = 0.5, kTemplateStep = 0.2;
 constexpr int kPages = 9;
 
-struct ScoredFigure {
-  double score = -std::numeric_limits<double>::infinity();
-  Pose pose{};
-};
-
 // The figure with the largest log-likelihood, of those with their roots above `position`.
 template <typename F>
-ScoredFigure best_of_figures(const Body& body, std::span<const Pose> figures,
-                             const Eigen::Vector2d& position, double heading,
-                             const F& log_likelihood) {
-  ScoredFigure best;
-  for (Pose pose : figures) {
+BestFigure best_of_figures(const Body& body, std::span<const Pose> figures,
+                           const Eigen::Vector2d& position, double heading,
+                           const F& log_likelihood) {
+  BestFigure best;
+  for (size_t i = 0; i < figures.size(); ++i) {
+    Pose pose = figures[i];
     pose.root.head<2>() = position;
     pose.heading = heading;
     const double score = log_likelihood(PosedBody(body, pose));
-    if (score > best.score) best = {score, pose};
+    if (score > best.score) best = {score, i, pose};
   }
   return best;
 }
@@ -78,11 +74,9 @@ std::span<const Pose> PoseTemplates::at(double speed, double heading) const {
   return figures_[table_heading(downhill_, heading) * kPages + of_speed];
 }
 
-namespace {
-
-ScoredFigure best_by_all_terms(const TrackerScene& scene, const SceneEvidence& evidence,
-                               const Body& body, std::span<const Pose> figures,
-                               const Eigen::Vector2d& position, double heading) {
+BestFigure best_figure(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
+                       std::span<const Pose> figures, const Eigen::Vector2d& position,
+                       double heading) {
   return best_of_figures(body, figures, position, heading, [&](const PosedBody& posed) {
     double sum = 0;
     for (size_t c = 0; c < evidence.size(); ++c)
@@ -91,16 +85,9 @@ ScoredFigure best_by_all_terms(const TrackerScene& scene, const SceneEvidence& e
   });
 }
 
-}  // namespace
-
 double place_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
                    std::span<const Pose> figures, const Eigen::Vector2d& position, double heading) {
-  return best_by_all_terms(scene, evidence, body, figures, position, heading).score;
-}
-
-Pose best_figure(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
-                 std::span<const Pose> figures, const Eigen::Vector2d& position, double heading) {
-  return best_by_all_terms(scene, evidence, body, figures, position, heading).pose;
+  return best_figure(scene, evidence, body, figures, position, heading).score;
 }
 
 double outline_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,

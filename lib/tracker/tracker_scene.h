@@ -1,6 +1,7 @@
 // Everything that the frames of a scene share, and the evidence of one frame.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -67,13 +68,21 @@ class PoseTemplates {
   std::vector<std::vector<Pose>> figures_;  // by slope and speed, which is the faster index
 };
 
-// The log-likelihood of the figure that fits best, its root above `position`. `body`: the figures'.
+// Of some figures the one that fits best.
+struct BestFigure {
+  double score = -std::numeric_limits<double>::infinity();  // log-likelihood, nats
+  size_t index = 0;                                         // of the figure
+  Pose pose{};                                              // of the figure at its place
+};
+
+// With the root above `position`. `body`: the figures'.
+BestFigure best_figure(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
+                       std::span<const Pose> figures, const Eigen::Vector2d& position,
+                       double heading);
+
+// Its log-likelihood.
 double place_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
                    std::span<const Pose> figures, const Eigen::Vector2d& position, double heading);
-
-// That figure, placed.
-Pose best_figure(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,
-                 std::span<const Pose> figures, const Eigen::Vector2d& position, double heading);
 
 // The same by outlines alone.
 double outline_score(const TrackerScene& scene, const SceneEvidence& evidence, const Body& body,

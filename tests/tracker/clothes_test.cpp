@@ -80,7 +80,8 @@ TEST_F(SubjectInWoodenTrousers, TheScoreIsThatOfTheComparedFrames) {
     const double score =
         place_score(context.scene, search.window()[t], context.body(), figures, place, heading);
     const Pose best =
-        best_figure(context.scene, search.window()[t], context.body(), figures, place, heading);
+        best_figure(context.scene, search.window()[t], context.body(), figures, place, heading)
+            .pose;
     EXPECT_EQ(score, place_score(context.scene, search.window()[t], context.body(), {&best, 1},
                                  place, heading));
     sum += score;

@@ -21,11 +21,13 @@ DetectedWalk walk_off_by(const Eigen::Vector2d& shift) {
 // nats at `height`.
 FigureScore person_of(double height, double width) {
   return [=](double tried) -> WindowScore {
-    return [=](size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d&) {
+    return [=](size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d&,
+               std::optional<size_t>) {
       const Eigen::Vector2d there =
           kBegin + kDt * double(frame) * kVelocity + Eigen::Vector2d(0, 2 * (tried - height));
       const double size = (tried - height) / width;
-      return 40 * std::exp(-0.5 * (size * size + (place - there).squaredNorm() / (0.3 * 0.3)));
+      return FigureInFrame{
+          40 * std::exp(-0.5 * (size * size + (place - there).squaredNorm() / (0.3 * 0.3)))};
     };
   };
 }
@@ -103,7 +105,9 @@ TEST(SizeUp, SmallImagesSayLess) {
 
 TEST(SizeUp, WhereImagesSayNothingItIsTheHeightOfPeople) {
   const FigureScore blind = [](double) -> WindowScore {
-    return [](size_t, const Eigen::Vector2d&, const Eigen::Vector2d&) { return 10.0; };
+    return [](size_t, const Eigen::Vector2d&, const Eigen::Vector2d&, std::optional<size_t>) {
+      return FigureInFrame{10};
+    };
   };
   const SizedWalk found = size_up(walk_off_by({0, 0}), 1.75, {}, blind, seen_at(kNear));
   // Nine adults of 1.70 +- .095 m, and a child of .9 to 1.6.

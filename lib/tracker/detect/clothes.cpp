@@ -41,8 +41,9 @@ std::optional<AppearanceModel> clothes_of(const TrackContext& context,
     if (seen.empty()) continue;
     if (!clothes) clothes = unknown_clothes(context, seen);
     const Eigen::Vector2d place = moved(walk, double(i) * context.scene.dt).position;
-    const PosedBody figure(context.body(), best_figure(context.scene, window[i], context.body(),
-                                                       figures, place, heading));
+    const Pose pose =
+        best_figure(context.scene, window[i], context.body(), figures, place, heading).pose;
+    const PosedBody figure(context.body(), pose);
     const CapsuleList parts = project_parts(context.scene.cameras[0], figure.parts);
     clothes->learn(bins, colours_inside(scaled_radii(parts, kCertainlyBody), window[i][0].planes,
                                         *clothes, [&](int x, int y) { return seen.bin_at(x, y); }));

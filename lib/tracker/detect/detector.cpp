@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/anthropometry.h"
 #include "core/median.h"
@@ -41,14 +42,25 @@ size_t stride_of_climb(const Window& window) {
   return std::max<size_t>(1, window.frames / kScored);
 }
 
-// The figure's scores along a line, in every `stride`-th frame.
+// The figures along a line, in every `stride`-th frame: the best ones, or those that are stated.
+std::vector<FigureInFrame> figures_along(const Window& window, const DetectedWalk& line,
+                                         const Vector2d& velocity, size_t stride,
+                                         std::span<const FigureInFrame> stated = {}) {
+  std::vector<FigureInFrame> figures((window.frames + stride - 1) / stride);
+  parallel_for(figures.size(), window.threads, [&](size_t i) {
+    const double time = window.dt * double(i * stride);
+    const auto index = stated.empty() ? std::nullopt : std::optional(stated[i].index);
+    figures[i] = window.score(i * stride, line.position + time * line.velocity, velocity, index);
+  });
+  return figures;
+}
+
+// The best figures' scores along a line, in every `stride`-th frame.
 std::vector<double> scores_along(const Window& window, const DetectedWalk& line,
                                  const Vector2d& velocity, size_t stride) {
-  std::vector<double> scores((window.frames + stride - 1) / stride);
-  parallel_for(scores.size(), window.threads, [&](size_t i) {
-    const double time = window.dt * double(i * stride);
-    scores[i] = window.score(i * stride, line.position + time * line.velocity, velocity);
-  });
+  std::vector<double> scores;
+  for (const FigureInFrame& figure : figures_along(window, line, velocity, stride))
+    scores.push_back(figure.score);
   return scores;
 }
 
@@ -59,14 +71,19 @@ double log_prior(const DetectedWalk& line) {
   return -0.5 * strange * strange;
 }
 
-// Log-posterior of a line, by frame: every frame has the same weight, because all of them determine
-// the place of a line, above all its distance.
-double line_score(const Window& window, const DetectedWalk& line, size_t stride = 1) {
-  const std::vector<double> scores = scores_along(window, line, line.velocity, stride);
+// Log-posterior of a line with these figures, by frame: every frame has the same weight, because
+// all of them determine the place of a line, above all its distance.
+double line_score(const Window& window, const DetectedWalk& line,
+                  std::span<const FigureInFrame> figures) {
+  double sum = 0;
+  for (const FigureInFrame& figure : figures) sum += figure.score;
   const double looks = independent_looks(window.frames, window.dt);
   const double known = window.known ? kStrangeFigure * kStrangeFigure * window.known(line) : 0;
-  return std::accumulate(scores.begin(), scores.end(), 0.0) / double(scores.size()) +
-         (log_prior(line) + known) / looks;
+  return sum / double(figures.size()) + (log_prior(line) + known) / looks;
+}
+
+double line_score(const Window& window, const DetectedWalk& line, size_t stride = 1) {
+  return line_score(window, line, figures_along(window, line, line.velocity, stride));
 }
 
 double mean_of_worst_third(std::vector<double> scores) {
@@ -125,10 +142,12 @@ std::vector<Walk> proposed_walks(const WindowCandidates& window, double dt,
 }
 
 // The pattern of a climb: shifts of the line's two ends, metres. The score is a ridge along the
-// viewing rays, so the pattern lies along and across each end's own.
+// viewing rays, so the pattern lies along and across each end's own. Four shifts are followed by
+// their opposites.
 struct Shift {
   Vector2d begin, end;
 };
+constexpr size_t opposite(size_t shift) { return shift ^ 4; }
 
 std::vector<Shift> shifts(const Shift& rays) {
   const Shift across{{-rays.begin.y(), rays.begin.x()}, {-rays.end.y(), rays.end.x()}};
@@ -143,8 +162,15 @@ std::vector<Shift> shifts(const Shift& rays) {
   return out;
 }
 
-// The steps of a climb's shrinking pattern, m.
-constexpr double kCoarseSteps[] = {0.24, 0.12}, kFineSteps[] = {0.06, 0.03, 0.015};
+// The steps of a climb's shrinking pattern, m. In the coarse ones every figure is tried in every
+// frame; in the fine ones only that which fitted best before them: it seldom changes
+// (reports/search.md).
+struct Steps {
+  std::span<const double> sizes;
+  bool every_figure;
+};
+constexpr double kCoarse[] = {0.24, 0.12}, kFine[] = {0.06, 0.03, 0.015};
+constexpr Steps kCoarseSteps{kCoarse, true}, kFineSteps{kFine, false};
 
 Vector2d end_of(const DetectedWalk& line, double time) {
   return line.position + time * line.velocity;
@@ -155,24 +181,53 @@ Walk looked_at(const Window& window, const DetectedWalk& line) {
   return {line, line_score(window, line, stride_of_climb(window))};
 }
 
-// Climbs until a pattern of this step finds no improvement.
-Walk climbed(Walk walk, const Window& window, const std::vector<Shift>& pattern, double step) {
+DetectedWalk shifted(const DetectedWalk& line, const Shift& shift, double step, double time) {
+  return {line.position + step * shift.begin,
+          line.velocity + step / time * (shift.end - shift.begin),
+          line.ray,
+          0,
+          0,
+          0};
+}
+
+using Figures = std::vector<FigureInFrame>;
+
+// Climbs with the stated figures until no shift of a pattern of this step is an improvement any
+// more; `stated`: as in figures_along.
+Walk climbed(Walk walk, const Window& window, const std::vector<Shift>& pattern, double step,
+             const Figures& stated) {
   const double time = window.dt * double(window.frames - 1);
-  for (bool better = true; better;) {
-    better = false;
-    for (const Shift& shift : pattern) {
-      DetectedWalk line{walk.line.position + step * shift.begin,
-                        walk.line.velocity + step / time * (shift.end - shift.begin),
-                        walk.line.ray,
-                        0,
-                        0,
-                        0};
-      const Walk tried = looked_at(window, line);
-      if (tried.score <= walk.score) continue;
-      walk = tried;
-      better = true;
-    }
+  std::optional<size_t> back;  // the shift that leads to where the climb came from
+  for (size_t i = 0, failed = 0; failed < pattern.size(); i = (i + 1) % pattern.size()) {
+    ++failed;
+    if (i == back) continue;
+    const DetectedWalk line = shifted(walk.line, pattern[i], step, time);
+    const double score = line_score(
+        window, line, figures_along(window, line, line.velocity, stride_of_climb(window), stated));
+    if (score <= walk.score) continue;
+    walk = {line, score};
+    back = opposite(i);
+    failed = 0;
   }
+  return walk;
+}
+
+bool same_figures(const Figures& a, const Figures& b) {
+  return std::ranges::equal(a, b, {}, &FigureInFrame::index, &FigureInFrame::index);
+}
+
+// The same with the figures that fit best where a climb ends, until these stay the same.
+Walk climbed_with_own_figures(Walk walk, const Window& window, const std::vector<Shift>& pattern,
+                              double step) {
+  const auto own = [&] {
+    return figures_along(window, walk.line, walk.line.velocity, stride_of_climb(window));
+  };
+  Figures figures = own(), before;
+  do {
+    walk = climbed(walk, window, pattern, step, figures);
+    before = std::exchange(figures, own());
+    walk.score = line_score(window, walk.line, figures);
+  } while (!same_figures(figures, before));
   return walk;
 }
 
@@ -192,19 +247,20 @@ void drop_doubles(double apart, double time, std::vector<Walk>& walks) {
 }
 
 // Climbs from each of them.
-void refine(const Window& window, const Vector2d& camera_position, std::span<const double> steps,
+void refine(const Window& window, const Vector2d& camera_position, const Steps& steps,
             std::vector<Walk>& walks) {
   const double time = window.dt * double(window.frames - 1);
-  for (const double step : steps) {
+  for (const double step : steps.sizes) {
     // A single climb uses all threads; of several climbs each uses one.
     Window own = window;
     if (walks.size() > 1) own.threads = 1;
     parallel_for(walks.size(), window.threads, [&](size_t i) {
       const DetectedWalk& line = walks[i].line;
-      walks[i] = climbed(walks[i], own,
-                         shifts({(line.position - camera_position).normalized(),
-                                 (end_of(line, time) - camera_position).normalized()}),
-                         step);
+      const std::vector<Shift> pattern =
+          shifts({(line.position - camera_position).normalized(),
+                  (end_of(line, time) - camera_position).normalized()});
+      walks[i] = steps.every_figure ? climbed(walks[i], own, pattern, step, {})
+                                    : climbed_with_own_figures(walks[i], own, pattern, step);
     });
     drop_doubles(2 * step, time, walks);
   }

@@ -38,10 +38,17 @@ struct DetectedWalk {
 // The same walk so many seconds later.
 DetectedWalk moved(const DetectedWalk& walk, double seconds);
 
-// Log-likelihood ratio of the walking figure in one frame of a window, over a ground point, all
-// cameras together, nats; it walks at that velocity, m/s.
-using WindowScore = std::function<double(size_t frame, const Eigen::Vector2d& place,
-                                         const Eigen::Vector2d& velocity)>;
+// A walking figure in one frame of a window, over a ground point.
+struct FigureInFrame {
+  double score;      // log-likelihood ratio, all cameras together, nats
+  size_t index = 0;  // which of the figures that walk at the velocity it is
+};
+
+// The figure with the largest score of those that walk at that velocity, m/s, or of one of them
+// that is stated by its index.
+using WindowScore =
+    std::function<FigureInFrame(size_t frame, const Eigen::Vector2d& place,
+                                const Eigen::Vector2d& velocity, std::optional<size_t> index)>;
 
 // The two frames of a window for which candidate places are needed: every line that is tried goes
 // through a candidate of each.

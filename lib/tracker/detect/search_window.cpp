@@ -59,10 +59,14 @@ std::optional<Reach> reach_in_frame(const TrackContext& context,
 
 WindowScore window_score(const SearchWindow& window, const Body& body,
                          const PoseTemplates& figures) {
-  return [&](size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d& velocity) {
+  return [&](size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d& velocity,
+             std::optional<size_t> index) -> FigureInFrame {
     const double heading = std::atan2(velocity.y(), velocity.x());
-    return place_score(window.context.scene, window.frames[frame], body,
-                       figures.at(velocity.norm(), heading), place, heading);
+    std::span<const Pose> tried = figures.at(velocity.norm(), heading);
+    if (index) tried = tried.subspan(*index, 1);
+    const BestFigure best =
+        best_figure(window.context.scene, window.frames[frame], body, tried, place, heading);
+    return {best.score, index.value_or(best.index)};
   };
 }
 
@@ -133,8 +137,9 @@ SizedWalk sized_up(const SearchWindow& window, const DetectedWalk& walk, double 
   const auto score = [&](double tried) -> WindowScore {
     const BodyModel model = with_height(context.scene.model, tried);
     return [&window, body = model.body, figures = PoseTemplates(model, context.prior)](
-               size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d& velocity) {
-      return window_score(window, body, figures)(frame, place, velocity);
+               size_t frame, const Eigen::Vector2d& place, const Eigen::Vector2d& velocity,
+               std::optional<size_t> index) {
+      return window_score(window, body, figures)(frame, place, velocity, index);
     };
   };
   return size_up(

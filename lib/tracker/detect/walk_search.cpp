@@ -298,7 +298,8 @@ void WalkSearch::restore_evidence(const TrackContext& context) {
   search_weights_.clear();
   if (!std::exchange(clothed_, false)) return;
   for (std::deque<SceneEvidence>* frames : {&waiting_, &window_, &later_})
-    for (SceneEvidence& frame : *frames) forget_clothes(context, frame);
+    parallel_for(frames->size(), context.threads,
+                 [&](size_t i) { forget_clothes(context, (*frames)[i]); });
   forget_scores();
 }
 
