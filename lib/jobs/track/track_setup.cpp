@@ -42,8 +42,10 @@ double expected_height_px(const Scene& scene, const Camera& camera, const Detect
   return *chosen;
 }
 
+// `learned`: the state of the observer before, if there is one.
 Observer make_observer(const Scene& scene, const SceneCamera& camera, const Config& config,
-                       const Body& body, const ObserverState* learned, const JobControl& control) {
+                       const Body& body, const std::optional<BackgroundModel>& background,
+                       const ObserverState* learned) {
   const ObservationConfig& observation = config.observation;
   ObserverInput input;
   input.camera = camera.camera;
@@ -54,11 +56,8 @@ Observer make_observer(const Scene& scene, const SceneCamera& camera, const Conf
   input.threads = scene.cameras.size() == 1 ? thread_count(config.threads) : 1;
   input.occluders = occluders_at(camera, 0);
   input.pictures = !camera.video.empty();
-  if (learned) {
-    input.background = learned->background;
-  } else if (observation.background.enabled && input.pictures) {
-    input.background = learned_background(camera, scene.first_frame, config, scale, control);
-  }
+  if (background) input.background = *background;
+  if (learned) input.background = learned->background;
   Observer observer(observation, std::move(input));
   if (learned) observer.resume(*learned);
   return observer;
@@ -110,9 +109,13 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
                              [](const SceneCamera& camera) { return !camera.video.empty(); });
   out.dt = 1.0 / frame_rate;
   set_beginning(scene, frame_rate, out);
-  for (const SceneCamera& camera : scene.cameras) {
-    const ObserverState* known = learned.empty() ? nullptr : &learned[setup.observers.size()];
-    setup.observers.push_back(make_observer(scene, camera, config, out.model.body, known, control));
+  std::vector<std::optional<BackgroundModel>> backgrounds(scene.cameras.size());
+  if (learned.empty() && config.observation.background.enabled)
+    backgrounds = learned_backgrounds(scene, config, control);
+  for (size_t c = 0; c < scene.cameras.size(); ++c) {
+    setup.observers.push_back(make_observer(scene, scene.cameras[c], config, out.model.body,
+                                            backgrounds[c],
+                                            learned.empty() ? nullptr : &learned[c]));
     out.cameras.push_back(setup.observers.back().camera());
     out.shrink.push_back(setup.observers.back().shrink());
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -50,7 +52,6 @@ void hide_people(BackgroundSampler& frames, const KeypointConfig& config, double
                  const JobControl& control) {
   const auto file = pose_model_file(config.model);
   if (!has_pose_net() || !file) return;
-  const OneImageThread one_thread;
   PoseNet net(read_text_file(*file, kMaxModelBytes), file->string());
   const std::vector<DetectedPeople> people = people_in(frames, net, person_px, control);
   for (int f = 0; f < frames.frames(); ++f)
@@ -125,6 +126,30 @@ BackgroundModel learned_background(const SceneCamera& camera, int first_frame, c
   const BackgroundModel model = sampler.model(thread_count(config.threads));
   if (from_video) return model;
   return with_moved_things(model, camera, first_frame, config, scale, control);
+}
+
+std::vector<std::optional<BackgroundModel>> learned_backgrounds(const Scene& scene,
+                                                                const Config& config,
+                                                                const JobControl& control) {
+  const size_t count = scene.cameras.size();
+  std::vector<std::optional<BackgroundModel>> models(count);
+  std::vector<std::exception_ptr> errors(count);
+  const OneImageThread one_thread;  // so that the network's sums are the same
+  parallel_for(count, thread_count(config.threads), [&](size_t c) {
+    const SceneCamera& camera = scene.cameras[c];
+    if (camera.video.empty()) return;
+    JobControl own = control;
+    if (c > 0) own.report = {};  // the first camera's progress stands for all
+    try {
+      models[c] = learned_background(camera, scene.first_frame, config,
+                                     working_scale(scene, camera.camera, config), own);
+    } catch (...) {
+      errors[c] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+  return models;
 }
 
 std::string moved_things_text(double share) {

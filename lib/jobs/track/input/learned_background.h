@@ -1,7 +1,9 @@
 // A camera's background, from images of the empty scene or from the video itself.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/job_control.h"
 #include "io/config/config.h"
@@ -21,11 +23,18 @@ bool learns_from_video(const SceneCamera& camera);
 bool leaves_people_out(const Scene& scene, const Config& config);
 
 // Estimates the background. Without images of the empty scene, and as configured, people whom the
-// network detects in the frames of the model are left out; OpenCV runs on one thread meanwhile.
-// With such images, things that the video shows elsewhere are those of the video
-// (observation/background/moved_things.h), which is read from `first_frame` of the scene on.
+// network detects in the frames of the model are left out, whose places depend on the number of
+// OpenCV's threads (observation/image_threads.h). With such images, things that the video shows
+// elsewhere are those of the video (observation/background/moved_things.h), which is read from
+// `first_frame` of the scene on.
 BackgroundModel learned_background(const SceneCamera& camera, int first_frame, const Config& config,
                                    const WorkingScale& scale, const JobControl& control);
+
+// The same for every camera that has a video, several of them at a time; OpenCV runs on one thread
+// meanwhile.
+std::vector<std::optional<BackgroundModel>> learned_backgrounds(const Scene& scene,
+                                                                const Config& config,
+                                                                const JobControl& control);
 
 // What a user is told if that share of a background (BackgroundModel::from_video) is the video's.
 std::string moved_things_text(double share);
