@@ -48,9 +48,9 @@ const loads = {
 
 // What video tells too badly to be read as numbers is drawn grey. Measured motions are as good as their measurement.
 const rough = (name) => !analysed && (name.startsWith('ankle') || name === 'hip_rotation' || name in loads);
-const roughAngles = 'Grey: ankle angles and hip rotation are rough estimates. Against motion capture the ankle is 6 to 28° off (rms), ' +
+const roughAngles = 'Grey: ankle angles and hip rotation are rough estimates. Against motion capture the ankle is 7 to 28° off (rms), ' +
   'a large part of the 30° that an ankle moves in walking; outlines hardly show how a hip is rotated. Do not use them as measurements.';
-const roughForces = 'Grey: forces, moments and work computed from video are rough estimates. Against force plates the vertical load is off by 7 to 16 % of body weight, ' +
+const roughForces = 'Grey: forces, moments and work computed from video are rough estimates. Against force plates the vertical load is off by 7 to 12 % of body weight, ' +
   'and somebody assumed to stand still would be off by 16 to 17 %. Do not use them as measurements.';
 
 function cycleChart(parent, cycles, name, [caption, label]) {
