@@ -23,6 +23,10 @@ constexpr double kMostPatience = 0.7;
 // Shares of the score by which walking explains a window better than standing: clearly; in a window
 // beside one with a clear walk. By hand; sensitivity not measured.
 constexpr double kClearWalk = 0.15, kPromisingWalk = 0.1;
+// Share of a walk's score by which walking on backwards has to explain a frame before the walk
+// better than standing: .07 and more of people who walked, up to .05 of a man who stood
+// (reports/standing.md).
+constexpr double kClearlyWalked = 0.06;
 // Of a window in which a walk has been found already.
 constexpr double kAlreadyFound = -std::numeric_limits<double>::infinity();
 
@@ -185,7 +189,10 @@ std::optional<StandingStart> WalkSearch::standing_lead(const TrackContext& conte
   if (!lead) return std::nullopt;
   const double frames = double(window_.size() + lead->frames);
   lead->detected.score = (walk.score * double(window_.size()) + lead->score) / frames;
-  if (score_with_lead(context, walk, lead->frames) > lead->detected.score) return std::nullopt;
+  const double walked = frames *
+                        (score_with_lead(context, walk, lead->frames) - lead->detected.score) /
+                        double(lead->frames);
+  if (walked > kClearlyWalked * walk.score) return std::nullopt;
   return lead;
 }
 
