@@ -37,7 +37,16 @@ TEST(ConfigFile, NamesLineKeyFoundAndAllowed) {
               HasSubstr("c.yaml:2: seed: found the key twice"));
   EXPECT_THAT(message_for_file("- 1\n"), HasSubstr("found a list, allowed: a map of keys"));
   EXPECT_THAT(message_for_file("seed: {a\n"), HasSubstr("broken YAML"));
-  EXPECT_THAT(message_for_file(std::string("seed: 1\0", 8)), HasSubstr("bytes that are no text"));
+  EXPECT_THAT(message_for_file(std::string("seed: {\0", 8)), HasSubstr("bytes that are no text"));
+}
+
+TEST(ConfigFile, MayBeInUtf16) {
+  const TemporaryFolder folder;
+  std::string text = "\xff\xfe";
+  for (const char c : std::string("seed: 7\n")) text += {c, '\0'};
+  ConfigWithOrigin config;
+  apply_config_file(config, folder.write("c.yaml", text));
+  EXPECT_EQ(config.values.seed, 7u);
 }
 
 // For one release files and --set may use the former name of a key; a message states the new one.

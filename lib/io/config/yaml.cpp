@@ -110,14 +110,14 @@ YamlValue YamlValue::from_file(const std::string& path) {
 }
 
 YamlValue YamlValue::from_text(const std::string& text, const std::string& name) {
-  if (text.find('\0') != std::string::npos)
-    throw InputError(describe({name, 0, ""}, "bytes that are no text", "a text in YAML"));
   try {
     refuse_silent_losses(text, name);
     YAML::Node node = YAML::Load(text);
     if (!node.IsDefined() || node.IsNull()) node = YAML::Node(YAML::NodeType::Map);
     return {node, name, ""};
   } catch (const YAML::Exception& error) {
+    if (text.find('\0') != std::string::npos)
+      throw InputError(describe({name, 0, ""}, "bytes that are no text", "a text in YAML"));
     throw InputError(describe({name, error.mark.is_null() ? 0 : error.mark.line + 1, ""},
                               fmt::format("broken YAML ({})", error.msg), ""));
   }

@@ -3,7 +3,8 @@
 //
 // If the trial shows that the figure is too thin for the subject, the trial is dropped and the walk
 // detected anew: with a wider figure if the outlines tell its girth (tracker/start/girth.h), and
-// with keypoints that lead from then on otherwise (tracker/start/keypoint_lead.h). Of a subject who
+// with keypoints that lead from then on otherwise (tracker/start/keypoint_lead.h). What the usual
+// figure has found is kept meanwhile, for a subject who is not clearly wide. Of a subject who
 // was half hidden at first two walks are tried, and the one that explains the frames better is
 // taken. A subject who stood before the walk is tracked from there on
 // (tracker/detect/standing_start.h), unless that trial fails.
