@@ -98,9 +98,8 @@ void Tracker::search(const SceneEvidence& evidence, Records& out) {
     return;
   }
   search_.push(evidence);
-  const bool needs_window = !given() || subject_.wants_size();
-  if (needs_window && !search_.lasts(subject_.config.detector.window, scene.dt)) return;
-  if (given()) return start_given(out);
+  if (!search_.lasts(subject_.config.detector.window, scene.dt)) return;
+  if (given() && start_given(out)) return;
   look_for_walk(frames_between_windows(scene.dt), out);
 }
 
@@ -136,11 +135,11 @@ void Tracker::begin(WindowStart start, Records& out) {
   for (const SceneEvidence& each : search_.take_later()) consume(each, out);
 }
 
-// Starts in the window's first frame at the place that the scene states.
-void Tracker::start_given(Records& out) {
-  people_ = alone(subject_.scene.initial->position, subject_.scene.initial->velocity);
-  start_as_given(subject_, search_, frame_, starts_, mode_);
-  for (const SceneEvidence& each : search_.take()) consume(each, out);
+bool Tracker::start_given(Records& out) {
+  auto start = start_in_window(subject_, search_, frame_, starts_, mode_);
+  subject_.scene.initial.reset();
+  if (start) begin(*std::move(start), out);
+  return !is_searching(mode_);
 }
 
 TrackerState Tracker::state() const {

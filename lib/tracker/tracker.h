@@ -1,7 +1,8 @@
 // The tracker turns the evidence of frames into poses with their uncertainty. Its modes:
 //
-//   searching  for a walk in a sliding window of frames (tracker/detect/walk_search.h)
-//              which is tried out on the window (tracker/start/window_start.h). The height of a
+//   searching  for a walk in a sliding window of frames (tracker/detect/walk_search.h), or near the
+//              place that the scene states, in the window that begins then; it is tried out on
+//              the window (tracker/start/window_start.h). The height of a
 //              subject, if it is unknown, is estimated from the same window, once
 //              (tracker/detect/stature.h).
 //   starting   hypotheses over phase and side compete for a while
@@ -66,9 +67,7 @@ class Tracker {
 
   // Whether the next frame's evidence has to hold its image: for one camera, the labels of the legs
   // of a walk that is searched come from the images.
-  bool wants_picture() const {
-    return is_searching(mode_) && !given() && subject_.scene.cameras.size() == 1;
-  }
+  bool wants_picture() const { return is_searching(mode_) && subject_.scene.cameras.size() == 1; }
   // Whether the newest frame has been tracked, so that its particles say where the person is.
   bool tracking() const { return is_tracking(mode_); }
   // While tracking():
@@ -114,7 +113,8 @@ class Tracker {
   // Of the windows that a walk is searched in, every `step`-th is looked at.
   void look_for_walk(size_t step, Records& out);
   void begin(WindowStart start, Records& out);
-  void start_given(Records& out);
+  // Tries the walk that the scene states, once; whether it starts a track.
+  bool start_given(Records& out);
   void report(Records records, const SceneEvidence& newest, Records& out);
   std::optional<SceneEvidence> without_others(const SceneEvidence& evidence);
 

@@ -21,7 +21,7 @@ struct TrackerScene {
   ObservationConfig observation;
   bool pictures = true;  // of any camera; otherwise there are only keypoints
   double dt = 1.0 / 30;  // s between frames
-  // Where the walk starts; if it is missing, the walk is searched.
+  // Where the walk starts; if it is missing, or nobody is there, the walk is searched.
   std::optional<DetectedWalk> initial;
   int initial_frame = 0;
   std::optional<double> initial_phase;  // of the stride, 0 = left foot strike

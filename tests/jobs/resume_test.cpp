@@ -41,7 +41,7 @@ class Resume : public testing::Test {
     config.tracker.filter.particles = 40;
     config.tracker.filter.moves = 1;
     config.tracker.start.particles = 10;
-    config.tracker.start.seconds = 0.2;
+    config.tracker.start.seconds = config.tracker.detector.window = 0.2;
     config.observation.person_px = 50;  // small images, for speed
     config.checkpoint.seconds = 0;
     config.tracker.motion.turning_yaw_rate_sd = 0;  // every frame leaves a checkpoint
@@ -208,6 +208,7 @@ TEST_F(Resume, WithANetworkThatIsAskedInDoubtOnly) {
     const Json run = Json::parse(result("whole").at("run.json"));
     return run.at("numbers").at("keypoint_frames").get<int>();
   };
+  video_frames_ = 40;
   asked(true);
   expect_same_after_kill(18);
   const int in_doubt = frames();

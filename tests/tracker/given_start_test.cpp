@@ -1,41 +1,109 @@
-// A given start is at the place that the scene states, to MotionConfig::given_position_sd.
+// A start at a walk that the scene states: it is a walk like one that is found, near the stated
+// place to MotionConfig::given_position_sd.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
-#include "fixture.h"
-#include "tests/tracker/frame_time.h"
 #include "tracker/tracker.h"
+#include "walked_scene.h"
 
 namespace walktrack {
 namespace {
 
-// Standard deviation of the pelvis over the ground in the first frame without evidence, m.
-double first_spread(double given, double arrival) {
-  TrackerScene scene = unseen(test_model(), kDt);
-  scene.initial = DetectedWalk{.position = {1, 2}, .velocity = {0, 1.2}, .given = true};
-  TrackerConfig config;
-  config.motion.given_position_sd = given;
-  config.motion.start_position_sd = arrival;
-  const GaitPrior prior = load_gait_prior();
-  Tracker tracker(scene, prior, config, 1, 1);
-  for (int frame = 0; frame < frames_in(config.start.seconds, kDt); ++frame) {
-    const std::vector<FrameRecord> records = tracker.push({});
-    if (records.empty()) continue;
+class GivenStart : public WalkedScene {
+ protected:
+  // Somebody who is seen from these places, perhaps not in the first frame, and a walk that is
+  // stated.
+  void show_given(const DetectedWalk& given, const std::vector<Eigen::Vector3d>& places,
+                  bool at_first = true) {
+    show(0.2, kVideoFrames, places, [at_first](size_t frame, CameraEvidence& evidence) {
+      if (frame == 0 && !at_first) std::ranges::fill(evidence.planes.prefix, 0);
+    });
+    subject_->scene.initial = given;
+    subject_->scene.initial->given = true;
+  }
+  std::vector<FrameRecord> tracked() {
+    tracker_.emplace(subject_->scene, prior_, subject_->config, 1, 1);
+    std::vector<FrameRecord> out;
+    const auto keep = [&](std::vector<FrameRecord> more) {
+      for (FrameRecord& record : more) out.push_back(std::move(record));
+    };
+    for (const SceneEvidence& frame : window_) keep(tracker_->push(frame));
+    keep(tracker_->finish());
+    EXPECT_EQ(out.size(), window_.size());
+    return out;
+  }
+  // Distance of the pelvis from the truth on the ground, mean over all frames, m.
+  double error(const std::vector<FrameRecord>& records) const {
+    double sum = 0;
+    for (size_t i = 0; i < records.size(); ++i) {
+      EXPECT_TRUE(records[i].tracked) << i;
+      sum += (records[i].estimate.pose.root - poses_[i].root).head<2>().norm();
+    }
+    return sum / double(records.size());
+  }
+  // Standard deviation of the pelvis over the ground in the first frame without evidence, m.
+  double first_spread(double given, double found) {
+    show_given(walk_, {{0, -4, 1}}, false);
+    subject_->config.motion.given_position_sd = given;
+    subject_->config.motion.start_position_sd = found;
+    const std::vector<FrameRecord> records = tracked();
     const FrameEstimate& first = records.front().estimate;
-    EXPECT_NEAR(first.joints[Joint::kPelvis].x(), 1, 0.1);
-    EXPECT_NEAR(first.joints[Joint::kPelvis].y(), 2, 0.1);
+    EXPECT_NEAR(first.joints[Joint::kPelvis].x(), walk_.position.x(), 0.1);
+    EXPECT_NEAR(first.joints[Joint::kPelvis].y(), walk_.position.y(), 0.1);
     return first.spread[size_t(Joint::kPelvis)][0].sd;
   }
-  ADD_FAILURE() << "the start was not decided";
-  return 0;
-}
+  DetectedWalk beside(double metres) const {
+    DetectedWalk out = walk_;
+    out.position.y() += metres;
+    return out;
+  }
+  std::optional<Tracker> tracker_;
+};
 
-TEST(GivenStart, IsAsUncertainAsItIsSaidToBe) {
+TEST_F(GivenStart, IsAsUncertainAsItIsSaidToBe) {
   const double narrow = first_spread(0.02, 0.15), wide = first_spread(0.3, 0.15);
   EXPECT_NEAR(std::sqrt(wide * wide - narrow * narrow), 0.3, 0.05);
 }
 
-TEST(GivenStart, DoesNotDependOnWhatFoundOnesAre) {
+TEST_F(GivenStart, DoesNotDependOnWhatFoundOnesAre) {
   EXPECT_EQ(first_spread(0.1, 0.02), first_spread(0.1, 0.5));
+}
+
+TEST_F(GivenStart, MovesToWhereTheImagesShowTheSubject) {
+  show_given(beside(0.2), {{0, -4, 1}, {4, -1, 1}});
+  EXPECT_LT(error(tracked()), 0.03);
+}
+
+TEST_F(GivenStart, IsFollowedByAFigureAsWideAsTheSubject) {
+  girth_ = 1.4;
+  show_given(walk_, {{0, -3, 1}});
+  EXPECT_LT(error(tracked()), 0.08);
+  ASSERT_TRUE(tracker_->girth());
+  EXPECT_NEAR(*tracker_->girth() + 0.05, girth_, 0.1);  // as in girth_test.cpp
+}
+
+TEST_F(GivenStart, TheWalkIsSearchedIfNobodyIsThere) {
+  show_given(beside(-2), {{0, -4, 1}, {4, -1, 1}});
+  EXPECT_LT(error(tracked()), 0.03);
+}
+
+TEST_F(GivenStart, AVideoThatIsShorterThanTheWindowIsTracked) {
+  show_given(walk_, {{0, -4, 1}, {4, -1, 1}});
+  for (const size_t frames : {20, 8, 2}) {
+    window_.resize(frames);
+    EXPECT_LT(error(tracked()), 0.05) << frames;
+  }
+}
+
+// The labels of the legs of one camera come from the images.
+TEST_F(GivenStart, OneCameraKeepsTheImagesOfItsFrames) {
+  for (const bool one : {true, false}) {
+    show_given(walk_, {{0, -4, 1}, {4, -1, 1}});
+    if (one) subject_->scene.cameras.resize(1);
+    const Tracker tracker(subject_->scene, prior_, subject_->config, 1, 1);
+    EXPECT_EQ(tracker.wants_picture(), one);
+  }
 }
 
 }  // namespace

@@ -166,6 +166,7 @@ class TrackBesideOthers : public NearbyPeopleTest {
     scene.initial->given = true;
     scene.initial_phase = 0.2;
     TrackerConfig config;
+    config.detector.window = 0.5;  // s, so that they pass one another after the start
     config.others = others;
     Tracker tracker(scene, prior_, config, 1, 1);
     std::vector<FrameRecord> records;

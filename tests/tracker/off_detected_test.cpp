@@ -38,6 +38,7 @@ bool tracked_after(double aside, double seconds) {
   scene.initial = DetectedWalk{.position = {-1, 0}, .velocity = {kSpeed, 0}, .given = true};
   TrackerConfig config;
   config.filter.particles = 100;
+  config.detector.window = 0.5;  // s
   config.monitor.lost_after = 100;
   const GaitPrior prior = load_gait_prior();
   Tracker tracker(scene, prior, config, 1, 1);

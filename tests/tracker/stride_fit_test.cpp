@@ -53,6 +53,20 @@ TEST_F(StrideFit, RangesNearTheBestOneAndHalfAStrideFromItAreTried) {
   EXPECT_EQ(tried, expected);
 }
 
+TEST_F(StrideFit, APhaseThatTheSceneStatesIsTriedAlone) {
+  show(0.2, kShown, {{0, -4, 1}});
+  subject_->scene.initial_phase = 0.7;  // wrong
+  const auto tried = [&] { return likely_ranges(subject_->context(), window_, walk_); };
+  EXPECT_EQ(tried().size(), 6u) << "a walk that is found has its own phase";
+  walk_.given = true;
+  subject_->scene.initial_phase.reset();
+  EXPECT_EQ(tried().size(), all().size()) << "perhaps no single frame has evidence";
+  subject_->scene.initial_phase = 0.7;
+  ASSERT_EQ(tried().size(), 1u);
+  EXPECT_EQ(tried()[0].stance, Side::kRight);
+  EXPECT_NEAR(0.5 * (tried()[0].from + tried()[0].to), 0.4, 1e-9);
+}
+
 TEST_F(StrideFit, WhoStandsFirstHasNoPhase) {
   show(0, kShown, {{0, -4, 1}});
   walk_.standing = true;

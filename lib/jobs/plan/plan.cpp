@@ -220,9 +220,8 @@ std::vector<std::pair<std::string, double>> memory_of(const Scene& scene, const 
         "learning the background, before the first frame",
         (leaves_people_out(scene, config) ? 4.0 : 3.0) * images.background.samples * shrunk);
   }
-  if (!scene.initial)
-    out.emplace_back("the search's window of frames",
-                     search_window_bytes(scene, config, plan.frame_rate));
+  out.emplace_back("the window of frames in which a walk starts",
+                   search_window_bytes(scene, config, plan.frame_rate));
   const double record =
       double{sizeof(FrameRecord)} + config.tracker.samples * double{sizeof(JointPositions)};
   out.emplace_back("results of a minute of video", 60 * plan.frame_rate * record);

@@ -12,6 +12,7 @@
 #include "core/parallel_for.h"
 #include "jobs/track/input/learned_background.h"
 #include "jobs/track/out_of_picture.h"
+#include "jobs/track/report/stated_start.h"
 #include "jobs/track/report/viewing_ray.h"
 #include "jobs/track/report/why_nobody.h"
 #include "observation/image_threads.h"
@@ -179,6 +180,10 @@ std::vector<std::string> TrackRun::notes() const {
     out.push_back(
         fmt::format("somebody else was near the subject; their pixels were left out in {} frames",
                     frames_beside_others()));
+  if (job_.scene.initial) {
+    const auto note = stated_start_note(motion_of(frames_), *job_.scene.initial);
+    if (note) out.push_back(*note);
+  }
   if (setup_.scene.cameras.size() == 1) {
     const auto note = viewing_ray_note(motion_of(frames_), setup_.scene.cameras[0]);
     if (note) out.push_back(*note);

@@ -127,11 +127,32 @@ std::optional<DetectedWalk> WalkSearch::find_here(const TrackContext& context,
   return believed ? walk : std::nullopt;
 }
 
+DetectedWalk WalkSearch::nearest_to(const TrackContext& context, const SearchMoment& moment,
+                                    const DetectedWalk& given) {
+  const auto nearest = [&] {
+    const SearchWindow window = view(context, moment);
+    DetectedWalk walk = nearest_walk(
+        given, window_.size(), window_score(window, context.body(), context.subject.figures),
+        context.scene.dt, camera_positions(context.scene)[0], given_line(context, given));
+    walk.given = true;
+    return walk;
+  };
+  const DetectedWalk walk = nearest();
+  return compare_with_clothes(context, walk) ? nearest() : walk;
+}
+
 DetectedWalk WalkSearch::in_its_clothes(const TrackContext& context, const SearchMoment& moment,
                                         DetectedWalk walk) {
+  const double score = mean_score(context, walk);
+  if (!compare_with_clothes(context, walk)) return walk;
+  walk.score -= score;
+  walk.score += mean_score(context, walk);
+  return find_here(context, moment, kAlreadyFound).value_or(walk);
+}
+
+bool WalkSearch::compare_with_clothes(const TrackContext& context, const DetectedWalk& walk) {
   const auto clothes = clothes_of(context, window_, walk);
-  if (!clothes) return walk;
-  walk.score -= mean_score(context, walk);
+  if (!clothes) return false;
   const auto compare = [&](std::deque<SceneEvidence>& frames, double first) {
     parallel_for(frames.size(), context.threads, [&](size_t i) {
       const double seconds = context.scene.dt * (first + double(i));
@@ -143,8 +164,7 @@ DetectedWalk WalkSearch::in_its_clothes(const TrackContext& context, const Searc
   compare(later_, double(window_.size()));
   clothed_ = true;
   forget_scores();
-  walk.score += mean_score(context, walk);
-  return find_here(context, moment, kAlreadyFound).value_or(walk);
+  return true;
 }
 
 const std::vector<Place>& WalkSearch::candidates(const SearchWindow& window, size_t index) {
@@ -165,13 +185,9 @@ bool WalkSearch::walks_clearly(const TrackContext& context, uint32_t first_frame
 
 SizedWalk WalkSearch::with_size(const TrackContext& context, const SearchMoment& moment,
                                 const DetectedWalk& walk) const {
-  return best_size(view(context, moment), walk);
-}
-
-SizedWalk WalkSearch::with_size_along(const TrackContext& context, const SearchMoment& moment,
-                                      const DetectedWalk& walk) const {
-  return sized_up(view(context, moment), walk, context.body().subject.height,
-                  given_line(context, walk));
+  return walk.given ? sized_up(view(context, moment), walk, context.body().subject.height,
+                               given_line(context, *context.scene.initial))
+                    : best_size(view(context, moment), walk);
 }
 
 std::optional<StandingStart> WalkSearch::standing_lead(const TrackContext& context,

@@ -55,12 +55,13 @@ class WalkSearch {
   // by the colours of their clothes (tracker/detect/clothes.h), with which frames are compared from
   // then on.
   std::optional<FoundWalk> find(const TrackContext& context, const SearchMoment& moment);
-  // That walk together with an estimate of the subject's height.
+  // The walk that the scene gives, where the window's images together with what the scene says of
+  // it place it; in the colours of the subject's clothes, as find().
+  DetectedWalk nearest_to(const TrackContext& context, const SearchMoment& moment,
+                          const DetectedWalk& given);
+  // A walk of either kind together with an estimate of the subject's height.
   SizedWalk with_size(const TrackContext& context, const SearchMoment& moment,
                       const DetectedWalk& walk) const;
-  // The same for a walk whose start the scene gives.
-  SizedWalk with_size_along(const TrackContext& context, const SearchMoment& moment,
-                            const DetectedWalk& walk) const;
   // To be called when the size of the subject has changed.
   void forget_places() { places_ = {}; }
   // To be called when the likelihood has changed.
@@ -108,6 +109,9 @@ class WalkSearch {
   // until restore_evidence().
   DetectedWalk in_its_clothes(const TrackContext& context, const SearchMoment& moment,
                               DetectedWalk walk);
+  // Compares the frames with the clothes that somebody on that walk wears, until
+  // restore_evidence(); returns whether their colours can be learned.
+  bool compare_with_clothes(const TrackContext& context, const DetectedWalk& walk);
   // Nats a frame, of a walk through the window.
   double mean_score(const TrackContext& context, const DetectedWalk& walk) const;
   SearchWindow view(const TrackContext& context, const SearchMoment& moment) const;

@@ -76,11 +76,12 @@ std::vector<FrameRecord> track_frame(const TrackContext& context, const SceneEvi
       now.held->lost = true;
       return {};
     }
-    std::vector<FrameRecord> out;
-    if (now.turning) out = std::move(now.turning->records);
-    out.push_back(std::move(record));
-    mode = Searching{std::move(now.filter), now.monitor.last_seen};
-    return out;
+    if (!now.turning) now.turning = TurningTrial{};
+    step(context, evidence, frame, std::move(record), *now.turning);
+    const bool found = winner(*now.turning) != nullptr;  // the subject has turned
+    std::vector<FrameRecord> records = decide_turning(context, frame, now);
+    if (!found) mode = Searching{std::move(now.filter), now.monitor.last_seen};
+    return records;
   }
   if (now.monitor.frames_below == 0) see(record.estimate, frame + 1, context.scene.dt, now.monitor);
   if (holds_frames(context)) {

@@ -7,9 +7,9 @@
 // wander where the subject walks straight ahead. So both follow, each in a filter of its own that
 // is resampled apart (a mixture particle filter: Vermaak, Doucet & Perez, ICCV 2003). The
 // components begin with the track's particles; after a while the one with the largest evidence
-// replaces the track if it is clearly better, and they begin anew. Until then the frames are not
-// reported. tracker/reports/feet_and_heading.md has measurements. Several cameras see the heading,
-// and a sagittal path has no turns: there are no components there.
+// replaces the track if it is clearly better, and they begin anew; earlier if the track is lost.
+// Until then the frames are not reported. tracker/reports/feet_and_heading.md has measurements.
+// Several cameras see the heading, and a sagittal path has no turns: there are no components there.
 #pragma once
 
 #include <vector>

@@ -86,8 +86,11 @@ std::vector<double> stride_scores(const TrackContext& context,
 std::vector<PhaseRange> likely_ranges(const TrackContext& context,
                                       const std::deque<SceneEvidence>& window,
                                       const DetectedWalk& walk) {
-  const std::vector<PhaseRange> ranges = phase_ranges(context.config.start);
-  if (walk.standing || walk.hidden_frames > 0) return ranges;
+  const StartConfig& start = context.config.start;
+  if (walk.given && context.scene.initial_phase)
+    return phase_ranges(start, *context.scene.initial_phase);
+  const std::vector<PhaseRange> ranges = phase_ranges(start);
+  if (walk.given || walk.standing || walk.hidden_frames > 0) return ranges;
   const std::vector<double> scores = stride_scores(context, window, walk, ranges);
   const auto best = std::max_element(scores.begin(), scores.end()) - scores.begin();
   const auto half = static_cast<long>(ranges.size() / 2);

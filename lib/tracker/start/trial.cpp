@@ -18,6 +18,8 @@ namespace {
 // legs are swapped: set on 80 made walks, four of which were swapped correctly and one wrongly
 // (reports/left_and_right.md).
 constexpr double kAgreed = 1.5, kSwapped = 0.75;
+// The log-likelihood of an empty scene, nats.
+constexpr double kEmptyScene = 0;
 // Nats by which one of two labels has to explain a window better before two cameras. Of 126 starts
 // (reports/left_and_right.md) four were nearer, two of them wrong; in the others the labels were 65
 // to 1,249 apart, and right.
@@ -98,9 +100,9 @@ Trial try_start(const TrackContext& context, const std::deque<SceneEvidence>& wi
   if (attempt.legs != 0) attempt = with_labelled_legs(frames, std::move(attempt));
   if (is_tracking(attempt.mode) && context.scene.cameras.size() == 2)
     attempt = with_better_legs(frames, std::move(attempt));
-  const double walk_score = walk.score * static_cast<double>(window.size());
+  const double least = walk.given ? kEmptyScene : walk.score * static_cast<double>(window.size());
   const double log_likelihood = total_log_likelihood(attempt);
-  if (is_searching(attempt.mode) || log_likelihood < walk_score)
+  if (is_searching(attempt.mode) || log_likelihood < least)
     return {Searching{filter_of(std::move(attempt.mode)), before.last_seen}};
   return {.mode = std::move(attempt.mode),
           .records = std::move(attempt.records),

@@ -240,9 +240,16 @@ std::optional<WindowStart> start_unsized(SearchedWindow& window, const FoundWalk
   return start;
 }
 
+// The walk that the scene gives, or that is found.
+std::optional<FoundWalk> walk_in(SearchedWindow& window) {
+  const TrackContext context = window.subject.context();
+  if (const auto& given = context.scene.initial)
+    return FoundWalk{window.search.nearest_to(context, window.moment(), *given)};
+  return window.search.find(context, window.moment());
+}
+
 std::optional<WindowStart> start_with_walk(SearchedWindow& window) {
-  const std::optional<FoundWalk> walk =
-      window.search.find(window.subject.context(), window.moment());
+  const std::optional<FoundWalk> walk = walk_in(window);
   if (!walk) return std::nullopt;
   std::optional<WindowStart> start =
       window.subject.wants_size() ? start_unsized(window, *walk) : start_sized(window, *walk);
@@ -261,22 +268,6 @@ std::optional<WindowStart> start_in_window(TrackedSubject& subject, WalkSearch& 
   while (!start && change_figure(window, start));
   if (start && subject.wants_girth()) subject.girth = subject.scene.model.body.subject.girth;
   return start;
-}
-
-void start_as_given(TrackedSubject& subject, WalkSearch& search, uint32_t first_frame,
-                    uint32_t& starts, TrackMode& mode) {
-  SearchedWindow window{subject, search, first_frame, starts, mode};
-  const DetectedWalk given = *std::exchange(subject.scene.initial, std::nullopt);
-  if (subject.wants_size()) {
-    const Stature stature =
-        search.with_size_along(subject.context(), window.moment(), given).stature;
-    set_height(window, stature.height, stature);
-  }
-  const StartConfig& start = subject.config.start;
-  const std::optional<double>& phase = subject.scene.initial_phase;
-  mode = start_around(subject.context(), given,
-                      phase ? phase_ranges(start, *phase) : phase_ranges(start), ++starts,
-                      window.searching());
 }
 
 }  // namespace tracker

@@ -1,5 +1,6 @@
-// The start of a track in the window of a search: a walk is detected in it, the height is estimated
-// if it is unknown, and the window's frames are tracked as a trial (tracker/start/trial.h).
+// The start of a track in the window of a search: a walk is detected in it, or is near the one that
+// the scene states, the height is estimated if it is unknown, and the window's frames are tracked
+// as a trial (tracker/start/trial.h).
 //
 // If the trial shows that the figure is too thin for the subject, the trial is dropped and the walk
 // detected anew: with a wider figure if the outlines tell its girth (tracker/start/girth.h), and
@@ -31,16 +32,12 @@ struct WindowStart {
   NearbyPeople people;               // after the window
 };
 
+// A walk that the scene states (TrackerScene::initial) begins in the window's first frame.
 // `first_frame` is the number of the window's first frame, `starts` the number of trials so far.
 // If a trial succeeds, `mode` is the mode after the window's frames; otherwise nullopt is returned
 // and `mode` keeps searching.
 std::optional<WindowStart> start_in_window(TrackedSubject& subject, WalkSearch& search,
                                            uint32_t first_frame, uint32_t& starts, TrackMode& mode);
-
-// The same in the window's first frame, around a walk that the scene states; the window's frames
-// are still to be followed.
-void start_as_given(TrackedSubject& subject, WalkSearch& search, uint32_t first_frame,
-                    uint32_t& starts, TrackMode& mode);
 
 }  // namespace tracker
 }  // namespace walktrack
