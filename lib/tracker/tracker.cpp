@@ -92,7 +92,7 @@ void Tracker::report(Records records, const SceneEvidence& newest, Records& out)
 
 void Tracker::search(const SceneEvidence& evidence, Records& out) {
   const TrackerScene& scene = subject_.scene;
-  if (given() && frame_ < static_cast<uint32_t>(scene.initial_frame)) {
+  if (before_given()) {
     ++frame_;
     out.emplace_back();
     return;

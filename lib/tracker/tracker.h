@@ -67,7 +67,9 @@ class Tracker {
 
   // Whether the next frame's evidence has to hold its image: for one camera, the labels of the legs
   // of a walk that is searched come from the images.
-  bool wants_picture() const { return is_searching(mode_) && subject_.scene.cameras.size() == 1; }
+  bool wants_picture() const {
+    return is_searching(mode_) && !before_given() && subject_.scene.cameras.size() == 1;
+  }
   // Whether the newest frame has been tracked, so that its particles say where the person is.
   bool tracking() const { return is_tracking(mode_); }
   // While tracking():
@@ -121,6 +123,10 @@ class Tracker {
   const Tracking& tracked() const { return std::get<Tracking>(mode_); }
   // Whether the scene states a walk that has not been used yet.
   bool given() const { return subject_.scene.initial.has_value(); }
+  // Whether the next frame comes before it.
+  bool before_given() const {
+    return given() && frame_ < static_cast<uint32_t>(subject_.scene.initial_frame);
+  }
 
   TrackedSubject subject_;
   TrackMode mode_;

@@ -182,12 +182,10 @@ Walk looked_at(const Window& window, const DetectedWalk& line) {
 }
 
 DetectedWalk shifted(const DetectedWalk& line, const Shift& shift, double step, double time) {
-  return {line.position + step * shift.begin,
-          line.velocity + step / time * (shift.end - shift.begin),
-          line.ray,
-          0,
-          0,
-          0};
+  return {.position = line.position + step * shift.begin,
+          .velocity = line.velocity + step / time * (shift.end - shift.begin),
+          .ray = line.ray,
+          .given = line.given};
 }
 
 using Figures = std::vector<FigureInFrame>;

@@ -131,11 +131,9 @@ DetectedWalk WalkSearch::nearest_to(const TrackContext& context, const SearchMom
                                     const DetectedWalk& given) {
   const auto nearest = [&] {
     const SearchWindow window = view(context, moment);
-    DetectedWalk walk = nearest_walk(
+    return nearest_walk(
         given, window_.size(), window_score(window, context.body(), context.subject.figures),
         context.scene.dt, camera_positions(context.scene)[0], given_line(context, given));
-    walk.given = true;
-    return walk;
   };
   const DetectedWalk walk = nearest();
   return compare_with_clothes(context, walk) ? nearest() : walk;
