@@ -70,6 +70,18 @@ TEST_F(GivenStart, DoesNotDependOnWhatFoundOnesAre) {
   EXPECT_EQ(first_spread(0.1, 0.02), first_spread(0.1, 0.5));
 }
 
+TEST_F(GivenStart, StaysOneWhileTheHeightIsEstimated) {
+  show_given(beside(0.2), {{0, -4, 1}, {4, -1, 1}});
+  WalkSearch search;
+  for (const SceneEvidence& frame : window_) search.push(frame);
+  const std::optional<LastSeen> never;
+  const TrackContext context = subject_->context();
+  const DetectedWalk near = search.nearest_to(context, {0, never}, *context.scene.initial);
+  EXPECT_TRUE(near.given);
+  EXPECT_NE(near.position, context.scene.initial->position);
+  EXPECT_TRUE(search.with_size(context, {0, never}, near).walk.given);
+}
+
 TEST_F(GivenStart, MovesToWhereTheImagesShowTheSubject) {
   show_given(beside(0.2), {{0, -4, 1}, {4, -1, 1}});
   EXPECT_LT(error(tracked()), 0.03);
@@ -108,6 +120,9 @@ TEST_F(GivenStart, OneCameraKeepsTheImagesOfItsFrames) {
     if (one) subject_->scene.cameras.resize(1);
     const Tracker tracker(subject_->scene, prior_, subject_->config, 1, 1);
     EXPECT_EQ(tracker.wants_picture(), one);
+    subject_->scene.initial_frame = 3;
+    const Tracker later(subject_->scene, prior_, subject_->config, 1, 1);
+    EXPECT_FALSE(later.wants_picture()) << "of frames before the walk";
   }
 }
 
