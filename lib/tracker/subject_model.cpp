@@ -28,11 +28,10 @@ WalkerFilterContext filter_context(const TrackContext& context) {
           context.config.model_error};
 }
 
-WalkerFilterContext first_filter_context(const TrackContext& context, bool given) {
+WalkerFilterContext first_filter_context(const TrackContext& context) {
   WalkerFilterContext out = filter_context(context);
   MotionContext& motion = out.motion;
   motion.scale = start_scale(context.config.start, motion.moves, motion.config, motion.scale);
-  if (given) motion.config.start_position_sd = motion.config.given_position_sd;
   return out;
 }
 

@@ -40,8 +40,7 @@ struct TrackContext {
 // The context of a frame for the filter.
 WalkerFilterContext filter_context(const TrackContext& context);
 // The same for the first frame around a walk, whose noise is as wide as the walk is uncertain.
-// `given`: the scene has stated the walk; otherwise it was detected.
-WalkerFilterContext first_filter_context(const TrackContext& context, bool given);
+WalkerFilterContext first_filter_context(const TrackContext& context);
 
 }  // namespace tracker
 }  // namespace walktrack

@@ -101,7 +101,7 @@ void add_motion(ParameterTable& table) {
   m.number("start_position_sd", &M::start_position_sd, 0, 10,
            "standard deviation of the first foot's place, m");
   m.number("given_position_sd", &M::given_position_sd, 0, 10,
-           "standard deviation of the first foot's place where the scene states `initial`, m");
+           "standard deviation of the place that the scene states as `initial`, m");
   m.number("control_noise", &M::control_noise, 0, 1,
            "relative noise of the walker's controls, per step");
   m.number("feedback", &M::feedback, 0, 1,

@@ -19,8 +19,8 @@ std::vector<FrameRecord> start_frame(const TrackContext& context, const SceneEvi
   Starting& now = std::get<Starting>(mode);
   StartHypotheses& hypotheses = now.hypotheses;
   const bool first = hypotheses.frames() == 0;
-  if (!hypotheses.step(first ? first_filter_context(context, now.given) : filter_context(context),
-                       evidence, frame)) {
+  if (!hypotheses.step(first ? first_filter_context(context) : filter_context(context), evidence,
+                       frame)) {
     std::vector<FrameRecord> untracked(static_cast<size_t>(hypotheses.frames()));
     mode = Searching(std::move(now.before));
     return untracked;
@@ -101,9 +101,9 @@ bool judged(const FrameRecord& record) { return !record.fit.overlap.empty(); }
 Starting start_around(const TrackContext& context, const DetectedWalk& walk,
                       const std::vector<PhaseRange>& ranges, uint32_t number, Searching before) {
   const uint64_t seed = context.seed + 0xD1B54A32D192ED03u * number;  // streams of its own
-  return {StartHypotheses(first_filter_context(context, walk.given).motion, context.config.start,
+  return {StartHypotheses(first_filter_context(context).motion, context.config.start,
                           context.config.filter, walk, ranges, seed, context.threads),
-          walk.given, std::move(before)};
+          std::move(before)};
 }
 
 std::vector<FrameRecord> settle(TrackMode& mode) {

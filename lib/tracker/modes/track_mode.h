@@ -32,7 +32,6 @@ struct Searching {
 
 struct Starting {
   StartHypotheses hypotheses;
-  bool given;        // by the scene
   Searching before;  // the mode to which it returns
 };
 

@@ -45,8 +45,8 @@ struct MotionConfig {
   double ball_slip = 0.012;   // m per sqrt(s), across the walk
   double footfall_sd = 0.02;  // m, along and across: standard deviation of the place of a footfall
   double footfall_decay = 0.05;     // s after the strike in which that uncertainty decays
-  double start_position_sd = 0.15;  // m, the same for a walker who has just been found
-  double given_position_sd = 0.1;   // m, the same if the scene states the place
+  double start_position_sd = 0.15;  // m, the same at a start
+  double given_position_sd = 0.1;   // m, of the place that a scene states, before the images
   double control_noise = 0.05;      // relative, per step (gait/prior/gait_prior.h)
   double feedback = 1;              // strength of the correction of controls at a support transfer
   double aim_drift = 0.06;          // relative, per step, of the speed and the step length aimed at
