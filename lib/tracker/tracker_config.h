@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "filter/particle_filter.h"
-#include "tracker/detect/detector.h"
+#include "tracker/detect/detector_config.h"
 #include "tracker/modes/monitor.h"
 #include "tracker/motion/propagate.h"
 #include "tracker/start/start.h"

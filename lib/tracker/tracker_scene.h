@@ -9,6 +9,7 @@
 #include "camera/camera.h"
 #include "gait/prior/gait_prior.h"
 #include "observation/observer.h"
+#include "tracker/detect/detector_config.h"
 #include "tracker/detect/stature.h"
 #include "tracker/state/particle.h"
 

@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "observation/background/appearance.h"
-#include "tracker/detect/detector.h"
+#include "tracker/detect/detected_walk.h"
 #include "tracker/subject_model.h"
 
 namespace walktrack {

@@ -5,7 +5,7 @@
 
 #include <deque>
 
-#include "tracker/detect/detector.h"
+#include "tracker/detect/detected_walk.h"
 #include "tracker/subject_model.h"
 
 namespace walktrack {

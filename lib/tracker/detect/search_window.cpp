@@ -7,6 +7,7 @@
 #include "camera/inspection.h"
 #include "core/anthropometry.h"
 #include "core/parallel_for.h"
+#include "tracker/detect/detector.h"
 #include "tracker/detect/keypoint_lines.h"
 
 namespace walktrack {

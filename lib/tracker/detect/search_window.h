@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "tracker/detect/figure_places.h"
 #include "tracker/detect/stature.h"
 #include "tracker/subject_model.h"
 

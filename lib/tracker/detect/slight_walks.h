@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "tracker/detect/detector.h"
+#include "tracker/detect/detected_walk.h"
 
 namespace walktrack {
 inline namespace tracker {

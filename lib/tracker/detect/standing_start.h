@@ -1,9 +1,11 @@
 // Standing before a walk: most recordings begin with a subject who stands and then sets off.
 #pragma once
 
+#include <functional>
 #include <optional>
 
-#include "tracker/detect/detector.h"
+#include "tracker/detect/detected_walk.h"
+#include "tracker/detect/detector_config.h"
 #include "tracker/state/particle.h"
 
 namespace walktrack {

@@ -12,7 +12,7 @@
 #include <functional>
 #include <optional>
 
-#include "tracker/detect/detector.h"
+#include "tracker/detect/line_climb.h"
 #include "tracker/state/particle.h"
 
 namespace walktrack {

@@ -8,6 +8,7 @@
 
 #include "core/parallel_for.h"
 #include "tracker/detect/clothes.h"
+#include "tracker/detect/detector.h"
 #include "tracker/detect/half_hidden.h"
 
 namespace walktrack {

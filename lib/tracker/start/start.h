@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "tracker/detect/detector.h"
+#include "tracker/detect/detected_walk.h"
 #include "tracker/motion/propagate.h"
 
 namespace walktrack {

@@ -7,6 +7,7 @@
 
 #include "core/anthropometry.h"
 #include "io/video/scene_video.h"
+#include "tracker/detect/figure_places.h"
 #include "tracker/tracker_scene.h"
 
 namespace walktrack {

@@ -10,7 +10,7 @@
 #include "gait/prior/gait_prior.h"
 #include "io/scene/scene.h"
 #include "jobs/track/track_setup.h"
-#include "tracker/detect/detector.h"
+#include "tracker/detect/detector_config.h"
 
 namespace walktrack {
 inline namespace jobs {
