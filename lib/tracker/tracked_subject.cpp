@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "tracker/start/girth.h"
-
 namespace walktrack {
 inline namespace tracker {
 
@@ -24,12 +22,16 @@ void TrackedSubject::let_keypoints_lead() {
   config.detector.least_score = config.detector.least_points_score;
 }
 
-bool TrackedSubject::wants_girth() const {
-  return !scene.girth_known && !girth && scene.cameras.size() == 1 && scene.pictures;
+bool TrackedSubject::wants_girth() const { return !scene.girth_known && wants_shape(); }
+
+bool TrackedSubject::wants_trunk() const {
+  return !scene.trunk_known && scene.size_known && !keypoints_lead() && wants_shape();
 }
 
-void TrackedSubject::set_girth(double wanted) {
-  scene.model.body = with_girth(scene.model.body, wanted);
+SubjectEstimates TrackedSubject::estimates() const {
+  const Subject& now = scene.model.body.subject;
+  return {stature, scene.girth_known || now.girth == 1 ? std::nullopt : std::optional(now.girth),
+          scene.trunk_known ? std::nullopt : now.lengths.trunk};
 }
 
 void TrackedSubject::set_height(double height, const std::optional<Stature>& estimate) {

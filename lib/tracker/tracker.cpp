@@ -144,9 +144,17 @@ bool Tracker::start_given(Records& out) {
 
 TrackerState Tracker::state() const {
   const Tracking& now = tracked();
-  return {
-      frame_,    starts_,   now.filter.state(), now.monitor,      losses_, now.p_legs_swapped,
-      now.speed, stature(), subject_.girth,     keypoints_lead(), people_, frames_beside_others_};
+  return {frame_,
+          starts_,
+          now.filter.state(),
+          now.monitor,
+          losses_,
+          now.p_legs_swapped,
+          now.speed,
+          estimates(),
+          keypoints_lead(),
+          people_,
+          frames_beside_others_};
 }
 
 void Tracker::resume(TrackerState state) {
@@ -160,9 +168,11 @@ void Tracker::resume(TrackerState state) {
   losses_ = state.losses;
   people_ = std::move(state.people);
   frames_beside_others_ = state.frames_beside_others;
-  if (state.stature) subject_.set_height(state.stature->height, state.stature);
-  subject_.girth = state.girth;
-  if (state.girth) subject_.set_girth(*state.girth);
+  const SubjectEstimates& known = state.estimates;
+  if (known.stature) subject_.set_height(known.stature->height, known.stature);
+  subject_.shape_decided = true;
+  if (known.girth) subject_.set_girth(*known.girth);
+  if (known.trunk) subject_.set_trunk(known.trunk);
   if (state.keypoints_lead) subject_.let_keypoints_lead();
 }
 

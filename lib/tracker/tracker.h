@@ -41,8 +41,7 @@ struct TrackerState {
   int losses = 0;
   double p_legs_swapped = 0;
   double speed = 0;  // m/s
-  std::optional<Stature> stature;
-  std::optional<double> girth;
+  SubjectEstimates estimates;
   bool keypoints_lead = false;
   NearbyPeople people;
   int frames_beside_others = 0;
@@ -95,10 +94,7 @@ class Tracker {
   const BodyModel& model() const { return subject_.scene.model; }
   // Whether keypoints count for more than outlines (tracker/start/keypoint_lead.h).
   bool keypoints_lead() const { return subject_.keypoints_lead(); }
-  // The estimated height; nullopt if there is none.
-  std::optional<Stature> stature() const { return subject_.stature; }
-  // The girth that the outlines of the start showed; nullopt if it is a usual one, or stated.
-  std::optional<double> girth() const { return subject_.girth > 1 ? subject_.girth : std::nullopt; }
+  SubjectEstimates estimates() const { return subject_.estimates(); }
 
   // A tracker of the same scene, configuration and seed that resumes the state of another one
   // continues like that one. There is a state only while has_state(): the data of a search, and of

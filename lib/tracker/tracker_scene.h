@@ -34,6 +34,7 @@ struct TrackerScene {
   std::optional<SubjectPlace> near{};
   bool size_known = true;            // the height of the model is right; otherwise it is estimated
   bool girth_known = false;          // the same of its girth
+  bool trunk_known = false;          // and of the length of its trunk
   std::optional<Stature> stature{};  // what is known of it then; nullopt: nothing
   // By camera: how many pixels of its video each pixel of `cameras` is; empty: one.
   std::vector<int> shrink{};

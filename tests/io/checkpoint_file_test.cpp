@@ -91,7 +91,7 @@ TEST_F(CheckpointFile, IsRefusedIfItIsInconsistentEvenWithACorrectDigest) {
       {"out of its bounds", [](Checkpoint& c) { c.tracker.monitor.frames_below = -1; }},
       {"out of its bounds",
        [](Checkpoint& c) {
-         c.tracker.stature = Stature{-1.7, 0.1};
+         c.tracker.estimates.stature = Stature{-1.7, 0.1};
        }},
       {"out of its bounds", [](Checkpoint& c) { c.observers[0].frames = -1; }},
       {"a background", [](Checkpoint& c) { c.observers[0].background->green.pop_back(); }},

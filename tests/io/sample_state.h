@@ -34,7 +34,8 @@ inline TrackerState sample_tracker() {
   out.people.usual_score = 40;
   out.people.frames = 9;
   out.frames_beside_others = 4;
-  out.girth = 1.25;
+  out.estimates.girth = 1.25;
+  out.estimates.trunk = 0.45;
   out.people.others = {{{{3, 2, 0, -1}, covariance}, 5, 2}};
   return out;
 }

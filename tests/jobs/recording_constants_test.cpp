@@ -15,31 +15,40 @@ Scene scene_with(size_t cameras) {
 }
 
 TEST(RecordingConstants, NoneThatTheSceneStates) {
-  EXPECT_TRUE(recording_constants({scene_with(2), 30, 1.2, {}, {}, {}, {}}).empty());
+  EXPECT_TRUE(recording_constants({scene_with(2), 30, 1.2, {}, {}, {}}).empty());
 }
 
 TEST(RecordingConstants, OneCameraSeesEverythingInProportionToTheHeight) {
-  const auto one = recording_constants({scene_with(1), 30, 1.2, Stature{1.70, 0.034}, {}, {}, {}});
+  const auto one =
+      recording_constants({scene_with(1), 30, 1.2, {.stature = Stature{1.70, 0.034}}, {}, {}});
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0].name, "height_m");
   EXPECT_EQ(one[0].value, 1.70);
   EXPECT_EQ(one[0].sd, 0.034);
   EXPECT_NE(one[0].effect.find("2.0 %"), std::string::npos) << one[0].effect;
   EXPECT_NE(one[0].effect.find("0.02 m/s"), std::string::npos) << one[0].effect;
-  const auto two = recording_constants({scene_with(2), 30, 1.2, Stature{1.70, 0.034}, {}, {}, {}});
+  const auto two =
+      recording_constants({scene_with(2), 30, 1.2, {.stature = Stature{1.70, 0.034}}, {}, {}});
   EXPECT_NE(two[0].effect.find("18 mm at the hips"), std::string::npos) << two[0].effect;
 }
 
 TEST(RecordingConstants, AGirthIsStatedInPercentOfAUsualOne) {
-  const auto found = recording_constants({scene_with(1), 30, 1.2, {}, 1.28, {}, {}});
+  const auto found = recording_constants({scene_with(1), 30, 1.2, {.girth = 1.28}, {}, {}});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].name, "girth_percent");
   EXPECT_NEAR(found[0].value, 128, 1e-9);
   EXPECT_NEAR(found[0].sd, 6, 1e-9);
 }
 
+TEST(RecordingConstants, ATrunkIsStatedInMetres) {
+  const auto found = recording_constants({scene_with(1), 30, 1.2, {.trunk = 0.44}, {}, {}});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].name, "trunk_m");
+  EXPECT_EQ(found[0].value, 0.44);
+}
+
 TEST(RecordingConstants, ALagIsStatedInSecondsAndByWhatItWouldHaveDone) {
-  const auto found = recording_constants({scene_with(2), 60, 1.2, {}, {}, FoundLag{1, 6, 0.5}, {}});
+  const auto found = recording_constants({scene_with(2), 60, 1.2, {}, FoundLag{1, 6, 0.5}, {}});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].name, "lag_s_cam1");
   EXPECT_NEAR(found[0].value, 0.1, 1e-12);
@@ -60,7 +69,7 @@ TEST(RecordingConstants, OffsetsOfTheCamerasCountByTheirInformation) {
     cameras[c].use.matched = c < 2 ? 10 : 0;  // the last one saw somebody else
   }
   const Scene scene = scene_with(3);
-  const auto found = recording_constants({scene, 30, 1.2, {}, {}, {}, cameras});
+  const auto found = recording_constants({scene, 30, 1.2, {}, {}, cameras});
   ASSERT_EQ(found.size(), 6u);
   EXPECT_EQ(found[0].name, "hip_offset_forward_m");
   EXPECT_NEAR(found[0].value, 0.0175 * scene.subject.height, 1e-4);

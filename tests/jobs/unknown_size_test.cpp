@@ -145,6 +145,32 @@ TEST_F(UnknownSize, IsNotEstimatedIfItIsStated) {
   EXPECT_EQ(run_json().at("notes").size(), 0u);
 }
 
+// A figure of 1.74 m with the legs of the subject, who is 16 cm shorter: their shoulders are 4.6 cm
+// lower than its own, and their head is 7.5 cm lower.
+TEST_F(UnknownSize, OfTheTrunkIsEstimatedWithOneCameraAndStated) {
+  constexpr const char* kLegs =
+      "lengths: {thigh: 0.387, shank: 0.389, ankle_height: 0.062, hip_width: 0.158}}";
+  const std::string subject = std::string("subject: {height: 1.74, ") + kLegs;
+  TrackJob alone = job(subject);
+  alone.scene.cameras.resize(1);
+  EXPECT_EQ(track_scene(alone, {}).status, TrackStatus::kTracked);
+  const double trunk = run_json().at("numbers").at("estimated_trunk_m");
+  EXPECT_NEAR(trunk, 0.288 * 1.74 - 0.06, 0.02);
+  EXPECT_NE(run_json().at("notes").dump().find("cm less above the hips"), std::string::npos);
+  EXPECT_EQ(run_json().at("constants").at(0).at("name"), "trunk_m");
+  // The next video of the person has it, which is then stated.
+  fs::copy_file(folder() / "tracked/subject.yaml", folder() / "scene/short.yaml");
+  TrackJob next = job("subject: short.yaml");
+  next.scene.cameras.resize(1);
+  ASSERT_TRUE(next.scene.subject.lengths.trunk);
+  EXPECT_NEAR(*next.scene.subject.lengths.trunk, trunk, 1e-4);
+  EXPECT_NEAR(*next.scene.subject.lengths.thigh, 0.387, 1e-9);
+  track_scene(next, {});
+  EXPECT_FALSE(run_json().at("numbers").contains("estimated_trunk_m"));
+  track_scene(job(subject), {});
+  EXPECT_FALSE(run_json().at("numbers").contains("estimated_trunk_m")) << "two cameras";
+}
+
 TEST_F(UnknownSize, ThreadsDoNotMatter) {
   std::string digest;
   for (const int threads : {1, 3}) {

@@ -1,4 +1,4 @@
-#include "tracker/start/girth.h"
+#include "tracker/figure/girth.h"
 
 #include <vector>
 
@@ -22,7 +22,7 @@ class Girth : public WalkedScene {
       records_[t].estimate.pose = poses_[t];
     }
   }
-  std::optional<double> found() const { return larger_girth(subject_->scene, window_, records_); }
+  std::optional<double> found() const { return larger_girth({subject_->scene, window_, records_}); }
   std::vector<FrameRecord> records_;
 };
 

@@ -12,7 +12,8 @@
 #include "fixture.h"
 #include "made_evidence.h"
 #include "tests/observation/scenes.h"
-#include "tracker/start/girth.h"
+#include "tracker/figure/girth.h"
+#include "tracker/figure/trunk_length.h"
 #include "tracker/tracked_subject.h"
 
 namespace walktrack {
@@ -29,7 +30,8 @@ class WalkedScene : public testing::Test {
     for (const Eigen::Vector3d& from : places)
       scene.cameras.push_back(camera_at(from, {0, 0, 0.9}, 200, kEvidenceWidth, kEvidenceHeight));
     const PriorGait gait = usual_gait(scene.model, prior_, kSpeed, 0);
-    const Body person = with_girth(scene.model.body, girth_);
+    const Body wide = with_girth(scene.model.body, girth_);
+    const Body person = with_trunk(wide, wide.lengths.trunk + longer_);
     window_.clear();
     poses_.clear();
     for (size_t t = 0; t < frames; ++t) {
@@ -60,6 +62,7 @@ class WalkedScene : public testing::Test {
   GaitPrior prior_ = load_gait_prior();
   DetectedWalk walk_{.position = {-0.8, 0}, .velocity = {kSpeed, 0}};
   double girth_ = 1;         // of who walks there; the figure's is 1
+  double longer_ = 0;        // m, their trunk than the figure's
   std::vector<Pose> poses_;  // the true ones
   std::deque<SceneEvidence> window_;
   std::optional<TrackedSubject> subject_;

@@ -118,31 +118,57 @@ TEST_F(WindowStartTest, BeforeOneCameraAWidePersonIsTriedAgainWithAWiderFigure) 
   const auto started = start();
   ASSERT_TRUE(started);
   EXPECT_GE(starts_, 2u);
-  ASSERT_TRUE(subject_->girth);
-  EXPECT_NEAR(*subject_->girth + 0.05, girth_, 0.1);  // as in girth_test.cpp
-  EXPECT_EQ(subject_->scene.model.body.subject.girth, *subject_->girth);
+  ASSERT_TRUE(subject_->estimates().girth);
+  EXPECT_NEAR(*subject_->estimates().girth + 0.05, girth_, 0.1);  // as in girth_test.cpp
+  EXPECT_EQ(subject_->scene.model.body.subject.girth, *subject_->estimates().girth);
   EXPECT_LT(error(*started), 0.08);
 }
 
-TEST_F(WindowStartTest, ATrackThatIsResumedKeepsItsGirth) {
+TEST_F(WindowStartTest, BeforeOneCameraAShortTrunkIsTriedAgainWithAShorterFigure) {
+  longer_ = -0.1;
+  std::vector<double> errors;
+  for (const bool trunk_known : {false, true}) {
+    show(0.2, kVideoFrames, {{0, -3, 1}});
+    subject_->scene.trunk_known = trunk_known;
+    starts_ = 0;
+    const auto started = start();
+    ASSERT_TRUE(started);
+    EXPECT_EQ(starts_ > 1, !trunk_known);
+    errors.push_back(error(*started));
+    if (trunk_known) continue;
+    const Body& body = subject_->scene.model.body;
+    ASSERT_TRUE(subject_->estimates().trunk);
+    EXPECT_EQ(body.lengths.trunk, *subject_->estimates().trunk);
+    // A change of less than 2 cm is not tried any more.
+    EXPECT_NEAR(body.lengths.trunk - test_model().body.lengths.trunk, longer_, 0.03);
+  }
+  EXPECT_LT(errors[0], 0.04);
+  EXPECT_GT(errors[1], 2 * errors[0]);
+}
+
+TEST_F(WindowStartTest, ATrackThatIsResumedKeepsItsShape) {
   girth_ = 1.4;
+  longer_ = -0.1;
   show(0.2, 2 * kVideoFrames, {{0, -3, 1}});
   Tracker tracker(subject_->scene, prior_, subject_->config, 1, 1);
   for (const SceneEvidence& frame : window_)
     if (!tracker.has_state()) tracker.push(frame);
   ASSERT_TRUE(tracker.has_state());
-  ASSERT_TRUE(tracker.girth());
+  ASSERT_TRUE(tracker.estimates().girth);
   Tracker other(subject_->scene, prior_, subject_->config, 1, 1);
   other.resume(tracker.state());
-  EXPECT_EQ(other.girth(), tracker.girth());
-  EXPECT_EQ(other.body().subject.girth, tracker.girth());
+  EXPECT_EQ(other.estimates().girth, tracker.estimates().girth);
+  EXPECT_EQ(other.body().subject.girth, tracker.estimates().girth);
+  ASSERT_TRUE(tracker.estimates().trunk);
+  EXPECT_EQ(other.estimates().trunk, tracker.estimates().trunk);
+  EXPECT_EQ(other.body().lengths.trunk, tracker.estimates().trunk);
 }
 
 TEST_F(WindowStartTest, TheGirthOfAUsualPersonIsDecidedByTheFirstStart) {
   show(0.2, kVideoFrames, {{0, -4, 1}});
   EXPECT_TRUE(subject_->wants_girth());
   ASSERT_TRUE(start());
-  EXPECT_EQ(subject_->girth, 1);
+  EXPECT_FALSE(subject_->estimates().girth);
   EXPECT_FALSE(subject_->wants_girth());
 }
 
@@ -161,7 +187,7 @@ TEST_F(WindowStartTest, SomebodyWhoIsALittleWideKeepsTheStartOfTheUsualFigure) {
       auto started = start();
       ASSERT_TRUE(started);
       EXPECT_EQ(starts_ > 1, !girth_known) << "a wider figure is tried";
-      EXPECT_EQ(subject_->girth, girth_known ? std::nullopt : std::optional(1.0));
+      EXPECT_FALSE(subject_->estimates().girth);
       EXPECT_EQ(subject_->scene.model.body.subject.girth, 1);
       EXPECT_EQ(subject_->stature.has_value(), !height_known);
       heights.push_back(subject_->scene.model.body.subject.height);
@@ -181,7 +207,7 @@ TEST_F(WindowStartTest, AGirthThatTheSceneStatesStays) {
   show(0.2, kVideoFrames, {{0, -3, 1}});
   subject_->scene.girth_known = true;
   ASSERT_TRUE(start());
-  EXPECT_FALSE(subject_->girth);
+  EXPECT_FALSE(subject_->estimates().girth);
   EXPECT_EQ(subject_->scene.model.body.subject.girth, 1);
 }
 

@@ -137,12 +137,18 @@ void fields(Archive& archive, T& value) {
   archive(subject, usual_score, a_count(frames), others);
 }
 
+template <typename Archive, ArchivedAs<SubjectEstimates> T>
+void fields(Archive& archive, T& value) {
+  auto& [stature, girth, trunk] = value;
+  archive(stature, girth, trunk);
+}
+
 template <typename Archive, ArchivedAs<TrackerState> T>
 void fields(Archive& archive, T& value) {
-  auto& [frame, starts, filter, monitor, losses, p_legs_swapped, speed, stature, girth,
-         keypoints_lead, people, frames_beside_others] = value;
-  archive(frame, starts, filter, monitor, a_count(losses), a_share(p_legs_swapped), speed, stature,
-          girth, keypoints_lead, people, a_count(frames_beside_others));
+  auto& [frame, starts, filter, monitor, losses, p_legs_swapped, speed, estimates, keypoints_lead,
+         people, frames_beside_others] = value;
+  archive(frame, starts, filter, monitor, a_count(losses), a_share(p_legs_swapped), speed,
+          estimates, keypoints_lead, people, a_count(frames_beside_others));
 }
 
 template <typename Archive, ArchivedAs<BackgroundModel> T>

@@ -134,10 +134,10 @@ void finish(const ResultFolder& folder, const TrackOutcome& outcome, const std::
   partial ? folder.finish_partial(record) : folder.finish(record);
 }
 
-// Of an estimated height or girth, for other videos of the same person.
+// Of what was estimated of the subject, for other videos of the same person.
 void write_subject(const TrackJob& job, const TrackRun& run, const ResultFolder& folder) {
-  if (!run.stature() && !run.girth()) return;
-  folder.write(kSubjectFile, subject_text(known_subject(job.scene, run.stature(), run.girth())));
+  if (!run.estimates().any()) return;
+  folder.write(kSubjectFile, subject_text(known_subject(job.scene, run.estimates())));
 }
 
 // Frames of the filter are reported as they are.
@@ -198,7 +198,7 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const TimePoint writing;
   const ReportedTrack track(run.frames(), run.model(), smoothing_of(job.config.values),
                             band_scene(job), folder);
-  const Scene scene = with_stature(job.scene, run.stature());
+  const Scene scene = with_estimates(job.scene, run.estimates());
   const AnalysedMotion analysed =
       analysed_motion(track.frames(), scene, job.config.values.tracker.model_error);
   const Quality quality = measured_quality(job, scene, run, track, analysed);

@@ -70,8 +70,7 @@ class TrackRun {
   int frames_read() const { return static_cast<int>(frames_read_); }
   int losses() const { return tracker_.losses(); }
   int frames_beside_others() const { return tracker_.frames_beside_others(); }
-  std::optional<Stature> stature() const { return tracker_.stature(); }
-  std::optional<double> girth() const { return tracker_.girth(); }
+  SubjectEstimates estimates() const { return tracker_.estimates(); }
   const BodyModel& model() const { return tracker_.model(); }
   bool keypoints_lead() const { return tracker_.keypoints_lead(); }
   int threads() const { return threads_; }

@@ -98,6 +98,7 @@ TrackSetup set_up(const Scene& scene, const Config& config, double frame_rate,
   const double gravity = scene.gravity.norm();
   out.size_known = scene.height_given;
   out.girth_known = scene.girth_given;
+  out.trunk_known = scene.subject.lengths.trunk.has_value();
   if (scene.height_sd) out.stature = Stature{scene.subject.height, *scene.height_sd};
   out.model.body = make_body(scene.subject, config.body);
   out.model.walker = kneed_model(kneed_parameters(scene.subject, gravity));

@@ -3,7 +3,8 @@
 #include <span>
 #include <utility>
 
-#include "tracker/start/girth.h"
+#include "tracker/figure/girth.h"
+#include "tracker/figure/trunk_length.h"
 #include "tracker/start/keypoint_lead.h"
 #include "tracker/start/trial.h"
 
@@ -14,6 +15,8 @@ namespace {
 
 // How often a figure is widened: what fits better with it shows the girth better. By hand.
 constexpr int kMostWider = 4;
+// How often the figure gets another trunk, for the same reason. By hand.
+constexpr int kMostTrunks = 2;
 
 // A start with the usual figure, which stands if the subject turns out not to be clearly wide.
 struct UsualStart {
@@ -25,12 +28,20 @@ struct UsualStart {
   bool outlines_misled;  // in its trial
 };
 
+// The search of the trunk's length.
+struct OtherTrunk {
+  std::optional<double> wanted;  // by a trial, m
+  int tried = 0;
+  bool settled = false;
+};
+
 struct SearchedWindow {
   TrackedSubject& subject;
   WalkSearch& search;
   uint32_t first_frame;
   uint32_t& starts;
   TrackMode& mode;
+  OtherTrunk trunk{};
   std::optional<double> girth{};      // that a trial asks for
   bool outlines_misled = false;       // in one of the trials
   int wider = 0;                      // how often the figure has been widened
@@ -40,12 +51,24 @@ struct SearchedWindow {
 
   const Searching& searching() const { return std::get<Searching>(mode); }
   SearchMoment moment() const { return {first_frame, searching().last_seen}; }
-  bool other_figure_wanted() const { return girth || outlines_misled; }
+  bool other_figure_wanted() const { return trunk.wanted || girth || outlines_misled; }
+  StartPoses poses(std::span<const FrameRecord> records) const {
+    return {subject.scene, search.window(), records};
+  }
 };
 
 void set_height(SearchedWindow& window, double height, const std::optional<Stature>& estimate) {
   window.subject.set_height(height, estimate);
   window.search.forget_places();
+}
+
+// Whether a trial asks for a figure with another trunk; notes its length.
+bool trunk_misleads(SearchedWindow& window, std::span<const FrameRecord> records) {
+  OtherTrunk& trunk = window.trunk;
+  if (trunk.settled || !window.subject.wants_trunk()) return false;
+  if (trunk.tried < kMostTrunks) trunk.wanted = other_trunk(window.poses(records));
+  trunk.settled = !trunk.wanted;
+  return !trunk.settled;
 }
 
 // The girth that a trial asks for. The figure is widened step by step, and a usual one again if it
@@ -54,8 +77,7 @@ std::optional<double> other_girth(SearchedWindow& window, std::span<const FrameR
   const TrackedSubject& subject = window.subject;
   if (!subject.wants_girth() || window.usual_girth) return std::nullopt;
   std::optional<double> larger;
-  if (window.wider < kMostWider)
-    larger = larger_girth(subject.scene, window.search.window(), records);
+  if (window.wider < kMostWider) larger = larger_girth(window.poses(records));
   if (larger || window.wider == 0 || subject.scene.model.body.subject.girth >= kClearlyWide)
     return larger;
   return 1;
@@ -91,8 +113,9 @@ void keep_usual(SearchedWindow& window, Trial&& trial, size_t lead) {
       window.subject.stature, std::move(start), std::move(mode), std::move(search), score, misled};
 }
 
-// Whether a trial's figure is too thin for the subject; notes what is wanted instead.
+// Whether a trial's figure has another shape than the subject; notes what is wanted instead.
 bool figure_misleads(SearchedWindow& window, std::span<const FrameRecord> records) {
+  if (trunk_misleads(window, records)) return true;
   window.girth = other_girth(window, records);
   if (!window.girth && outlines_mislead(window, records)) window.outlines_misled = true;
   return window.other_figure_wanted();
@@ -109,9 +132,22 @@ std::optional<WindowStart> usual_start(SearchedWindow& window) {
   return std::move(usual->start);
 }
 
+// Takes the trunk that a trial has asked for, or a usual one if nobody was found with another.
+bool change_trunk(SearchedWindow& window) {
+  OtherTrunk& trunk = window.trunk;
+  const bool found_nobody = trunk.tried > 0 && !trunk.settled && !window.other_figure_wanted();
+  if (!trunk.wanted && !found_nobody) return false;
+  trunk.settled = found_nobody;
+  ++trunk.tried;
+  window.subject.set_trunk(std::exchange(trunk.wanted, {}));
+  window.search.forget_scores();
+  return true;
+}
+
 // Takes the figure that a trial has asked for, or a usual one if nobody was found with a wider one.
 // Returns whether there is another one to search with, unless a start with it is known already.
 bool change_figure(SearchedWindow& window, std::optional<WindowStart>& start) {
+  if (change_trunk(window)) return true;
   const bool found_nobody = window.wider > 0 && !window.usual_girth;
   if (!window.other_figure_wanted() && found_nobody) window.girth = 1;
   const bool other = window.other_figure_wanted();
@@ -266,7 +302,8 @@ std::optional<WindowStart> start_in_window(TrackedSubject& subject, WalkSearch& 
   std::optional<WindowStart> start;
   do start = start_with_walk(window);
   while (!start && change_figure(window, start));
-  if (start && subject.wants_girth()) subject.girth = subject.scene.model.body.subject.girth;
+  if (start) subject.shape_decided = true;
+  if (!start && window.trunk.tried > 0) subject.set_trunk(std::nullopt);
   return start;
 }
 

@@ -3,7 +3,7 @@
 // as a trial (tracker/start/trial.h).
 //
 // If the trial shows that the figure is too thin for the subject, the trial is dropped and the walk
-// detected anew: with a wider figure if the outlines tell its girth (tracker/start/girth.h), and
+// detected anew: with a wider figure if the outlines tell its girth (tracker/figure/girth.h), and
 // with keypoints that lead from then on otherwise (tracker/start/keypoint_lead.h). What the usual
 // figure has found is kept meanwhile, for a subject who is not clearly wide. Of a subject who
 // was half hidden at first two walks are tried, and the one that explains the frames better is

@@ -7,7 +7,8 @@
 #include <fmt/format.h>
 
 #include "observation/keypoints/keypoint_errors.h"
-#include "tracker/start/girth.h"
+#include "tracker/figure/girth.h"
+#include "tracker/figure/trunk_length.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -19,7 +20,7 @@ constexpr double kMmPerM = 1000;
 constexpr double kHipShare = 0.53;
 
 RecordingConstant height_constant(const ConstantSources& sources) {
-  const Stature& stature = *sources.stature;
+  const Stature& stature = *sources.subject.stature;
   const double percent = 100 * stature.sd / stature.height;
   const std::string effect =
       sources.scene.cameras.size() == 1
@@ -44,6 +45,17 @@ RecordingConstant girth_constant(double girth) {
           0,
           "Trunk and limbs are so wide. One camera would see a figure that is too thin nearer than "
           "the subject, or crouching."};
+}
+
+RecordingConstant trunk_constant(double length) {
+  return {"trunk_m",
+          "Trunk of the subject, from the hips to the shoulders",
+          length,
+          kTrunkSd,
+          "m",
+          3,
+          "Shoulders and head are so high above the hips. One camera would see a figure with the "
+          "usual trunk of the height farther away than the subject, or nearer."};
 }
 
 RecordingConstant lag_constant(const ConstantSources& sources) {
@@ -71,7 +83,8 @@ struct NamedKind {
 // information.
 void add_offsets(const ConstantSources& sources, const NamedKind& kind,
                  std::vector<RecordingConstant>& out) {
-  const double height = sources.stature ? sources.stature->height : sources.scene.subject.height;
+  const auto& stature = sources.subject.stature;
+  const double height = stature ? stature->height : sources.scene.subject.height;
   for (Eigen::Index axis = 0; axis < 2; ++axis) {
     double sum = 0, weights = 0;
     for (const KeypointTerm::State& camera : sources.keypoints) {
@@ -102,8 +115,10 @@ std::vector<RecordingConstant> recording_constants(const ConstantSources& source
                                      NamedKind{PointKind::kKnee, "knee", "knees"},
                                      NamedKind{PointKind::kAnkle, "ankle", "ankles"}};
   std::vector<RecordingConstant> out;
-  if (sources.stature) out.push_back(height_constant(sources));
-  if (sources.girth) out.push_back(girth_constant(*sources.girth));
+  const SubjectEstimates& subject = sources.subject;
+  if (subject.stature) out.push_back(height_constant(sources));
+  if (subject.girth) out.push_back(girth_constant(*subject.girth));
+  if (subject.trunk) out.push_back(trunk_constant(*subject.trunk));
   if (sources.lag) out.push_back(lag_constant(sources));
   for (const NamedKind& kind : kKinds) add_offsets(sources, kind, out);
   return out;

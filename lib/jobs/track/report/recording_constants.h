@@ -1,4 +1,4 @@
-// What a track has estimated that holds for the whole recording: the subject's height and girth,
+// What a track has estimated that holds for the whole recording: the subject's height and shape,
 // the lag between two cameras, and where keypoints lie beside the joints. Each with its standard
 // deviation and what it did to the result; only those that the scene leaves open.
 #pragma once
@@ -11,7 +11,7 @@
 #include "io/scene/scene.h"
 #include "jobs/check/check_report.h"
 #include "observation/keypoints/keypoint_term.h"
-#include "tracker/detect/stature.h"
+#include "tracker/tracked_subject.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -20,8 +20,7 @@ struct ConstantSources {
   const Scene& scene;
   double frame_rate = 0;  // Hz, of the scene
   double speed = 0;       // m/s, mean of the subject's
-  std::optional<Stature> stature;
-  std::optional<double> girth;
+  SubjectEstimates subject;
   std::optional<FoundLag> lag;
   std::span<const KeypointTerm::State> keypoints;  // by camera
 };

@@ -7,13 +7,15 @@
 
 #include <fmt/format.h>
 
+#include "body/subject.h"
 #include "io/archive/files.h"
 #include "io/archive/sha256.h"
 #include "jobs/track/report/recording_constants.h"
 #include "jobs/track/report/track_quality.h"
 #include "jobs/track/results/keypoint_results.h"
+#include "tracker/figure/girth.h"
+#include "tracker/figure/trunk_length.h"
 #include "tracker/overlaps.h"
-#include "tracker/start/girth.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -111,6 +113,18 @@ std::string size_note(const Scene& scene, const Stature& stature) {
       stated, stature.height, stature.sd, scene.height_sd ? "with" : "from");
 }
 
+std::string trunk_note(const Scene& scene, double trunk) {
+  constexpr double kCmPerM = 100;
+  const double longer = trunk - body_lengths(scene.subject).trunk;
+  return fmt::format(
+      "the outlines show that the subject's shoulders and head are {:.0f} cm {} above the hips "
+      "than "
+      "usual, give or take {:.0f}: they stoop, or have another trunk; subject.yaml has it for "
+      "other "
+      "videos of the same person",
+      kCmPerM * std::abs(longer), longer < 0 ? "less" : "more", kCmPerM * kTrunkSd);
+}
+
 std::string pace_note(const BudgetConfig& budget) {
   return fmt::format(
       "not deterministic: {} to {} particles, as many as {:g} ms a frame allowed on this machine",
@@ -150,11 +164,13 @@ RunNumbers numbers_of(const TrackJob& job, const TrackRun& run, const TrackedFra
                  {"negative_work_j", totals.negative_work},
                  {"cost_of_transport", totals.cost_of_transport},
                  {"peak_foot_load_body_weights", totals.peak_load}};
-  if (run.stature()) {
-    out.emplace_back("estimated_height_m", run.stature()->height);
-    out.emplace_back("estimated_height_sd_m", run.stature()->sd);
+  const auto [stature, girth, trunk] = run.estimates();
+  if (stature) {
+    out.emplace_back("estimated_height_m", stature->height);
+    out.emplace_back("estimated_height_sd_m", stature->sd);
   }
-  if (run.girth()) out.emplace_back("estimated_girth", *run.girth());
+  if (girth) out.emplace_back("estimated_girth", *girth);
+  if (trunk) out.emplace_back("estimated_trunk_m", *trunk);
   if (outcome.lag) {
     out.emplace_back("lag_frames_" + job.scene.cameras[outcome.lag->camera].name,
                      outcome.lag->frames);
@@ -194,7 +210,7 @@ RunSeries series_of(const TrackJob& job, const TrackRun& run, const TrackedFrame
   for (size_t c = 0; c < job.scene.cameras.size(); ++c)
     out.emplace_back(overlap_key(job.scene.cameras[c]), overlap_percents(frames, c));
   for (auto& list :
-       keypoint_residuals(frames, with_stature(job.scene, run.stature()), job.config.values))
+       keypoint_residuals(frames, with_estimates(job.scene, run.estimates()), job.config.values))
     out.push_back(std::move(list));
   if (is_paced(job)) out.emplace_back("particles", run.particles_used());
   return out;
@@ -221,12 +237,14 @@ FrameCounts frame_counts(const TrackedFrames& frames) {
 
 std::vector<std::string> subject_notes(const Scene& scene, const TrackRun& run) {
   std::vector<std::string> out;
-  if (run.stature()) out.push_back(size_note(scene, *run.stature()));
-  if (run.girth())
+  const auto [stature, girth, trunk] = run.estimates();
+  if (stature) out.push_back(size_note(scene, *stature));
+  if (girth)
     out.push_back(fmt::format(
         "the outlines show that the subject's trunk and limbs are {:.2f} times as wide as usual, "
         "give or take {:.2f}; subject.yaml has it for other videos of the same person",
-        *run.girth(), kGirthSd));
+        *girth, kGirthSd));
+  if (trunk) out.push_back(trunk_note(scene, *trunk));
   return out;
 }
 
@@ -243,8 +261,8 @@ RunRecord record_of(const TrackJob& job, const Origin& inputs, const TrackRun& r
   out.notes = notes_of(job, run, outcome);
   out.numbers = numbers_of(job, run, frames, outcome, tables.totals);
   const std::vector<KeypointTerm::State> keypoints = run.keypoints();
-  out.constants = recording_constants({job.scene, frames.frame_rate, mean_speed(frames),
-                                       run.stature(), run.girth(), outcome.lag, keypoints});
+  out.constants = recording_constants(
+      {job.scene, frames.frame_rate, mean_speed(frames), run.estimates(), outcome.lag, keypoints});
   out.quality = quality;
   out.by_frame = series_of(job, run, frames);
   out.digest = tables.digest;

@@ -174,25 +174,26 @@ Outputs track_outputs(const TrackJob& job) {
   return out;
 }
 
-Scene with_stature(const Scene& scene, const std::optional<Stature>& stature) {
+Scene with_estimates(const Scene& scene, const SubjectEstimates& estimates) {
   Scene out = scene;
-  if (!stature) return out;
-  const double ratio = stature->height / scene.subject.height;
-  out.subject.height = stature->height;
-  if (!scene.mass_given) out.subject.mass *= ratio * ratio;
+  Subject& subject = out.subject;
+  if (estimates.girth) subject.girth = *estimates.girth;
+  if (estimates.trunk) subject.lengths.trunk = estimates.trunk;
+  if (!estimates.stature) return out;
+  const double ratio = estimates.stature->height / scene.subject.height;
+  subject.height = estimates.stature->height;
+  if (!scene.mass_given) subject.mass *= ratio * ratio;
   return out;
 }
 
-StatedSubject known_subject(const Scene& scene, const std::optional<Stature>& stature,
-                            const std::optional<double>& girth) {
-  StatedSubject out{.subject = with_stature(scene, stature).subject,
+StatedSubject known_subject(const Scene& scene, const SubjectEstimates& estimates) {
+  StatedSubject out{.subject = with_estimates(scene, estimates).subject,
                     .height_sd = scene.height_sd,
-                    .height_stated = scene.height_given || scene.height_sd || stature,
+                    .height_stated = scene.height_given || scene.height_sd || estimates.stature,
                     .mass_stated = scene.mass_given,
-                    .girth_stated = scene.girth_given || girth,
+                    .girth_stated = scene.girth_given || estimates.girth,
                     .file = {}};
-  if (stature) out.height_sd = stature->sd;
-  if (girth) out.subject.girth = *girth;
+  if (estimates.stature) out.height_sd = estimates.stature->sd;
   return out;
 }
 

@@ -31,13 +31,12 @@ std::vector<SupportTransfer> support_transfers_of(const TrackedFrames& frames);
 // The result folder of a track: what is read, and every file that may be written.
 Outputs track_outputs(const TrackJob& job);
 
-// The scene with the estimated height of its subject; a mass that it does not state is in
-// proportion to the square of the height.
-Scene with_stature(const Scene& scene, const std::optional<Stature>& stature);
+// The scene with what was estimated of its subject; a mass that it does not state is in proportion
+// to the square of the height.
+Scene with_estimates(const Scene& scene, const SubjectEstimates& estimates);
 
 // What is known of the scene's subject after the track, for other scenes of the same person.
-StatedSubject known_subject(const Scene& scene, const std::optional<Stature>& stature,
-                            const std::optional<double>& girth);
+StatedSubject known_subject(const Scene& scene, const SubjectEstimates& estimates);
 
 struct WrittenTables {
   std::string digest;  // of joints.csv and uncertainty.csv
