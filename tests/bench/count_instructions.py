@@ -71,8 +71,12 @@ def main() -> int:
     if not shutil.which("valgrind"):
         print("skipped: no valgrind")
         return SKIPPED
-    if "avx2" not in Path("/proc/cpuinfo").read_text():
+    processor = Path("/proc/cpuinfo").read_text()
+    if "avx2" not in processor:
         print("skipped: this processor has no AVX2, libraries take other ways")
+        return SKIPPED
+    if "rdtscp" not in processor:
+        print("skipped: this processor has no RDTSCP, but valgrind says that it has, and libraries use it")
         return SKIPPED
     if "--store" in sys.argv:
         with path.open("w") as file:

@@ -263,6 +263,22 @@ TEST(Plan, TheSizeIsLookedForWhereTheSceneDoesNotGiveIt) {
   EXPECT_EQ(item(plan_with({}, scene), "size").why, "the scene does not give subject.height");
 }
 
+TEST(Plan, GirthAndTrunkAreEstimatedBeforeOneCameraUnlessTheyAreGiven) {
+  Scene scene = demo();
+  for (const char* name : {"girth", "trunk"})
+    EXPECT_EQ(item(plan_with({}, scene), name).why, "only for one camera with a video") << name;
+  scene.cameras.resize(1);
+  EXPECT_TRUE(item(plan_with({}, scene), "girth").on);
+  EXPECT_TRUE(item(plan_with({}, scene), "trunk").on);
+  scene.height_given = false;
+  EXPECT_TRUE(item(plan_with({}, scene), "girth").on);
+  EXPECT_EQ(item(plan_with({}, scene), "trunk").why, "the scene does not give subject.height");
+  scene.girth_given = true;
+  scene.subject.lengths.trunk = 0.45;
+  EXPECT_EQ(item(plan_with({}, scene), "girth").why, "the scene gives subject.girth");
+  EXPECT_EQ(item(plan_with({}, scene), "trunk").why, "the scene gives subject.lengths.trunk");
+}
+
 TEST(Plan, TheLagOfTwoCamerasIsLookedForWhereTheSceneDoesNotGiveIt) {
   Scene scene = demo();
   ASSERT_EQ(scene.cameras.size(), 2u);

@@ -137,6 +137,25 @@ double slope_deg(const Scene& scene) {
   return deg_from_rad(std::atan2(scene.gravity.head<2>().norm(), -scene.gravity.z()));
 }
 
+// Of the figure, where the first poses before one camera can show it (tracker/figure).
+void add_shape(const Scene& scene, Items& items) {
+  const bool one = scene.cameras.size() == 1 && !scene.cameras[0].video.empty();
+  const auto fact = [&](const char* name, const char* what, bool open, const char* given) {
+    items.fact(name, one && open, what,
+               !one   ? "only for one camera with a video"
+               : open ? "the scene leaves it open"
+                      : given);
+  };
+  fact("girth", "the subject's girth, estimated if the first poses show that they are clearly wide",
+       !scene.girth_given, "the scene gives subject.girth");
+  const bool trunk_given = scene.subject.lengths.trunk.has_value();
+  fact("trunk",
+       "the length of the subject's trunk, estimated if the first poses show a clearly unusual one",
+       scene.height_given && !trunk_given,
+       trunk_given ? "the scene gives subject.lengths.trunk"
+                   : "the scene does not give subject.height");
+}
+
 // What is estimated for the whole recording, where the scene leaves it open.
 void add_recording(const Scene& scene, Items& items) {
   items.fact("size", !scene.height_given,
@@ -144,6 +163,7 @@ void add_recording(const Scene& scene, Items& items) {
              scene.height_given ? "the scene gives subject.height"
              : scene.height_sd  ? "the scene gives subject.height_sd"
                                 : "the scene does not give subject.height");
+  add_shape(scene, items);
   const bool lag = starts_are_open(scene);
   items.fact("lag", lag, "the time between both cameras, estimated from the walk",
              lag                         ? "no camera has a start_frame"
