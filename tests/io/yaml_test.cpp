@@ -1,5 +1,6 @@
 #include "io/config/yaml.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
@@ -19,6 +20,19 @@ TEST(Yaml, ReadsTypedValues) {
   EXPECT_TRUE(root.has("a"));
   EXPECT_FALSE(root.has("z"));
   EXPECT_FALSE(parse("a:\n").has("a"));
+}
+
+// As of a table that is given in place of a scene.
+TEST(Yaml, ShowsTheBeginningOfALongWord) {
+  const auto found = [](const std::string& word) {
+    return message_of([&] { parse(word).keys(); });
+  };
+  const std::string quoted = "found '" + std::string(78, 'x');
+  EXPECT_THAT(found(std::string(78, 'x')), testing::HasSubstr(quoted + "', allowed"));
+  EXPECT_THAT(found(std::string(5000, 'x')), testing::HasSubstr(quoted + "x..., allowed"));
+  // The letter of two bytes would be cut.
+  EXPECT_THAT(found(std::string(78, 'x') + "\u00e9" + std::string(9, 'x')),
+              testing::HasSubstr(quoted + "..., allowed"));
 }
 
 TEST(Yaml, NamesPlaceFoundAndAllowed) {

@@ -103,6 +103,16 @@ void refuse_silent_losses(const std::string& text, const std::string& name) {
     throw InputError(describe({name, more.line, ""}, "a second YAML document", "one a file"));
 }
 
+// The beginning of what was found, of which a message shows so much: a table that is given in place
+// of a scene is one long word. No character of several bytes is cut.
+std::string beginning_of(std::string_view found) {
+  constexpr size_t kMostShown = 80;
+  if (found.size() <= kMostShown) return std::string(found);
+  size_t end = kMostShown;
+  while (end > 0 && (static_cast<unsigned char>(found[end]) & 0xC0) == 0x80) --end;
+  return std::string(found.substr(0, end)) + "...";
+}
+
 }  // namespace
 
 YamlValue YamlValue::from_file(const std::string& path) {
@@ -129,7 +139,7 @@ int YamlValue::line() const {
 }
 
 void YamlValue::fail(std::string_view found, std::string_view allowed) const {
-  throw InputError(describe({file_, line(), key_}, found, allowed));
+  throw InputError(describe({file_, line(), key_}, beginning_of(found), allowed));
 }
 
 std::string YamlValue::describe_found() const {

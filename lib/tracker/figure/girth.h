@@ -1,10 +1,10 @@
 // The girth of the subject, from the outlines of a start before one camera.
 //
 // The height is stated or estimated, but not how wide somebody is: a figure that is too thin
-// explains the outlines of a wide person best where it is too near, or crouches. With the
-// poses that a start has found, the outlines of people of known girth are explained best at about
-// their girth (tracker/reports/girth.md). From the front arms, which the figure
-// lacks, count as trunk; therefore only walks across the camera's ray are used.
+// explains the outlines of a wide person best where it is too near, or crouches. With the poses
+// that a start has found, the outlines of people of known girth are explained best at about their
+// girth (tracker/reports/girth.md). From the front arms, which the figure lacks, count as trunk;
+// therefore only walks across the camera's ray are used.
 #pragma once
 
 #include <optional>

@@ -118,10 +118,8 @@ std::string trunk_note(const Scene& scene, double trunk) {
   const double longer = trunk - body_lengths(scene.subject).trunk;
   return fmt::format(
       "the outlines show that the subject's shoulders and head are {:.0f} cm {} above the hips "
-      "than "
-      "usual, give or take {:.0f}: they stoop, or have another trunk; subject.yaml has it for "
-      "other "
-      "videos of the same person",
+      "than usual, give or take {:.0f}: they stoop, or have another trunk; subject.yaml has it for "
+      "other videos of the same person",
       kCmPerM * std::abs(longer), longer < 0 ? "less" : "more", kCmPerM * kTrunkSd);
 }
 
