@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""In a module no two files define a type, a constant or a function of one name and one list
+"""In a module, and in the tests of one, no two files define a type, a constant or a function of one name and one list
 of parameters, unnamed namespaces included: a reader who looks for it finds one, and builds that compile several
 sources as one (CMakePresets.json) keep working whichever sources come together. Looks at definitions in the first
 column only; prints what is there twice."""
@@ -9,6 +9,8 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+MODULES = [folder for part in ("lib", "tests") for folder in sorted((ROOT / part).iterdir())
+           if folder.is_dir() and folder.name != "bench"]  # a folder of several programs
 ALTERNATIVES = {"no_pose_net.cpp"}  # compiled in the place of another file
 TYPE = re.compile(r"(?:struct|class|enum class|enum) (\w+)(?: final)?(?: : [^;]*)? \{")
 ALIAS = re.compile(r"using (\w+) = (.*);")
@@ -40,7 +42,7 @@ def definitions(path):
 
 def main():
     problems = 0
-    for folder in sorted(path for path in (ROOT / "lib").iterdir() if path.is_dir()):
+    for folder in MODULES:
         found = collections.defaultdict(dict)
         for path in sorted(folder.rglob("*.[hc]*")):
             if path.suffix in (".h", ".cpp") and not path.name.endswith("-inl.h") and path.name not in ALTERNATIVES:

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "core/dense.h"
@@ -181,7 +180,7 @@ WalkerView view_from_walker(std::span<const SeenStature> positions, const ViewAs
   Numbers variances = Numbers::Zero();
   // The uncertainty that rows and lengths leave, along the axes of its covariance.
   constexpr double kSmall = 0.1;  // share of a deviation for which functions are nearly linear
-  const Eigen::MatrixXd root = best->covariance.llt().matrixL();
+  const Eigen::MatrixXd root = cholesky_root(best->covariance);
   for (int k = 0; k < kUnknowns; ++k)
     variances +=
         (numbers_of(best->place + kSmall * root.col(k), middle, given) - values).cwiseAbs2() /

@@ -14,13 +14,13 @@ WorldFrame world_frame_on_ground(const Eigen::Vector3d& normal, double offset) {
   }
   const Eigen::Vector3d up = normal / length;
   WorldFrame frame;
-  // FromTwoVectors does not determine the axis if the normal points straight down: x is chosen, so
-  // that y and z change sign.
+  // The shortest turn from `up` to z. If the normal points straight down its axis can be any
+  // horizontal one: x is chosen, so that y and z change sign.
   if (up.z() < -1 + 1e-12) {
     frame.rotation = Eigen::Vector3d(1, -1, -1).asDiagonal();
   } else {
     frame.rotation =
-        Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+        Eigen::Quaterniond(1 + up.z(), up.y(), -up.x(), 0).normalized().toRotationMatrix();
   }
   frame.translation = {0, 0, -offset / length};
   return frame;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -58,7 +59,8 @@ VectorXd least_squares(const MatrixXd& a, const VectorXd& b) {
 }
 
 MatrixXd pseudo_inverse(const MatrixXd& a) {
-  return a.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd unit = MatrixXd::Identity(a.rows(), a.rows());
+  return a.completeOrthogonalDecomposition().solve(unit);
 }
 
 VectorXcd eigenvalues(const MatrixXd& a) {
@@ -76,6 +78,15 @@ MatrixXd null_space(const MatrixXd& a) {
   const Eigen::JacobiSVD<MatrixXd> svd(a, Eigen::ComputeFullV);
   return svd.matrixV().rightCols(a.cols() - svd.rank());
 }
+
+SymmetricEigen symmetric_eigen(const MatrixXd& a) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(a);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+MatrixXd cholesky_root(const MatrixXd& a) { return a.llt().matrixL(); }
+
+MatrixXd solve_positive(const MatrixXd& a, const MatrixXd& b) { return a.ldlt().solve(b); }
 
 MatrixXd LeastSquaresFit::covariance() const {
   return pseudo_inverse(jacobian.transpose() * jacobian);

@@ -23,6 +23,20 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a);
 // Orthonormal columns that span the solutions of a x = 0. All of space if `a` has no rows.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& a);
 
+// A symmetric matrix is vectors * diag(values) * vectors^T: the smallest eigenvalue first, and
+// orthonormal columns.
+struct SymmetricEigen {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& a);
+
+// The lower triangular L with a = L L^T, of a positive definite matrix (Cholesky).
+Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& a);
+
+// The x of a x = b, where `a` is symmetric and positive definite (LDL^T).
+Eigen::MatrixXd solve_positive(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
 // The minimum of a sum of squares.
 struct LeastSquaresFit {
   Eigen::VectorXd x, residuals;

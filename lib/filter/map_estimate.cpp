@@ -3,8 +3,7 @@
 #include <array>
 #include <vector>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "core/dense.h"
 
 namespace walktrack {
 inline namespace filter {
@@ -53,15 +52,14 @@ Shape shape(Eigen::Index n, double here, std::span<const double> at_points) {
       out.curvature(k, l) = out.curvature(l, k) =
           (plus(k) + plus(l) - here - at_points[pair++]) / (kSpread * kSpread);
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(out.curvature);
-  out.curvature = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).asDiagonal() *
-                  axes.eigenvectors().transpose();
+  const auto [values, axes] = symmetric_eigen(out.curvature);
+  out.curvature = axes * values.cwiseMax(0).asDiagonal() * axes.transpose();
   return out;
 }
 
 MatrixXd root_of(const MatrixXd& covariance) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(covariance);
-  return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  const auto [values, axes] = symmetric_eigen(covariance);
+  return axes * values.cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
 }  // namespace
@@ -90,7 +88,7 @@ MapEstimate map_estimate(const VectorXd& mean, const VectorXd& sd, int rounds,
         root.transpose() * precision.asDiagonal() * root + likelihood.curvature;
     const VectorXd slope =
         likelihood.gradient - root.transpose() * precision.cwiseProduct(out.at - mean);
-    around = root * posterior.ldlt().solve(MatrixXd(root.transpose()));
+    around = root * solve_positive(posterior, root.transpose());
     // The columns of the root are orthogonal, so that its inverse is its transpose over their
     // squares.
     const MatrixXd inverse =
@@ -99,7 +97,7 @@ MapEstimate map_estimate(const VectorXd& mean, const VectorXd& sd, int rounds,
     double gained = 0;
     for (const double damping : kDampings) {
       const MatrixXd damped = posterior + damping * MatrixXd::Identity(mean.size(), mean.size());
-      const VectorXd tried = out.at + root * damped.ldlt().solve(slope);
+      const VectorXd tried = out.at + root * solve_positive(damped, slope);
       const double there = at_one(tried);
       const double gain = there - at_mean - 0.5 * precision.dot((tried - mean).cwiseAbs2());
       if (gain <= out.gain) continue;

@@ -1,6 +1,6 @@
 #include "gait/feedback.h"
 
-#include <Eigen/Cholesky>
+#include "core/dense.h"
 
 namespace walktrack {
 inline namespace gait {
@@ -17,7 +17,7 @@ MatrixXd regulator_gain(const LinearStep& step, double effort) {
   MatrixXd value = unit, gain = MatrixXd::Zero(b.cols(), a.rows());
   for (int i = 0; i < kMaxIterations; ++i) {
     const MatrixXd weight = price + b.transpose() * value * b;
-    gain = weight.ldlt().solve(b.transpose() * value * a + d.transpose() * c);
+    gain = solve_positive(weight, b.transpose() * value * a + d.transpose() * c);
     const MatrixXd next =
         unit + c.transpose() * c + a.transpose() * value * a - gain.transpose() * weight * gain;
     const double change = (next - value).norm() / next.norm();

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "core/dense.h"
 
 namespace walktrack {
@@ -84,8 +82,8 @@ VectorXd solve_complementarity(const MatrixXd& A, const VectorXd& b,
 
 LimitedMotion solve_limited(const MatrixXd& mass, const VectorXd& momentum,
                             std::span<const Limit> limits, std::span<const LimitRole> roles) {
-  const Eigen::LDLT<MatrixXd> factors(mass);
-  LimitedMotion motion{factors.solve(momentum), VectorXd::Zero(static_cast<Index>(limits.size()))};
+  LimitedMotion motion{solve_positive(mass, momentum),
+                       VectorXd::Zero(static_cast<Index>(limits.size()))};
   std::vector<size_t> acting;
   std::vector<bool> latched;
   for (size_t i = 0; i < limits.size(); ++i) {
@@ -98,7 +96,7 @@ LimitedMotion solve_limited(const MatrixXd& mass, const VectorXd& momentum,
   for (size_t i = 0; i < acting.size(); ++i) {
     rows.row(static_cast<Index>(i)) = limits[acting[i]].row.transpose();
   }
-  const MatrixXd response = factors.solve(rows.transpose());  // M^-1 A^T
+  const MatrixXd response = solve_positive(mass, rows.transpose());  // M^-1 A^T
   const VectorXd rho = solve_complementarity(rows * response, rows * motion.rate, latched);
   motion.rate += response * rho;
   for (size_t i = 0; i < acting.size(); ++i) {

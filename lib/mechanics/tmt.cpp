@@ -1,6 +1,6 @@
 #include "mechanics/tmt.h"
 
-#include <Eigen/Cholesky>
+#include "core/dense.h"
 
 namespace walktrack {
 inline namespace mechanics {
@@ -15,7 +15,7 @@ TmtSystem assemble_tmt(const MatrixXd& part_mass, const MatrixXd& T, const Vecto
 }
 
 VectorXd solve_mass(const MatrixXd& mass, const VectorXd& force) {
-  return mass.ldlt().solve(force);
+  return solve_positive(mass, force);
 }
 
 }  // namespace mechanics

@@ -17,16 +17,16 @@ namespace walktrack {
 namespace {
 
 using namespace std::chrono_literals;
-using nlohmann::json;
+using Record = nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-std::vector<json> lines_of(const std::string& text) {
-  std::vector<json> out;
+std::vector<Record> lines_of(const std::string& text) {
+  std::vector<Record> out;
   std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) out.push_back(json::parse(line));
+  for (std::string line; std::getline(stream, line);) out.push_back(Record::parse(line));
   return out;
 }
 
@@ -74,10 +74,10 @@ TEST(ProgressOption, JsonGivesLinesThatProgramsRead) {
       run_walktrack({"simulate", "--model", "kneed", "--duration", "5", "--no-pictures",
                      "--progress", "json", "-o", folder / "out"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const std::vector<json> lines = lines_of(result.err);
+  const std::vector<Record> lines = lines_of(result.err);
   ASSERT_GE(lines.size(), 2u);
   bool progress = false, message = false;
-  for (const json& line : lines) {
+  for (const Record& line : lines) {
     progress |= line.at("event") == "progress" && line.at("what") == "simulating" &&
                 line.at("total") == 5000 && line.at("done") > 0;
     message |= line.at("event") == "message";
@@ -90,7 +90,7 @@ TEST(ProgressOption, ErrorsAreJsonTooAndTheResultLineNamesThem) {
   const ProgramResult result = run_walktrack(
       {"track", folder / "no\"scene.yaml", "-o", folder / "out", "--progress=json", "--json-line"});
   EXPECT_EQ(result.exit_code, 3);
-  const json error = json::parse(result.err), line = json::parse(result.out);
+  const Record error = Record::parse(result.err), line = Record::parse(result.out);
   EXPECT_EQ(error.at("event"), "error");
   EXPECT_EQ(error.at("exit"), 3);
   EXPECT_EQ(line.at("status"), "error");
@@ -119,9 +119,9 @@ TEST(TrackCommand, EndsWithWhatAPersonAndAProgramWantToKnow) {
             HasSubstr("\n  failed: Changes of the standing foot: "),
             HasSubstr("(allowed: at least 90)\n    The tracked figure took no step"),
             HasSubstr("\n  open " + (folder / "out/report.html"))));
-  const json line = json::parse(result.out),
-             gait = json::parse(read_file(folder / "out/gait.json"));
-  const json& both = gait.at("summary").at("both");
+  const Record line = Record::parse(result.out),
+               gait = Record::parse(read_file(folder / "out/gait.json"));
+  const Record& both = gait.at("summary").at("both");
   EXPECT_EQ(line.at("exit"), 4);
   EXPECT_EQ(line.at("status"), "below gates");
   EXPECT_EQ(line.at("steps"), gait.at("summary").at("steps"));

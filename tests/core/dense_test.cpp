@@ -43,6 +43,39 @@ TEST(Eigenvalues, AreInOrder) {
   EXPECT_EQ(eigenvalues(MatrixXd()).size(), 0);
 }
 
+MatrixXd symmetric_three() {
+  MatrixXd out(3, 3);
+  out << 4, 1, -1, 1, 3, 0.5, -1, 0.5, 2;
+  return out;
+}
+
+TEST(SymmetricEigen, PutsTheMatrixTogetherAgain) {
+  const auto [values, vectors] = symmetric_eigen(symmetric_three());
+  EXPECT_LT(values[0], values[1]);
+  EXPECT_LT(values[1], values[2]);
+  EXPECT_LT((vectors.transpose() * vectors - MatrixXd::Identity(3, 3)).norm(), 1e-14);
+  EXPECT_LT((vectors * values.asDiagonal() * vectors.transpose() - symmetric_three()).norm(),
+            1e-14);
+}
+
+TEST(CholeskyRoot, IsLowerTriangularAndSquaresToTheMatrix) {
+  const MatrixXd root = cholesky_root(symmetric_three());
+  EXPECT_EQ(root(0, 1), 0);
+  EXPECT_EQ(root(0, 2), 0);
+  EXPECT_EQ(root(1, 2), 0);
+  EXPECT_LT((root * root.transpose() - symmetric_three()).norm(), 1e-14);
+}
+
+// Rows and columns of very unequal size, as masses and inertias are.
+TEST(SolvePositive, SolvesForEveryColumn) {
+  const Eigen::Vector3d size(1, 1e3, 1e-4);
+  const MatrixXd a = size.asDiagonal() * symmetric_three() * size.asDiagonal();
+  MatrixXd x(3, 2);
+  x << 1, -2, 3e-3, 0, 5e4, 1;
+  const MatrixXd found = solve_positive(a, a * x);
+  EXPECT_LT((size.asDiagonal() * (found - x)).norm(), 1e-12);
+}
+
 // Rosenbrock's valley, whose only minimum is at (1, 1).
 TEST(MinimiseSquares, FollowsAValley) {
   const LeastSquaresFit fit = minimise_squares(

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/io/times_found.h"
+
 namespace walktrack {
 namespace {
 
@@ -19,22 +21,16 @@ ErrorSeries series(const std::string& name, std::vector<double> errors) {
   return out;
 }
 
-size_t count(const std::string& text, const std::string& part) {
-  size_t n = 0;
-  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
-
 TEST(ErrorPlot, HasACurveABarAndANameForEachEstimate) {
   const std::string svg =
       error_plot_svg("truth", {series("first", {10, 20, 30}), series("a < b & c", {5, 5, 5})});
-  EXPECT_EQ(count(svg, "<path"), 2u);
+  EXPECT_EQ(times_found(svg, "<path"), 2u);
   EXPECT_THAT(svg, HasSubstr(">first<"));
   EXPECT_THAT(svg, HasSubstr("a &lt; b &amp; c"));
   EXPECT_THAT(svg, HasSubstr(">lknee<"));
-  EXPECT_THAT(svg, Not(HasSubstr(">head<")));     // never known
-  EXPECT_EQ(count(svg, "fill=\"#0072b2\""), 2u);  // in the legend and as a bar
-  EXPECT_EQ(count(svg, "http"), 1u);              // the name space; nothing is fetched
+  EXPECT_THAT(svg, Not(HasSubstr(">head<")));           // never known
+  EXPECT_EQ(times_found(svg, "fill=\"#0072b2\""), 2u);  // in the legend and as a bar
+  EXPECT_EQ(times_found(svg, "http"), 1u);              // the name space; nothing is fetched
 }
 
 // The panel is 220 px high from 102 px on: 30 mm are three of its four ticks of 10 mm; time extends
@@ -47,7 +43,7 @@ TEST(ErrorPlot, DrawsErrorsToScaleFromZeroUp) {
 TEST(ErrorPlot, BreaksTheCurveWhereNobodyWasFound) {
   const std::string svg = error_plot_svg("truth", {series("first", {10, std::nan(""), 20, 20})});
   const size_t path = svg.find("<path");
-  EXPECT_EQ(count(svg.substr(path, svg.find("/>", path) - path), "M"), 2u);
+  EXPECT_EQ(times_found(svg.substr(path, svg.find("/>", path) - path), "M"), 2u);
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 

@@ -33,7 +33,7 @@ void write_sample_video(const std::string& path, int frames) {
 
 namespace {
 
-std::string bytes_of(const std::string& path) {
+std::string file_bytes(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -60,7 +60,7 @@ void write_timed_video(const std::string& path, const std::vector<cv::Mat>& fram
                          frames.front().size());
   for (const cv::Mat& frame : frames) writer.write(frame);
   writer.release();
-  std::string bytes = bytes_of(path);
+  std::string bytes = file_bytes(path);
   const size_t list = bytes.find("stts");
   const size_t usual = number_at(bytes, list + 16), old_size = number_at(bytes, list - 4);
   std::string entries = big_endian(0) + big_endian(durations.size());
@@ -84,7 +84,7 @@ void write_uneven_video(const std::string& path, const std::vector<double>& dura
 
 // Phones write the sensor's pixels and a rotation in the track header (tkhd, matrix).
 void turn_video(const std::string& path, int clockwise_deg) {
-  std::string bytes = bytes_of(path);
+  std::string bytes = file_bytes(path);
   const std::string none(4, '\0'), one{"\0\1\0\0", 4}, minus{"\xff\xff\0\0", 4};
   const std::string& cosine = clockwise_deg == 180 ? minus : none;
   const std::string& sine = clockwise_deg == 90 ? one : clockwise_deg == 270 ? minus : none;
@@ -95,7 +95,7 @@ void turn_video(const std::string& path, int clockwise_deg) {
 }
 
 void trim_video(const std::string& path, int frames) {
-  std::string bytes = bytes_of(path);
+  std::string bytes = file_bytes(path);
   const auto number = [&](size_t at) {
     uint32_t value = 0;
     for (size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<uint8_t>(bytes[at + i]);

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/io/times_found.h"
+
 namespace walktrack {
 namespace {
 
@@ -14,26 +16,20 @@ using testing::Not;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-size_t count(const std::string& text, const std::string& part) {
-  size_t n = 0;
-  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
-
 TEST(TradePlot, MarksEverySettingAndNamesTheFront) {
   const std::string svg = trade_plot_svg("scene <1>", "error, mm",
                                          {{"a&b", 10, 40, 5, true, true},
                                           {"slow", 5, 60, kNone, true, false},
                                           {"gone", 80, 90, kNone, false, false},
                                           {"unseen", 90, kNone, kNone, false, false}});
-  EXPECT_EQ(count(svg, "<circle"), 2u);
-  EXPECT_EQ(count(svg, "<path"), 1u);
+  EXPECT_EQ(times_found(svg, "<circle"), 2u);
+  EXPECT_EQ(times_found(svg, "<path"), 1u);
   EXPECT_THAT(svg, HasSubstr("scene &lt;1>"));
   EXPECT_THAT(svg, HasSubstr(">1  a&amp;b: 40.0 mm at 10 frames/s<"));
   EXPECT_THAT(svg, Not(HasSubstr("2  ")));
   EXPECT_THAT(svg, Not(HasSubstr("unseen")));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
-  EXPECT_EQ(count(svg, "http"), 1u);  // the name space; nothing is fetched
+  EXPECT_EQ(times_found(svg, "http"), 1u);  // the name space; nothing is fetched
 }
 
 // Speeds of 10 and 1000 with a margin of 15 % to either side are symmetric on a logarithmic axis

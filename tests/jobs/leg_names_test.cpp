@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFrame = 1.0 / 30;  // s
-constexpr uint32_t kFrames = 36;
+constexpr double kInterval = 1.0 / 30;  // s
+constexpr uint32_t kPictures = 36;
 
 // A stride of a person with arms, recorded from one side, in which everything looks like the
 // walker.
@@ -42,7 +42,7 @@ struct Video {
     scene.cameras = stage.cameras;
     scene.model.body = make_body(Subject{}, {});
     const View view = make_view(stage.world, stage.cameras[0], 2);
-    for (uint32_t i = 0; i < kFrames; ++i) {
+    for (uint32_t i = 0; i < kPictures; ++i) {
       window.push_back({evidence(stage, view, i)});
       FrameRecord record;
       record.tracked = true;
@@ -54,7 +54,7 @@ struct Video {
   static CameraEvidence evidence(const Stage& stage, const View& view, uint32_t frame) {
     CameraEvidence out;
     out.picture = {view.camera.width_px, view.camera.height_px,
-                   grey_picture(stage, view, frame, frame * kFrame)};
+                   grey_picture(stage, view, frame, frame * kInterval)};
     resize(out.planes, {0, 0, view.camera.width_px, view.camera.height_px}, 1);
     for (int y = 0; y < view.camera.height_px; ++y)
       set_row(out.planes, 0, y, std::vector<float>(size_t(view.camera.width_px), 1.0F), 4);

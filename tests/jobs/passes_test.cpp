@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 // Each camera sees 1.6 m of the walkway on either side of its middle, which the subject passes
 // after 1.8 s.
-constexpr const char* kOptions = R"(
+constexpr const char* kPassOptions = R"(
 seed: 23
 frame_rate: 30
 duration: 3.6
@@ -54,7 +54,7 @@ class Passes : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
-    write_file_atomically(folder() / "options.yaml", kOptions);
+    write_file_atomically(folder() / "options.yaml", kPassOptions);
     const RenderFile file = read_render_file(folder() / "options.yaml");
     RenderJob job;
     job.options = file.options;

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 // The post is 2.6 m in front of the side camera and 1 m from the walk: it covers 28 columns of the
 // image, all of its height except for the ground, and half a metre of the walk.
-constexpr const char* kOptions = R"(
+constexpr const char* kUnevenOptions = R"(
 seed: 20
 frame_rate: 30
 duration: 1.6
@@ -43,7 +43,7 @@ constexpr const char* kPost = "occluders: {side: [[[105, 0], [134, 0], [134, 179
 class UnevenCameras : public testing::Test {
  protected:
   void record() const {
-    write_file_atomically(folder_ / "options.yaml", kOptions);
+    write_file_atomically(folder_ / "options.yaml", kUnevenOptions);
     const RenderFile file = read_render_file(folder_ / "options.yaml");
     RenderJob job;
     job.options = file.options;

@@ -7,7 +7,7 @@
 namespace walktrack {
 namespace {
 
-constexpr std::array<bool, kAppearanceCount> kAll{true, true, true, true, true};
+constexpr std::array<bool, kAppearanceCount> kAllClasses{true, true, true, true, true};
 
 double density_sum(const ColourBins& bins, const ColourTable& table) {
   double sum = 0;
@@ -32,7 +32,7 @@ TEST(AppearanceModel, BroadModelIsADensity) {
 
 TEST(AppearanceModel, LearnedModelsAreDensitiesAndKnowTheirColour) {
   const ColourBins bins;
-  AppearanceModel model({}, kAll);
+  AppearanceModel model({}, kAllClasses);
   const int red = bins.bin(90, 80, -20), blue = bins.bin(90, -80, -10);
   model.learn(bins, counts_of(model, 1, red, 500));
   EXPECT_TRUE(model.learned(1));
@@ -50,7 +50,7 @@ TEST(AppearanceModel, LearnedModelsAreDensitiesAndKnowTheirColour) {
 
 TEST(AppearanceModel, FewPixelsConvinceLess) {
   const ColourBins bins;
-  AppearanceModel few({}, kAll), many({}, kAll);
+  AppearanceModel few({}, kAllClasses), many({}, kAllClasses);
   const int red = bins.bin(90, 80, -20);
   few.learn(bins, counts_of(few, 0, red, 20));
   many.learn(bins, counts_of(many, 0, red, 2000));
@@ -59,7 +59,7 @@ TEST(AppearanceModel, FewPixelsConvinceLess) {
 
 TEST(AppearanceModel, DoesNotLearnFromMisses) {
   const ColourBins bins;
-  AppearanceModel model({}, kAll);
+  AppearanceModel model({}, kAllClasses);
   const int red = bins.bin(90, 80, -20);
   AppearanceModel::Counts counts = counts_of(model, 0, red, 100);
   counts.seen[0] = 1000;  // nine pixels in ten were background
@@ -74,7 +74,7 @@ TEST(AppearanceModel, LearnsWhatLooksMuchLikeTheBackground) {
   const ColourBins bins;
   const int brown = bins.bin(90, 80, -20);
   const auto learns = [&](float trousers, float shirt, int frames = 10) {
-    AppearanceModel model({}, kAll);
+    AppearanceModel model({}, kAllClasses);
     for (int i = 0; i < frames; ++i) model.learn(bins, counts_of(model, 2, brown, 600));
     AppearanceModel::Counts counts = counts_of(model, 0, brown, trousers);
     counts.weights[2][static_cast<size_t>(brown)] = shirt;
@@ -91,7 +91,7 @@ TEST(AppearanceModel, LearnsWhatLooksMuchLikeTheBackground) {
 
 TEST(AppearanceModel, NeverForgetsItsFirstFrames) {
   const ColourBins bins;
-  AppearanceModel model({}, kAll);
+  AppearanceModel model({}, kAllClasses);
   const int red = bins.bin(90, 80, -20), blue = bins.bin(90, -80, -10);
   for (int i = 0; i < 10; ++i) model.learn(bins, counts_of(model, 0, red, 300));
   const float at_first = model.table(0)[static_cast<size_t>(red)];
@@ -106,7 +106,7 @@ TEST(AppearanceModel, NeverForgetsItsFirstFrames) {
 TEST(AppearanceModel, OneFrameOfAnotherColourChangesLittle) {
   const ColourBins bins;
   const ForegroundConfig config;
-  AppearanceModel model(config, kAll);
+  AppearanceModel model(config, kAllClasses);
   const int red = bins.bin(90, 80, -20), blue = bins.bin(90, -80, -10);
   for (int i = 0; i < 50; ++i) model.learn(bins, counts_of(model, 0, red, 300));
   const double before = static_cast<double>(model.table(0)[static_cast<size_t>(red)]);
@@ -117,10 +117,10 @@ TEST(AppearanceModel, OneFrameOfAnotherColourChangesLittle) {
 }
 
 TEST(AppearanceModel, ClassesAreAMatterOfConfigAndBody) {
-  EXPECT_EQ(AppearanceModel({}, kAll).classes(), 5);
+  EXPECT_EQ(AppearanceModel({}, kAllClasses).classes(), 5);
   ForegroundConfig merged;
   merged.classes = {0, 3, 3, 1, 1};
-  const AppearanceModel model(merged, kAll);
+  const AppearanceModel model(merged, kAllClasses);
   EXPECT_EQ(model.classes(), 3);
   EXPECT_EQ(model.class_of()[1], model.class_of()[2]);
   EXPECT_EQ(model.class_of()[3], model.class_of()[4]);

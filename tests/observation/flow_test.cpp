@@ -13,10 +13,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kSize = 160;
+constexpr int kPictureSide = 160;
 
 // A smooth random pattern, `shift` px to the right and down.
-cv::Mat pattern(const Vector2d& shift, int width = kSize, int height = kSize) {
+cv::Mat pattern(const Vector2d& shift, int width = kPictureSide, int height = kPictureSide) {
   Rng rng(1, Purpose::kTest);
   cv::Mat image(height, width, CV_8U);
   std::array<std::array<double, 4>, 24> waves;
@@ -37,7 +37,7 @@ cv::Mat pattern(const Vector2d& shift, int width = kSize, int height = kSize) {
   return image;
 }
 
-constexpr PixelRect kWholePicture{0, 0, kSize, kSize};
+constexpr PixelRect kWholePicture{0, 0, kPictureSide, kPictureSide};
 
 constexpr double kMetresPerPx = 0.015;
 
@@ -57,7 +57,7 @@ FlowField paired(const cv::Mat& before, const cv::Mat& now, const PixelRect& are
 FlowField moving(const Vector2d& motion) { return paired(pattern({0, 0}), pattern(motion)); }
 
 FlowField blank() {
-  const cv::Mat plain(kSize, kSize, CV_8U, cv::Scalar(90));
+  const cv::Mat plain(kPictureSide, kPictureSide, CV_8U, cv::Scalar(90));
   return paired(plain, plain);
 }
 
@@ -67,7 +67,7 @@ TEST(FlowField, LatticeIsAsFineAsTheBodyNeeds) {
   EXPECT_EQ(paired(image, image, kWholePicture, 0.015).step, 3);
   const FlowField coarse = paired(image, image, kWholePicture, 0.009);
   EXPECT_EQ(coarse.step, 5);
-  EXPECT_EQ(coarse.columns, kSize / 5);
+  EXPECT_EQ(coarse.columns, kPictureSide / 5);
   EXPECT_EQ(coarse.cells.size(), static_cast<size_t>(coarse.columns * coarse.rows));
   const cv::Mat large(600, 800, CV_8U, cv::Scalar(90));
   EXPECT_LE(paired(large, large, {0, 0, 800, 600}, 0.04).cells.size(), kMaxFlowCells);
@@ -78,7 +78,7 @@ TEST(FlowField, KeepsTheSurroundingsThatTheImageHas) {
   EXPECT_LT(field.known.x0, 80);
   EXPECT_GT(field.known.x0, 0);
   EXPECT_EQ(field.known.y0, 0);
-  EXPECT_EQ(field.known.x1, kSize);
+  EXPECT_EQ(field.known.x1, kPictureSide);
   EXPECT_TRUE(paired(pattern({0, 0}), pattern({1, 0}), {}).cells.empty());
 }
 
@@ -110,15 +110,16 @@ CapsuleList one_body() {
   const Body body = make_body(Subject{}, {});
   Pose pose;
   pose.root = {0, 0, 0.95};
-  return project_parts(camera_at({0, -6, 1.5}, {0, 0, 0.9}, 300, kSize, kSize), posed(body, pose));
+  return project_parts(camera_at({0, -6, 1.5}, {0, 0, 0.9}, 300, kPictureSide, kPictureSide),
+                       posed(body, pose));
 }
 
 // Images of a textured body in front of a static, textured scene.
 cv::Mat filmed(const CapsuleList& body, const Vector2d& place) {
   cv::Mat image = pattern({500, 300});
   const cv::Mat cloth = pattern(place);
-  for (int y = 0; y < kSize; ++y)
-    for (int x = 0; x < kSize; ++x)
+  for (int y = 0; y < kPictureSide; ++y)
+    for (int x = 0; x < kPictureSide; ++x)
       for (const Capsule& part : body)
         if (inside(part, {x, y})) image.at<uint8_t>(y, x) = cloth.at<uint8_t>(y, x);
   return image;
@@ -238,8 +239,8 @@ TEST(FlowLogRatio, HiddenPixelsMayHaveAnyColour) {
   const auto picture = [&](double near_x) {
     cv::Mat image = pattern({500, 300});
     const cv::Mat cloth = pattern({near_x, 0});
-    for (int y = 0; y < kSize; ++y) {
-      for (int x = 0; x < kSize; ++x) {
+    for (int y = 0; y < kPictureSide; ++y) {
+      for (int x = 0; x < kPictureSide; ++x) {
         if (inside(leg(0, 80, 5), {x, y})) image.at<uint8_t>(y, x) = 20;
         if (inside(leg(1, near_x, 4), {x, y})) image.at<uint8_t>(y, x) = cloth.at<uint8_t>(y, x);
       }

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kHeight = 1.75;
+constexpr double kPersonHeight = 1.75;
 
 constexpr std::array kLegNames{KeypointName::kLeftHip,    KeypointName::kRightHip,
                                KeypointName::kLeftKnee,   KeypointName::kRightKnee,
@@ -259,11 +259,11 @@ struct Learning : SeenFromTheSide {
       const Pose here = pose(0.2 * std::sin(0.1 * f));
       DetectedPerson person = seen(here);
       for (Keypoint& point : person.points) {
-        point.x_px += static_cast<float>(0.005 * kHeight * px_per_m * rng.normal());
-        point.y_px += static_cast<float>(0.005 * kHeight * px_per_m * rng.normal());
+        point.x_px += static_cast<float>(0.005 * kPersonHeight * px_per_m * rng.normal());
+        point.y_px += static_cast<float>(0.005 * kPersonHeight * px_per_m * rng.normal());
       }
       for (const KeypointName name : {KeypointName::kLeftHip, KeypointName::kRightHip})
-        person[name].y_px -= static_cast<float>(0.02 * kHeight * px_per_m);
+        person[name].y_px -= static_cast<float>(0.02 * kPersonHeight * px_per_m);
       watching.observe({}, whole_image(camera, 0.01), now, {person});
       const PosedBody found = posed(here);
       watching.learn(now, project_parts(camera, found.parts), &found);

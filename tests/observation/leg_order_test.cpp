@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kSize = 120;
-constexpr PixelRect kAll{0, 0, kSize, kSize};
+constexpr PixelRect kWholeArea{0, 0, kSize, kSize};
 
 // Cloth with stripes, `shift` px to the right.
 GreyImage cloth(double shift) {
@@ -29,7 +29,7 @@ GreyImage cloth(double shift) {
 
 LogRatioPlanes everywhere(float nats) {
   LogRatioPlanes planes;
-  resize(planes, kAll, 1);
+  resize(planes, kWholeArea, 1);
   for (int y = 0; y < kSize; ++y) set_row(planes, 0, y, std::vector<float>(kSize, nats), 4);
   return planes;
 }

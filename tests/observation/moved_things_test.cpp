@@ -12,7 +12,7 @@
 namespace walktrack {
 namespace {
 
-constexpr int kWidth = 120, kHeight = 90, kFrames = 8;
+constexpr int kAcross = 120, kDown = 90, kFrames = 8;
 constexpr double kLeastSide = 6;  // px
 const cv::Rect kThing(70, 40, 20, 24);
 const cv::Scalar kThingColour(60, 70, 150), kClothes(150, 60, 40);
@@ -20,9 +20,9 @@ const cv::Scalar kThingColour(60, 70, 150), kClothes(150, 60, 40);
 class MovedThingsTest : public testing::Test {
  protected:
   cv::Mat room(double gain = 1) {
-    cv::Mat out(kHeight, kWidth, CV_8UC3);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x)
+    cv::Mat out(kDown, kAcross, CV_8UC3);
+    for (int y = 0; y < kDown; ++y)
+      for (int x = 0; x < kAcross; ++x)
         for (int c = 0; c < 3; ++c)
           out.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uint8_t>(
               gain * (100 + 20 * c + 0.3 * x + 0.2 * y) + 2 * rng_.normal());
@@ -56,12 +56,12 @@ class MovedThingsTest : public testing::Test {
     return model(picture);
   }
   static double share(const cv::Rect& area) {
-    return area.area() / static_cast<double>(kWidth * kHeight);
+    return area.area() / static_cast<double>(kAcross * kDown);
   }
   // Luma of the model in the middle of the thing.
   static double luma_there(const BackgroundModel& model) {
     const cv::Point middle = (kThing.tl() + kThing.br()) / 2;
-    return model.luma[static_cast<size_t>(middle.y * kWidth + middle.x)];
+    return model.luma[static_cast<size_t>(middle.y * kAcross + middle.x)];
   }
   BackgroundConfig config_;
   Rng rng_{1, Purpose::kTest};

@@ -13,21 +13,21 @@ namespace {
 
 using Eigen::Vector2d;
 
-const PixelRect kArea{3, 5, 123, 165};
+const PixelRect kPixels{3, 5, 123, 165};
 
 // Two planes; nats of each pixel of either as the functions say.
 template <typename First, typename Second>
 LogRatioPlanes planes_of(First&& first, Second&& second) {
   LogRatioPlanes planes;
-  resize(planes, kArea, 2);
+  resize(planes, kPixels, 2);
   planes.plane_of = {0, 1, 1, 0, 0};
-  std::vector<float> row(static_cast<size_t>(kArea.width()));
-  for (int y = kArea.y0; y < kArea.y1; ++y) {
-    for (int x = kArea.x0; x < kArea.x1; ++x)
-      row[static_cast<size_t>(x - kArea.x0)] = static_cast<float>(first(Vector2d(x, y)));
+  std::vector<float> row(static_cast<size_t>(kPixels.width()));
+  for (int y = kPixels.y0; y < kPixels.y1; ++y) {
+    for (int x = kPixels.x0; x < kPixels.x1; ++x)
+      row[static_cast<size_t>(x - kPixels.x0)] = static_cast<float>(first(Vector2d(x, y)));
     set_row(planes, 0, y, row, 4);
-    for (int x = kArea.x0; x < kArea.x1; ++x)
-      row[static_cast<size_t>(x - kArea.x0)] = static_cast<float>(second(Vector2d(x, y)));
+    for (int x = kPixels.x0; x < kPixels.x1; ++x)
+      row[static_cast<size_t>(x - kPixels.x0)] = static_cast<float>(second(Vector2d(x, y)));
     set_row(planes, 1, y, row, 4);
   }
   return planes;
@@ -89,19 +89,19 @@ TEST(Overlap, EqualsTheSumOverPixels) {
   const auto noise = [&](const Vector2d&) { return std::floor(draw(rng, -800, 800)) / 256; };
   const LogRatioPlanes planes = planes_of(noise, noise);
   const CapsuleList figure = figure_at(40);
-  PixelRect box{kArea.x1, kArea.y1, kArea.x0, kArea.y0};
+  PixelRect box{kPixels.x1, kPixels.y1, kPixels.x0, kPixels.y0};
   const auto each_pixel = [](const PixelRect& area, const auto& visit) {
     for (int y = area.y0; y < area.y1; ++y)
       for (int x = area.x0; x < area.x1; ++x) visit(x, y);
   };
-  each_pixel(kArea, [&](int x, int y) {
+  each_pixel(kPixels, [&](int x, int y) {
     if (!in_figure(figure, Vector2d(x, y))) return;
     box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1),
            std::max(box.y1, y + 1)};
   });
   const auto by = static_cast<int>(std::lround(kNearMargin * box.height()));
   Overlap expected;
-  each_pixel(intersection({box.x0 - by, box.y0 - by, box.x1 + by, box.y1 + by}, kArea),
+  each_pixel(intersection({box.x0 - by, box.y0 - by, box.x1 + by, box.y1 + by}, kPixels),
              [&](int x, int y) {
                const double nats = std::max(log_ratio_at(planes, Appearance::kTrunk, x, y),
                                             log_ratio_at(planes, Appearance::kLegs, x, y));

@@ -22,11 +22,6 @@ MotionConfig quiet_anthropomorphic() {
   return config;
 }
 
-void silence(const MotionContext& context, WalkerParticle& particle) {
-  particle.noise.fill(0);
-  context.moves.apply_noise(context, particle);
-}
-
 TEST(AnthropomorphicMotion, WithoutNoiseWalksStraightAtTheSpeedAimedAt) {
   const Walking walking(MotionKind::kAnthropomorphic);
   const MotionContext context = walking.context(kDt, quiet_anthropomorphic());

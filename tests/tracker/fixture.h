@@ -34,6 +34,12 @@ struct Walking {
   }
 };
 
+// Without the noise that it drew.
+inline void silence(const MotionContext& context, WalkerParticle& particle) {
+  particle.noise.fill(0);
+  context.moves.apply_noise(context, particle);
+}
+
 // A scene without cameras and evidence.
 inline TrackerScene unseen(const BodyModel& model, double dt) {
   TrackerScene scene;

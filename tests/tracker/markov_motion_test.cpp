@@ -20,11 +20,6 @@ MotionConfig quiet_markov() {
   return config;
 }
 
-void silence(const MotionContext& context, WalkerParticle& particle) {
-  particle.noise.fill(0);
-  context.moves.apply_noise(context, particle);
-}
-
 WalkerParticle first_seen(const MotionContext& context, double speed) {
   WalkerParticle p = walkers(context, speed, 1)[0];
   Rng rng(1, Purpose::kTest);

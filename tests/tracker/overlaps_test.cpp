@@ -5,10 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/tracker/frame_time.h"
+
 namespace walktrack {
 namespace {
 
-constexpr double kDt = 1.0 / 30;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 using Fits = std::vector<FigureFit>;
 

@@ -12,7 +12,7 @@
 namespace walktrack {
 namespace {
 
-Pose striding() {
+Pose mid_stride() {
   Pose pose;
   pose.root = {0, 0, 0.9};
   pose.heading = 0.05;
@@ -59,7 +59,7 @@ double off(const Pose& pose, const Pose& truth) {
 }
 
 TEST_F(Refined, PosesComeCloseToWhatIsSeen) {
-  const Pose truth = striding();
+  const Pose truth = mid_stride();
   show(truth, {0, -4, 1});
   show(truth, {3, -3, 1.5});
   const FrameRecord before = record_of(nearby(truth));
@@ -76,8 +76,8 @@ TEST_F(Refined, PosesComeCloseToWhatIsSeen) {
 }
 
 TEST_F(Refined, TheSameForAnyThreadCount) {
-  show(striding(), {0, -4, 1});
-  FrameRecord one = record_of(nearby(striding())), four = one;
+  show(mid_stride(), {0, -4, 1});
+  FrameRecord one = record_of(nearby(mid_stride())), four = one;
   refine(scene, evidence, 1, one);
   refine(scene, evidence, 4, four);
   for (size_t j = 0; j < kJointCountWithoutArms; ++j)
@@ -85,12 +85,12 @@ TEST_F(Refined, TheSameForAnyThreadCount) {
 }
 
 TEST_F(Refined, TheWalkersPoseIsKeptWithoutEvidence) {
-  const FrameRecord before = record_of(nearby(striding()));
+  const FrameRecord before = record_of(nearby(mid_stride()));
   FrameRecord after = before;
   refine(scene, evidence, 1, after);
   EXPECT_EQ(after.estimate.pose.root, before.estimate.pose.root);
   EXPECT_EQ(off(after.estimate.pose, before.estimate.pose), 0);
-  show(striding(), {0, -4, 1});
+  show(mid_stride(), {0, -4, 1});
   after.tracked = false;
   refine(scene, evidence, 1, after);
   EXPECT_EQ(off(after.estimate.pose, before.estimate.pose), 0) << "not tracked";
@@ -98,7 +98,7 @@ TEST_F(Refined, TheWalkersPoseIsKeptWithoutEvidence) {
 
 TEST_F(Refined, NothingTurnsOutOfASagittalPath) {
   scene.model = test_model(Path::kSagittal);
-  const Pose truth = striding();
+  const Pose truth = mid_stride();
   show(truth, {0, -4, 1});
   Pose pose = nearby(truth);
   pose.heading += 0.03;
@@ -115,7 +115,7 @@ TEST_F(Refined, NothingTurnsOutOfASagittalPath) {
 
 TEST_F(Refined, ArmsFollowTheirSilhouettesToo) {
   scene.model.body = make_body(Subject{}, {.head = true, .arms = true});
-  Pose truth = striding();
+  Pose truth = mid_stride();
   truth.arms[0] = {-0.5, 0.1, 0.3};
   truth.arms[1] = {0.5, 0.1, 0.4};
   show(truth, {0, -4, 1});

@@ -10,6 +10,7 @@
 
 #include "core/rng.h"
 #include "tests/walker/kneed_files.h"
+#include "tests/walker/spread.h"
 #include "walker/lanes/lanes.h"
 
 namespace walktrack {
@@ -23,8 +24,6 @@ struct Crowd {
   std::vector<KneedAdvance> results;
   size_t size() const { return states.size(); }
 };
-
-double spread(Rng& rng, double size) { return size * (2 * rng.uniform() - 1); }
 
 class KneedBatch : public testing::Test {
  protected:

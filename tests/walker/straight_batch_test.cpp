@@ -10,6 +10,7 @@
 
 #include "core/parallel_for.h"
 #include "core/rng.h"
+#include "tests/walker/spread.h"
 #include "walker/linkage/linkage_walker.h"
 #include "walker/simulate.h"
 
@@ -34,8 +35,6 @@ const std::vector<Published> kPublished{
     {{0, 0.06}, {-0.309104598, 0.309104598}, {0.334156693, 0.267997464}},
     {{0.1, 0.1}, {-0.335708232, 0.335708232}, {0.512001304, 0.393117244}},
     {{0.05, 0.1}, {-0.357459851, 0.357459851}, {0.479461382, 0.35524949}}};
-
-double spread(Rng& rng, double size) { return size * (2 * rng.uniform() - 1); }
 
 class StraightBatch : public testing::Test {
  protected:

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
+#include <Eigen/LU>
+
+#include "core/dense.h"
 
 namespace walktrack {
 inline namespace io {
@@ -47,8 +49,9 @@ Eigen::Matrix3d checked_rotation(const Eigen::Matrix3d& matrix, const Complain& 
   }
   constexpr double kExact = 1e-9;
   if (error < kExact) return matrix;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  // the nearest rotation: R (R'R)^-1/2 (Higham 1986)
+  const auto [values, axes] = symmetric_eigen(matrix.transpose() * matrix);
+  return matrix * (axes * values.cwiseSqrt().cwiseInverse().asDiagonal() * axes.transpose());
 }
 
 Eigen::Matrix3d rotation_from_rodrigues(const Eigen::Vector3d& vector) {

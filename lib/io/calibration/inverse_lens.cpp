@@ -4,7 +4,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/QR>
+
+#include "core/dense.h"
 
 namespace walktrack {
 inline namespace io {
@@ -39,7 +40,7 @@ void set_inverse_distortion(Camera& camera,
     bent.segment<2>(2 * i) =
         (pixels[static_cast<size_t>(i)] - camera.centre_px).cwiseQuotient(camera.focal_px) - at;
   }
-  const Eigen::Vector<double, 5> k = terms.colPivHouseholderQr().solve(bent);
+  const Eigen::Vector<double, 5> k = least_squares(terms, bent);
   const Eigen::VectorXd missed = terms * k - bent;
   double worst = 0;
   for (Eigen::Index i = 0; i < count; ++i)

@@ -1,8 +1,8 @@
 #include "io/calibration/measured_points.h"
 
 #include <fmt/format.h>
-#include <Eigen/SVD>
 
+#include "core/dense.h"
 #include "core/errors.h"
 #include "io/tables/csv.h"
 
@@ -20,8 +20,8 @@ bool on_one_line(const std::vector<Eigen::Vector3d>& points) {
   Eigen::MatrixX3d rows(points.size(), 3);
   for (size_t i = 0; i < points.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = points[i];
   rows.rowwise() -= rows.colwise().mean().eval();
-  const Eigen::Vector3d spread = Eigen::JacobiSVD<Eigen::MatrixX3d>(rows).singularValues();
-  return !(spread[1] > kLeastBreadth * spread[0]);
+  const Eigen::VectorXd squares = symmetric_eigen(rows.transpose() * rows).values;
+  return !(squares[1] > kLeastBreadth * kLeastBreadth * squares[2]);
 }
 
 }  // namespace

@@ -54,9 +54,6 @@ struct Weights {
   float log_plain, log_shadow, log_unknown, darkest, tint, sky, gradient;
 };
 
-// A pixel with a mean below this is black, so that the ratio of a shadow is undefined. By hand.
-constexpr float kDarkestMean = 8;
-
 // A row of a channel with the rows above and below (itself at the border of the image).
 struct Rows {
   const float *above, *here, *below;

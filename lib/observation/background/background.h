@@ -30,6 +30,9 @@ inline namespace observation {
 inline constexpr float kNeverSeen = 1e-6F;
 inline bool never_seen(float precision) { return precision <= 2 * kNeverSeen; }
 
+// A pixel with a mean below this is black, so that the ratio of a shadow is undefined. By hand.
+inline constexpr float kDarkestMean = 8;
+
 struct BackgroundModel {
   int width = 0, height = 0;
   PictureChange change;                    // the model is of pictures that are changed in this way

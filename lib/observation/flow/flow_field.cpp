@@ -73,8 +73,7 @@ class UncoveredDensity {
         unknown_(c.unknown_share / kLevels) {}
 
   double log_density(double grey, double mean, double precision) const {
-    constexpr double kDarkestMean = 8;  // as background.cpp's
-    const double off = grey - mean, bright = std::max(mean, kDarkestMean);
+    const double off = grey - mean, bright = std::max<double>(mean, kDarkestMean);
     double density =
         unknown_ + plain_ * std::sqrt(precision) * std::exp(-0.5 * off * off * precision);
     if (grey < bright && grey > darkest_ * bright) density += shadow_ / bright;

@@ -5,10 +5,10 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "core/conventions.h"
+#include "core/dense.h"
 #include "core/errors.h"
 #include "observation/two_views/walker_floor.h"
 #include "observation/two_views/walker_rays.h"
@@ -147,10 +147,10 @@ Numbers variances_of(const WalkerRays& rays, const LeastSquaresFit& found, const
     out += (other.numbers - best.numbers).cwiseAbs2() / (kSmall * kSmall);
   };
   const double unit = std::max(1.0, rays.rms(rays.pair(found.x)) / kExpectedRms);
-  const Eigen::MatrixXd open = unit * Eigen::MatrixXd(found.covariance().llt().matrixL());
+  const Eigen::MatrixXd open = unit * cholesky_root(found.covariance());
   for (const auto& axis : open.colwise())
     add(solved(rays, found.x + kSmall * axis, given, given.stature));
-  const Eigen::Matrix2d lean = best.lean_covariance.llt().matrixL();
+  const Eigen::Matrix2d lean = cholesky_root(best.lean_covariance);
   for (const auto& axis : lean.colwise())
     add(solved(rays, found.x, given, given.stature, kSmall * axis));
   const double stature_sd = std::hypot(given.stature_sd, kEyesSd * given.stature);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include <Eigen/Cholesky>
+#include "core/dense.h"
 
 namespace walktrack {
 inline namespace tracker {
@@ -71,7 +71,7 @@ void add_information(const FreeNumbers& free, const Pose& pose, const Eigen::Mat
   const Eigen::VectorXd precision = spreads_of(free).cwiseInverse().cwiseAbs2();
   const Eigen::MatrixXd posterior = sum + Eigen::MatrixXd(precision.asDiagonal());
   const Eigen::VectorXd step =
-      posterior.llt().solve(information * difference(free, images.pose, pose));
+      solve_positive(posterior, information * difference(free, images.pose, pose));
   images.pose = with_values(free, images.pose, values_of(free, images.pose) + step);
   images.information = packed(free, sum);
 }

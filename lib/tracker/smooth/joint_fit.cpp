@@ -4,10 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include "body/kinematics.h"
 #include "body/pose_from_joints.h"
+#include "core/dense.h"
 #include "core/median.h"
 
 namespace walktrack {
@@ -127,7 +126,7 @@ std::optional<JointFit> fit_joints(const BodyModel& model, const JointPositions&
         slope.transpose() * weights.cwiseProduct(wanted - points(model, targets, out.pose)) -
         prior.cwiseProduct(difference(free, *first, out.pose));
     const MatrixXd whole = out.information + MatrixXd(prior.asDiagonal());
-    out.pose = with_values(free, out.pose, values_of(free, out.pose) + whole.llt().solve(pull));
+    out.pose = with_values(free, out.pose, values_of(free, out.pose) + solve_positive(whole, pull));
   }
   return out;
 }

@@ -5,10 +5,10 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "core/conventions.h"
+#include "core/dense.h"
 
 namespace walktrack {
 inline namespace tracker {
@@ -149,7 +149,8 @@ Eigen::Matrix3d figure_covariance(std::span<const Camera> cameras, const Eigen::
 Eigen::Matrix3d figure_root(std::span<const Camera> cameras, const JointPositions& joints) {
   const Eigen::Vector3d feet = 0.5 * (joints[Joint::kLeftAnkle] + joints[Joint::kRightAnkle]);
   const Eigen::Matrix3d covariance = figure_covariance(cameras, joints[Joint::kHead], feet);
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).operatorSqrt();
+  const auto [values, axes] = symmetric_eigen(covariance);
+  return axes * values.cwiseSqrt().asDiagonal() * axes.transpose();
 }
 
 double ModelErrorDraw::Process::value() const {
@@ -173,7 +174,7 @@ JointPositions ModelErrorDraw::next(double dt, const Eigen::Matrix3d& figure) {
   const Eigen::Matrix2d step =
       decay * Eigen::Matrix2d{{1 + r, r}, {-r, 1 - r}};  // of (value, rate * kPassingTime)
   const Eigen::Matrix2d noise =
-      Eigen::LLT<Eigen::Matrix2d>(Eigen::Matrix2d::Identity() - step * step.transpose()).matrixL();
+      cholesky_root(Eigen::Matrix2d::Identity() - step * step.transpose());
   const auto advance = [&](Process& process) {
     const Eigen::Vector2d now =
         step * Eigen::Vector2d(process.passing, process.rate * kPassingTime) +

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <vector>
 
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 
 #include "core/conventions.h"
+#include "core/dense.h"
 #include "io/calibration/xml_element.h"
 
 namespace walktrack {
@@ -30,7 +30,7 @@ std::vector<double> inverse_distortion(double kappa, double largest_radius) {
     powers.row(i) << r2, r2 * r2, r2 * r2 * r2;
     change[i] = distorted / radius - 1;
   }
-  const Eigen::Vector3d k = powers.colPivHouseholderQr().solve(change);
+  const Eigen::Vector3d k = least_squares(powers, change);
   return {k[0], k[1], 0, 0, k[2]};
 }
 
