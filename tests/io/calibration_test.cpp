@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/errors.h"
+#include "io/calibration/calibration_checks.h"
 #include "io/calibration/formats/opencv.h"
 #include "tests/camera/sample_cameras.h"
 #include "tests/io/sample_files.h"
@@ -120,6 +121,20 @@ TEST(ReadCalibration, ReadsTheRealPetsCamera) {
   // The camera is on a roof and looks down from several metres.
   EXPECT_GT(camera_centre(camera).z(), 5);
   EXPECT_LT(camera.rotation(2, 2), 0);
+}
+
+// Of a matrix with few digits. Q is the rotation nearest to M if Q'M is symmetric and positive
+// definite (Higham 1986): M = Q S.
+TEST(CheckedRotation, IsTheNearestOne) {
+  Eigen::Matrix3d rounded =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  rounded(0, 1) += 2e-4;
+  rounded(2, 0) -= 1e-4;
+  const Eigen::Matrix3d q = checked_rotation(rounded, [](auto...) { FAIL(); });
+  EXPECT_LT((q.transpose() * q - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+  const Eigen::Matrix3d s = q.transpose() * rounded;
+  EXPECT_LT((s - s.transpose()).norm(), 1e-14);
+  EXPECT_GT(s.diagonal().minCoeff(), 0.99);
 }
 
 }  // namespace
