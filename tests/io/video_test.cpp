@@ -1,5 +1,7 @@
 #include "io/video/video.h"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <fstream>
 #include <set>
@@ -283,6 +285,39 @@ TEST(VideoWriter, WritesTheSameBytesAgain) {
   write_sample_video(folder / "a.mp4", 30);
   write_sample_video(folder / "b.mp4", 30);
   EXPECT_EQ(read_file(folder / "a.mp4"), read_file(folder / "b.mp4"));
+}
+
+// Lets this thread use one processor only while it lives.
+class OneProcessor {
+ public:
+  OneProcessor() {
+    sched_getaffinity(0, sizeof(before_), &before_);
+    int first = 0;
+    while (!CPU_ISSET(first, &before_)) ++first;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(first, &one);
+    sched_setaffinity(0, sizeof(one), &one);
+  }
+  ~OneProcessor() { sched_setaffinity(0, sizeof(before_), &before_); }
+
+ private:
+  cpu_set_t before_{};
+};
+
+// An encoder that takes as many threads as there are processors (for small frames it takes one)
+// gives other bytes on each machine.
+TEST(VideoWriter, WritesTheSameBytesWithOneProcessor) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name) {
+    VideoWriter writer(folder / name, {64, 192}, 25);
+    for (int i = 0; i < 10; ++i) writer.write(cv::Mat(192, 64, CV_8UC3, cv::Scalar::all(20 * i)));
+    writer.close();
+    return read_file(folder / name);
+  };
+  const std::string all = write("all.mp4");
+  const OneProcessor one;
+  EXPECT_EQ(write("one.mp4"), all);
 }
 
 // A moving pattern, so that encoders have motion to encode.

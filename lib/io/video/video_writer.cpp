@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <opencv2/videoio.hpp>
 
 #include "io/archive/files.h"
 #include "io/ffmpeg/h264_file.h"
@@ -16,26 +15,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::unique_ptr<cv::VideoWriter> open_encoder(const fs::path& path, cv::Size size, double rate) {
-  for (const int code :
-       {cv::VideoWriter::fourcc('a', 'v', 'c', '1'), cv::VideoWriter::fourcc('m', 'p', '4', 'v')}) {
-    auto writer =
-        std::make_unique<cv::VideoWriter>(path.string(), cv::CAP_FFMPEG, code, rate, size);
-    if (writer->isOpened()) return writer;
-  }
-  throw std::runtime_error(fmt::format("{}: no video encoder opens for {}x{} px at {:g} Hz",
+std::unique_ptr<H264File> open_encoder(const fs::path& path, cv::Size size, double rate,
+                                       EncoderPreset preset) {
+  const cv::Size even(size.width & ~1, size.height & ~1);
+  if (auto file = H264File::open(path, even, rate, preset)) return file;
+  throw std::runtime_error(fmt::format("{}: no H.264 encoder opens for {}x{} px at {:g} Hz",
                                        path.string(), size.width, size.height, rate));
 }
 
 }  // namespace
 
 VideoWriter::VideoWriter(const fs::path& path, cv::Size size_px, double frame_rate,
-                         std::optional<EncoderPreset> preset)
+                         EncoderPreset preset)
     : path_(path), temporary_(new_temporary(path, ".mp4")) {
   try {
-    const cv::Size even(size_px.width & ~1, size_px.height & ~1);
-    if (preset) chosen_ = H264File::open(temporary_, even, frame_rate, *preset);
-    if (!chosen_) writer_ = open_encoder(temporary_, size_px, frame_rate);
+    encoder_ = open_encoder(temporary_, size_px, frame_rate, preset);
   } catch (...) {
     std::error_code ignored;
     fs::remove(temporary_, ignored);
@@ -44,9 +38,8 @@ VideoWriter::VideoWriter(const fs::path& path, cv::Size size_px, double frame_ra
 }
 
 VideoWriter::~VideoWriter() {
-  if (!writer_ && !chosen_) return;
-  chosen_.reset();
-  writer_.reset();
+  if (!encoder_) return;
+  encoder_.reset();
   std::error_code ignored;
   fs::remove(temporary_, ignored);
 }
@@ -55,9 +48,8 @@ VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 
 void VideoWriter::write(const cv::Mat& frame) {
   ++frames_;
-  if (writer_) return writer_->write(frame);
   try {
-    chosen_->write(frame);
+    encoder_->write(frame);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", path_.string(), error.what()));
   }
@@ -65,19 +57,17 @@ void VideoWriter::write(const cv::Mat& frame) {
 
 void VideoWriter::close() {
   try {
-    if (chosen_) chosen_->finish();
+    encoder_->finish();
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", path_.string(), error.what()));
   }
-  if (writer_) writer_->release();
-  // OpenCV's encoder reports no errors, so the file is opened to check it.
+  // Encoders have written less than they said, so the file is opened to check it.
   const auto check = VideoDecoder::open(temporary_);
   const bool complete = check && check->frame_count() == frames_;
   if (frames_ > 0 && !complete) {
     throw std::runtime_error(fmt::format("{}: cannot be written completely", path_.string()));
   }
-  chosen_.reset();
-  writer_.reset();
+  encoder_.reset();
   publish_file(temporary_, path_);
 }
 

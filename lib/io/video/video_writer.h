@@ -1,21 +1,14 @@
 // Writes a video that appears complete or not at all: frames go to a temporary file beside it;
-// close() checks, flushes and renames it. H.264 in MP4 if FFmpeg can encode it, otherwise MPEG-4.
-//
-// Without a preset OpenCV encodes, so that the bytes of videos on which measurements depend stay
-// the same. With a preset H264File does.
+// close() checks, flushes and renames it. H.264 in MP4; the same frames give the same bytes on
+// every machine, whatever its number of cores (H264File).
 #pragma once
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 
 #include <opencv2/core/mat.hpp>
 
 #include "io/video/encoder_preset.h"
-
-namespace cv {
-class VideoWriter;
-}
 
 namespace walktrack {
 inline namespace io {
@@ -27,7 +20,7 @@ class VideoWriter {
   // Sizes are those of the frames, px; odd ones lose their last row or column. Throws
   // std::runtime_error if no encoder opens.
   VideoWriter(const std::filesystem::path& path, cv::Size size_px, double frame_rate,
-              std::optional<EncoderPreset> preset = std::nullopt);
+              EncoderPreset preset = EncoderPreset::kMedium);
   ~VideoWriter();  // without close(): removes the file
   VideoWriter(VideoWriter&&) noexcept;
   VideoWriter& operator=(VideoWriter&&) = delete;
@@ -40,8 +33,7 @@ class VideoWriter {
 
  private:
   std::filesystem::path path_, temporary_;
-  std::unique_ptr<H264File> chosen_;         // with a preset, or
-  std::unique_ptr<cv::VideoWriter> writer_;  // without one; neither once closed
+  std::unique_ptr<H264File> encoder_;  // none once closed
   int frames_ = 0;
 };
 
