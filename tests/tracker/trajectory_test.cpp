@@ -114,7 +114,7 @@ double header_sum(const BodyModel& model, double dt, std::span<const FrameRecord
         sum += acceleration_cost(second[i], kPoseNumbers[free[size_t(i)]].acceleration, dt);
       if (way) {
         sum += acceleration_cost(way->dot(second.head<2>()), kPoseNumbers[0].acceleration, dt) +
-               acceleration_cost(way->x() * second[1] - way->y() * second[0], 0.3, dt);
+               acceleration_cost(way->x() * second[1] - way->y() * second[0], 0.5, dt);
       }
     }
     const JointPositions joints = forward_kinematics(model.body, poses[t]).joints;

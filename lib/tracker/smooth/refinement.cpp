@@ -1,9 +1,12 @@
 #include "tracker/smooth/refinement.h"
 
+#include <utility>
+
 #include "body/kinematics.h"
 #include "core/parallel_for.h"
 #include "filter/map_estimate.h"
 #include "tracker/frame_likelihood.h"
+#include "tracker/smooth/distance_information.h"
 #include "tracker/state/free_numbers.h"
 
 namespace walktrack {
@@ -52,9 +55,16 @@ void refine(const TrackerScene& scene, const SceneEvidence& evidence, int thread
                        to = forward_kinematics(model.body, pose).joints;
   const FrameEstimate before = record.estimate;
   record.estimate.pose = pose;
-  record.images = {
-      mean, pose,
-      found.information.isZero() ? std::vector<double>{} : packed(free, found.information)};
+  record.images = {mean, pose, {}};
+  if (!found.information.isZero()) {
+    Eigen::MatrixXd information = found.information;
+    if (scene.cameras.size() == 1) {
+      information = with_distance(
+          scene.cameras[0], free, pose,
+          [&](const Pose& at) { return log_likelihood(likelihood, at); }, std::move(information));
+    }
+    record.images.information = packed(free, information);
+  }
   move(from, to, before.joint_count, record.estimate.joints);
   shift_bands(before, record.estimate);
   for (JointPositions& sample : record.samples) move(from, to, before.joint_count, sample);

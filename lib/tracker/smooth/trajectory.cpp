@@ -26,7 +26,7 @@ using Eigen::VectorXd;
 constexpr double kWalkerRate = 1.5;          // w / dt, 1/s
 constexpr double kImageTime = 1.0 / 30;      // s, for which images err alike
 constexpr double kAccelerationTime = 0.025;  // tau, s
-constexpr double kSway = 0.3;                // m/s^2, of the root, across the walk
+constexpr double kSway = 0.5;                // m/s^2, of the root, across the walk
 constexpr double kSlide = 0.001;             // c, m
 constexpr double kSole = 0.03;               // b, m, once every
 constexpr double kSoleTime = 0.1;            // s
