@@ -66,6 +66,14 @@ TEST_F(DistanceInformation, IsNoneIfTheImagesPreferBothSides) {
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(information).eigenvalues()[0], -1e-9);
 }
 
+TEST_F(DistanceInformation, StaysIfTheImagesKnowNoDistance) {
+  const auto nothing = [](const Pose& pose) { return -rough(pose); };
+  MatrixXd information = stiff();
+  information.row(1).setZero();
+  information.col(1).setZero();
+  EXPECT_EQ(with_distance(camera, free, Pose{}, nothing, information), information);
+}
+
 TEST_F(DistanceInformation, StaysForWhoFacesTheCamera) {
   for (const double degrees : {90.0, 60.0, -120.0}) {
     Pose pose;

@@ -6,7 +6,6 @@
 
 #include "io/archive/files.h"
 #include "io/ffmpeg/h264_file.h"
-#include "io/ffmpeg/video_decoder.h"
 
 namespace walktrack {
 inline namespace io {
@@ -47,7 +46,6 @@ VideoWriter::~VideoWriter() {
 VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 
 void VideoWriter::write(const cv::Mat& frame) {
-  ++frames_;
   try {
     encoder_->write(frame);
   } catch (const std::runtime_error& error) {
@@ -60,12 +58,6 @@ void VideoWriter::close() {
     encoder_->finish();
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", path_.string(), error.what()));
-  }
-  // Encoders have written less than they said, so the file is opened to check it.
-  const auto check = VideoDecoder::open(temporary_);
-  const bool complete = check && check->frame_count() == frames_;
-  if (frames_ > 0 && !complete) {
-    throw std::runtime_error(fmt::format("{}: cannot be written completely", path_.string()));
   }
   encoder_.reset();
   publish_file(temporary_, path_);

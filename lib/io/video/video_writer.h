@@ -34,7 +34,6 @@ class VideoWriter {
  private:
   std::filesystem::path path_, temporary_;
   std::unique_ptr<H264File> encoder_;  // none once closed
-  int frames_ = 0;
 };
 
 }  // namespace io

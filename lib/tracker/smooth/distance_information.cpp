@@ -14,9 +14,6 @@ constexpr double kPlaceStep = 0.12;  // m, between the places that are compared
 // than the figure show another distance.
 constexpr double kMostAlong = 0.7;
 
-// The place over the ground is the first two free numbers.
-constexpr Eigen::Index kPlace = 2;
-
 }  // namespace
 
 Eigen::MatrixXd with_distance(const Camera& camera, const FreeNumbers& free, const Pose& pose,
@@ -26,12 +23,14 @@ Eigen::MatrixXd with_distance(const Camera& camera, const FreeNumbers& free, con
   if (std::abs(sight.dot(facing)) > kMostAlong) return information;
   const auto log_likelihood_at = [&](double distance) {
     Pose aside = pose;
-    aside.root.head<kPlace>() += distance * sight;
+    aside.root.head<kOverGround>() += distance * sight;
     return log_likelihood(aside);
   };
   Eigen::VectorXd along = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free.size()));
-  along.head<kPlace>() = sight;
+  along.head<kOverGround>() = sight;
   const double near_by = along.dot(information * along);
+  if (near_by <= 0) return information;
+
   const double further =
       (2 * log_likelihood_at(0) - log_likelihood_at(kPlaceStep) - log_likelihood_at(-kPlaceStep)) /
       (kPlaceStep * kPlaceStep);

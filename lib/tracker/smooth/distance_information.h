@@ -5,7 +5,7 @@
 // neighbouring frames have nearly the same, adds up what all of them show. It moves the subject
 // along the line of sight by ten centimetres and more, whereas the images' curvature comes from
 // sigma points a centimetre apart (filter/map_estimate.h). Outlines of pixels are rough at that
-// scale: along the line of sight the log-likelihood bends four to fifteen times as much there as
+// scale: along the line of sight the log-likelihood bends three to nineteen times as much there as
 // between places twelve centimetres apart, and the trajectory would stay where the particles were.
 // tracker/reports/reported_pose.md has measurements.
 #pragma once

@@ -37,8 +37,6 @@ constexpr double kFixed = 1e12;       // information of a pose that is not to ch
 // Ankle and toe of the left foot, then of the right one.
 using FeetPoints = Eigen::Matrix<double, 12, 1>;
 constexpr Index kFootSize = 6, kPointSize = 3;
-// The first free numbers: the place of the root over the ground.
-constexpr Index kOverGround = 2;
 
 FeetPoints feet_points(const Body& body, const Pose& pose) {
   const JointPositions joints = forward_kinematics(body, pose).joints;

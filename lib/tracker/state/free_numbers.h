@@ -15,6 +15,9 @@ inline namespace tracker {
 // Indices in kPoseNumbers, ascending.
 using FreeNumbers = std::vector<size_t>;
 
+// The first of them are the place of the root over the ground.
+inline constexpr Eigen::Index kOverGround = 2;
+
 FreeNumbers free_numbers(const BodyModel& model);
 
 Eigen::VectorXd values_of(const FreeNumbers& free, const Pose& pose);
