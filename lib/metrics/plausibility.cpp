@@ -16,9 +16,8 @@ constexpr double kPenetrates = 0.005;  // m; less is within the noise of any mea
 constexpr size_t kFewestTimes = 3;     // of steps, for a median
 constexpr double kRegular = 0.01;      // relative; rows further from equal steps are a gap
 
-// Largest distance on the ground between two positions of the foot in the flat part; < 0 if the
-// foot is known less than twice.
-double slide(const Motion& motion, const Stance& stance) {
+// The known places of the foot over the ground in the flat part.
+std::vector<Eigen::Vector2d> flat_places(const Motion& motion, const Stance& stance) {
   const double length = stance.off - stance.on;
   std::vector<Eigen::Vector2d> places;
   for (size_t i = 0; i < motion.time.size(); ++i) {
@@ -27,23 +26,37 @@ double slide(const Motion& motion, const Stance& stance) {
     const Eigen::Vector3d foot = foot_point(motion.joints[i], stance.side);
     if (known(foot)) places.push_back(foot.head<2>());
   }
-  double widest = places.size() < 2 ? -1 : 0;
+  return places;
+}
+
+// Largest of the distances between two of the places.
+template <typename Distance>
+double largest(const std::vector<Eigen::Vector2d>& places, const Distance& distance) {
+  double largest = 0;
   for (size_t i = 0; i < places.size(); ++i) {
-    for (size_t k = 0; k < i; ++k) widest = std::max(widest, (places[i] - places[k]).norm());
+    for (size_t k = 0; k < i; ++k) largest = std::max(largest, distance(places[i] - places[k]));
   }
-  return widest;
+  return largest;
 }
 
 void add_slides(const Motion& motion, const Gait& gait, Plausibility& out) {
   for (const Stance& stance : gait.stances) {
     if (!stance.starts_in_motion || !stance.ends_in_motion) continue;
-    const double travel = slide(motion, stance);
-    if (travel < 0) continue;
+    const std::vector<Eigen::Vector2d> places = flat_places(motion, stance);
+    if (places.size() < 2) continue;
+    const Eigen::Vector2d way =
+        walking_direction(motion, 0.5 * (stance.on + stance.off), gait.stride_time);
+    const double travel = largest(places, [](const auto& by) { return by.norm(); });
     ++out.stances;
     out.mean_foot_slide += travel;
     out.worst_foot_slide = std::max(out.worst_foot_slide, travel);
+    const auto along = [&](const Eigen::Vector2d& by) { return std::abs(by.dot(way)); };
+    // Where no direction is known, the whole displacement counts.
+    out.mean_slide_along += way.allFinite() ? largest(places, along) : travel;
   }
-  if (out.stances > 0) out.mean_foot_slide /= static_cast<double>(out.stances);
+  if (out.stances == 0) return;
+  out.mean_foot_slide /= static_cast<double>(out.stances);
+  out.mean_slide_along /= static_cast<double>(out.stances);
 }
 
 void add_penetration(const Motion& motion, Plausibility& out) {

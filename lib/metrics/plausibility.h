@@ -12,7 +12,8 @@ struct Plausibility {
   // Largest horizontal displacement of (ankle + toe) / 2 in the flat part of a complete stance:
   // mean and worst over stances, m. 0 without such a stance. Measured people: up to 12 mm.
   double mean_foot_slide = 0, worst_foot_slide = 0;
-  size_t stances = 0;  // that were counted
+  double mean_slide_along = 0;  // along the direction of walking alone, mean over stances, m
+  size_t stances = 0;           // that were counted
   // Largest depth of an ankle or toe below the ground, and the share of rows with more than 5 mm.
   double penetration = 0;
   double penetrating_share = 0;

@@ -157,6 +157,18 @@ TEST_F(DetectionsTest, ThreeCamerasNeedFewerParticles) {
   EXPECT_EQ(particles(three), std::pair(30, 20));
 }
 
+// Unless the configuration states it.
+TEST_F(DetectionsTest, FeetMaySlideFurtherBeforeSeveralCameras) {
+  const Scene one = scene("  - {name: a, video: a.mp4, calibration: a.yaml}\n");
+  Scene two = one;
+  two.cameras.resize(2, one.cameras[0]);
+  Config config;
+  EXPECT_EQ(decided(one, config).quality.foot_slide, 0.07);
+  EXPECT_EQ(decided(two, config).quality.foot_slide, 0.1);
+  config.quality.foot_slide = 0.2;
+  EXPECT_EQ(decided(one, config).quality.foot_slide, 0.2);
+}
+
 // Keypoints correct outlines, and several cameras' outlines the labels of keypoints, unless the
 // configuration states weights.
 TEST_F(DetectionsTest, OutlinesCountForLessBesideKeypoints) {

@@ -134,7 +134,7 @@ TEST_F(QualityOf, LimitsOnFeetAreForWhatWasTracked) {
   EXPECT_EQ(named(quality, "penetration_mm").value, 0);
   EXPECT_TRUE(named(quality, "penetration_mm").passed());
   EXPECT_FALSE(named(quality, "tracked_penetration_mm").passed());
-  EXPECT_EQ(*named(quality, "tracked_foot_slide_mm").limit, 80);
+  EXPECT_EQ(*named(quality, "tracked_slide_along_walk_mm").limit, 70);
 }
 
 // If somebody walks for half a video before the start, half of the video is lost.

@@ -27,6 +27,33 @@ TEST(Plausibility, FindsFeetThatDriftWithThePelvis) {
   EXPECT_NEAR(of(drifting).mean_foot_slide, expected, 2 * 0.1 / walk.rate);
 }
 
+// A heading that is wrong by some degrees moves feet across the walk, a wrong step along it.
+TEST(Plausibility, TellsFeetThatDriftAlongTheWalkFromThoseThatDriftAcross) {
+  const TestWalk walk;
+  const auto drifting = [&](const Eigen::Vector3d& velocity) {
+    return of(changed(walk_motion(walk), [&](JointPositions& joints, size_t i) {
+      for (Eigen::Vector3d& p : joints.at) p += double(i) / walk.rate * velocity;
+    }));
+  };
+  const Plausibility across = drifting({0, 0.1, 0}), along = drifting({0.1, 0, 0});
+  const double turned = std::atan2(0.1, walk.speed);  // the direction in which the pelvis drifts
+  EXPECT_NEAR(across.mean_slide_along, across.mean_foot_slide * std::sin(turned), 1e-3);
+  EXPECT_NEAR(along.mean_slide_along, along.mean_foot_slide, 1e-9);
+  EXPECT_GT(along.mean_slide_along, 0.02);
+}
+
+TEST(Plausibility, ASlideWithoutADirectionCountsAsAWhole) {
+  const TestWalk walk;
+  const Motion drifting = changed(walk_motion(walk), [&](JointPositions& joints, size_t i) {
+    for (Eigen::Vector3d& p : joints.at) p.y() += 0.1 * double(i) / walk.rate;
+  });
+  Gait without_strides = gait_from_motion(drifting);
+  without_strides.stride_time = 0;
+  const Plausibility p = plausibility(drifting, without_strides);
+  EXPECT_GT(p.mean_foot_slide, 0.02);
+  EXPECT_EQ(p.mean_slide_along, p.mean_foot_slide);
+}
+
 TEST(Plausibility, FindsFeetInTheGround) {
   const Motion low = changed(walk_motion({}), [](JointPositions& joints, size_t i) {
     if (i % 2 == 0) joints[Joint::kLeftToe].z() = -0.03;

@@ -41,7 +41,7 @@ struct QualityConfig {
   double shortest_step = 0;    // m along the way; negative if a foot lands behind the other
   double quickest_step = 0.5;  // of the usual time of a step
   double fastest = 2.5;        // m/s over half a second
-  double foot_slide = 0.08;    // m, mean over stances, before feet are planted
+  double foot_slide = 0.07;    // m along the walk, mean over stances, before feet are planted
   double penetration = 0.1;    // m
   double jitter = 500;         // m/s^3
 };
@@ -88,6 +88,15 @@ inline ObservationConfig weights_by_scene() {
   return out;
 }
 
+// The value of the limit of sliding feet that leaves it to the number of cameras
+// (jobs/track/report/track_quality.h).
+inline constexpr double kSlideByCameras = 0;
+inline QualityConfig quality_by_cameras() {
+  QualityConfig out;
+  out.foot_slide = kSlideByCameras;
+  return out;
+}
+
 struct Config {
   uint64_t seed = 1;  // of all random numbers
   int threads = 0;    // 0 = all that the process may use
@@ -96,7 +105,7 @@ struct Config {
   TrackerConfig tracker = particles_by_cameras();
   SmoothingConfig smoothing;
   KineticsConfig kinetics;
-  QualityConfig quality;
+  QualityConfig quality = quality_by_cameras();
   BudgetConfig budget;
   OverlayConfig overlay;
   ReportConfig report;

@@ -236,7 +236,8 @@ void add_track(ParameterTable& table) {
            "shortest time of a step, as a share of the usual one");
   g.number("fastest", &G::fastest, 0, 1000, "highest speed over half a second, m/s");
   g.number("foot_slide", &G::foot_slide, 0, 10,
-           "largest slide of a stance foot before it is held in place, mean over stances, m");
+           "largest slide of a stance foot along the walk before it is held in place, mean over "
+           "stances, m; 0 = 0.07 with one camera, 0.1 with more");
   g.number("penetration", &G::penetration, 0, 10, "largest depth of a foot below the ground, m");
   g.number("jitter", &G::jitter, 0, 1e9,
            "largest mean third derivative of the joint centres, m/s^3");

@@ -9,6 +9,7 @@
 #include "io/archive/files.h"
 #include "jobs/track/input/learned_background.h"
 #include "jobs/track/input/pose_model.h"
+#include "jobs/track/report/track_quality.h"
 #include "jobs/track/track_setup.h"
 
 namespace walktrack {
@@ -118,6 +119,8 @@ Config decided(const Scene& scene, const Config& config) {
   int &particles = out.tracker.filter.particles, &at_start = out.tracker.start.particles;
   if (particles == kParticlesByCameras) particles = enough.filter;
   if (at_start == kParticlesByCameras) at_start = enough.start;
+  double& slide = out.quality.foot_slide;
+  if (slide == kSlideByCameras) slide = allowed_slide(scene.cameras.size());
   return out;
 }
 

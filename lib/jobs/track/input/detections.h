@@ -42,7 +42,7 @@ std::string missing_network_note(const Scene& scene, const Config& config);
 // (observation/reports/flow.md).
 bool flow_wanted(const Config& config);
 // The configuration with what it leaves to the scene: terms are on or off, evidence has its
-// weights, particles have a number.
+// weights, particles have a number, sliding feet a limit.
 Config decided(const Scene& scene, const Config& config);
 
 // Frames from one look of the network to the next: as configured, or three, or fewer in a slow

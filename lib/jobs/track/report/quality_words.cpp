@@ -92,8 +92,13 @@ constexpr QualityWords kWords[] = {
      "How far the foot moves in the stance in which it moves furthest.", ""},
     {"penetration_mm", "Deepest foot below the ground", "mm", 0,
      "How deep an ankle or toe is below the floor of the calibration.", ""},
-    {"tracked_foot_slide_mm", "Sliding of a stance foot before feet are held in place", "mm", 0,
-     "How far a stance foot moves in the track, before feet are held in place.", kLookAtFeet},
+    {"tracked_slide_along_walk_mm",
+     "Sliding of a stance foot along the walk before feet are held in place", "mm", 0,
+     "How far a stance foot moves along the direction of walking in the track, before feet are "
+     "held "
+     "in place. Across that direction feet slide in right results too, because one camera at the "
+     "side of the walk hardly sees it.",
+     kLookAtFeet},
     {"tracked_penetration_mm", "Deepest foot below the ground before feet are held in place", "mm",
      0, "How deep an ankle or toe is below the floor in the track, before feet are held in place.",
      kLookAtFeet},

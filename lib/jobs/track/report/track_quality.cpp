@@ -67,8 +67,9 @@ void add_overlap(const TrackedFrames& frames, const QualityConfig& limits, Quali
 Quality quality_before(const TrackedFrames& moving, const QualityConfig& limits) {
   const Motion motion = motion_of(moving);
   const Plausibility p = plausibility(motion, gait_from_motion(motion));
-  return {at_most("tracked_foot_slide_mm", 1000 * p.mean_foot_slide, 1000 * limits.foot_slide),
-          at_most("tracked_penetration_mm", 1000 * p.penetration, 1000 * limits.penetration)};
+  return {
+      at_most("tracked_slide_along_walk_mm", 1000 * p.mean_slide_along, 1000 * limits.foot_slide),
+      at_most("tracked_penetration_mm", 1000 * p.penetration, 1000 * limits.penetration)};
 }
 
 }  // namespace
