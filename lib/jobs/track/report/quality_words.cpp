@@ -94,10 +94,8 @@ constexpr QualityWords kWords[] = {
      "How deep an ankle or toe is below the floor of the calibration.", ""},
     {"tracked_slide_along_walk_mm",
      "Sliding of a stance foot along the walk before feet are held in place", "mm", 0,
-     "How far a stance foot moves along the direction of walking in the track, before feet are "
-     "held "
-     "in place. Across that direction feet slide in right results too, because one camera at the "
-     "side of the walk hardly sees it.",
+     "How far a stance foot moves along the direction of walking before feet are held in place. "
+     "Across it feet slide in right results too: one camera at the side hardly sees it.",
      kLookAtFeet},
     {"tracked_penetration_mm", "Deepest foot below the ground before feet are held in place", "mm",
      0, "How deep an ankle or toe is below the floor in the track, before feet are held in place.",
