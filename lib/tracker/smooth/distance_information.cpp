@@ -10,17 +10,12 @@ namespace {
 
 // Chosen on the foreign renders of tracker/reports/reported_pose.md.
 constexpr double kPlaceStep = 0.12;  // m, between the places that are compared
-// Who faces within 45 degrees of the line of sight walks along it: there outlines that are wider
-// than the figure show another distance.
-constexpr double kMostAlong = 0.7;
 
 }  // namespace
 
 Eigen::MatrixXd with_distance(const Camera& camera, const FreeNumbers& free, const Pose& pose,
                               const PoseLikelihood& log_likelihood, Eigen::MatrixXd information) {
   const Eigen::Vector2d sight = (pose.root - camera_centre(camera)).head<2>().stableNormalized();
-  const Eigen::Vector2d facing(std::cos(pose.heading), std::sin(pose.heading));
-  if (std::abs(sight.dot(facing)) > kMostAlong) return information;
   const auto log_likelihood_at = [&](double distance) {
     Pose aside = pose;
     aside.root.head<kOverGround>() += distance * sight;

@@ -1,5 +1,4 @@
-// What the images of one camera say about the distance of a subject who walks across its line of
-// sight.
+// What the images of one camera say about the subject's distance.
 //
 // One frame hardly shows a distance; the trajectory (tracker/smooth/trajectory.h), in which
 // neighbouring frames have nearly the same, adds up what all of them show. It moves the subject
@@ -25,8 +24,7 @@ using PoseLikelihood = std::function<double(const Pose&)>;
 
 // The information about `pose` (tracker/smooth/image_information.h), by free number, in which the
 // curvature along the line of sight over the ground is that between places further apart, if it is
-// smaller there. Unchanged if the figure faces the camera or faces away. Positive semidefinite as
-// before.
+// smaller there. Positive semidefinite as before.
 Eigen::MatrixXd with_distance(const Camera& camera, const FreeNumbers& free, const Pose& pose,
                               const PoseLikelihood& log_likelihood, Eigen::MatrixXd information);
 

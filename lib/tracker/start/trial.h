@@ -1,7 +1,7 @@
 // The trial of a detected walk: the frames of its window are tracked, beginning with it. The trial
-// fails if the particles explain the frames worse than the rigid figures on a straight line with
-// which the walk was detected; that of a walk which the scene states, if they explain them worse
-// than an empty scene.
+// fails if the particles explain the frames clearly worse than the rigid figures on a straight line
+// with which the walk was detected; that of a walk which the scene states, if they explain them
+// worse than an empty scene.
 //
 // A start labels the legs by outlines, which from the side look the same with the legs swapped. If
 // the images (tracker/start/leg_label_evidence.h) do not clearly agree, both labels are tried.
