@@ -33,7 +33,7 @@ double share_along_rays(const Motion& motion, const Eigen::Vector2d& camera) {
 std::optional<std::string> viewing_ray_note(const Motion& motion, const Camera& camera) {
   if (share_along_rays(motion, camera_centre(camera).head<2>()) < kMostlyAlong) return std::nullopt;
   return "the subject walks towards the only camera or away from it: their distance may be wrong "
-         "by 0.1 to 0.4 m, and speed and step lengths with it; a camera from the side shows them "
+         "by 0.05 to 0.25 m, and speed and step lengths with it; a camera from the side shows them "
          "better";
 }
 
