@@ -130,6 +130,7 @@ TEST_F(QualityOf, LimitsOnFeetAreForWhatWasTracked) {
   QualityConfig limits;
   limits.least_steps = 0;
   limits.penetration = 0.015;
+  limits.foot_slide = 0.07;
   const Quality quality = walktrack::quality_of(planted, moving, limits, kLeg);
   EXPECT_EQ(named(quality, "penetration_mm").value, 0);
   EXPECT_TRUE(named(quality, "penetration_mm").passed());

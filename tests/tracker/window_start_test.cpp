@@ -58,7 +58,7 @@ TEST_F(WindowStartTest, SomebodyWhoIsVisibleIsTriedOnce) {
 // Of people in front of a camera the best of six figures in each frame fits as well as a walker.
 TEST_F(WindowStartTest, ATrialMayExplainALittleLessThanTheDetectedWalk) {
   struct Case {
-    double times;  // the log-likelihood of the trial, that of the detected walk
+    double times;  // so many times the trial explains, the detected walk does
     bool tracks;
   };
   show(0.2, kVideoFrames, {{0, -4, 1}});

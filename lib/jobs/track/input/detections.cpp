@@ -9,7 +9,6 @@
 #include "io/archive/files.h"
 #include "jobs/track/input/learned_background.h"
 #include "jobs/track/input/pose_model.h"
-#include "jobs/track/report/track_quality.h"
 #include "jobs/track/track_setup.h"
 
 namespace walktrack {

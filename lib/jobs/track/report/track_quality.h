@@ -21,11 +21,6 @@ using Quality = std::vector<QualityMeasure>;
 // quarter of what a walking person covers in that time.
 inline constexpr double kSomebodyMoves = 0.15;  // m^2
 
-// How far a foot may slide along the walk in the tracked motion, mean over stances, m. With one
-// camera this tells wrong results, above all of walks towards the camera. With several it told none
-// of those that were measured, and right ones slide further (report "Are green results right?").
-inline constexpr double allowed_slide(size_t cameras) { return cameras > 1 ? 0.1 : 0.07; }
-
 // Number of frames without a figure in which nobody can be tracked: the figure has left every
 // picture, and nobody moves.
 int frames_out_of_picture(const TrackedFrames& frames);
