@@ -58,7 +58,10 @@ void refine(const TrackerScene& scene, const SceneEvidence& evidence, int thread
   record.images = {mean, pose, {}};
   if (!found.information.isZero()) {
     Eigen::MatrixXd information = found.information;
-    if (scene.cameras.size() == 1) {
+    // Frames of somebody who stands show the same error of the outline again and again, and their
+    // sum would be believed.
+    const bool stands = record.modes.standing > 0.5;
+    if (scene.cameras.size() == 1 && !stands) {
       information = with_distance(
           scene.cameras[0], free, pose,
           [&](const Pose& at) { return log_likelihood(likelihood, at); }, std::move(information));
