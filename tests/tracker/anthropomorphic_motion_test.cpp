@@ -62,9 +62,13 @@ TEST(AnthropomorphicMotion, AWalkerThatFallsContinuesUpright) {
   const MotionContext context = walking.context(kDt, quiet_anthropomorphic());
   WalkerParticle p = walkers(context, 1.2, 1)[0];
   for (const int k : {kStanceThigh, kStanceShank}) p.walker.q[k] = -1.3;
+  p.predicted = p.walker;
+  silence(context, p);
+  const Eigen::Vector3d hips = p.pose.root;
   Rng rng(1, Purpose::kTest);
   ASSERT_EQ(propagate(context, p, rng), Outcome::kFallen);
   silence(context, p);
+  EXPECT_LT((p.pose.root - hips).head<2>().norm(), 0.1) << "they jump";
   for (uint32_t frame = 1; frame < 60; ++frame) {
     Rng next(1, Purpose::kTest, frame);
     ASSERT_EQ(propagate(context, p, next), Outcome::kAlive) << "frame " << frame;

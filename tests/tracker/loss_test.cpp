@@ -32,7 +32,7 @@ class Loss : public WalkedScene {
       pose.root.head<2>() = camera + times * (truth - camera);
       record.mean_log_likelihood =
           place_score(context.scene, window_[t], context.body(), figures, pose.root.head<2>(), 0);
-      if (is_lost(context, window_[t], record, monitor_)) return t;
+      if (is_lost(context, window_[t], static_cast<uint32_t>(t), record, monitor_)) return t;
     }
     return std::nullopt;
   }
@@ -47,6 +47,7 @@ TEST_F(Loss, TooFarAwayIsNoticedAndWhereTheyAreRather) {
     EXPECT_GE(double(*lost) * kDt, 0.3);
     const Eigen::Vector2d truth = moved(walk_, double(*lost) * kDt).position;
     EXPECT_LT((monitor_.last_seen->position - truth).norm(), within) << times;
+    EXPECT_EQ(monitor_.last_seen->frame, *lost + 1) << "they are there now, not before";
   }
 }
 

@@ -58,12 +58,37 @@ TEST(WalkOn, SomeChangeFeetAndFallsAreCaught) {
   walk_on(context, after.particles, after.rngs, after.outcomes);
   int changed = 0;
   for (size_t i = 0; i < kWalkers; ++i) {
-    EXPECT_EQ(after.outcomes[i], i % 10 == 0 ? Outcome::kFallen : Outcome::kAlive) << i;
+    const bool falls = i % 10 == 0;
+    EXPECT_EQ(after.outcomes[i], falls ? Outcome::kFallen : Outcome::kAlive) << i;
+    if (falls) {
+      EXPECT_LT((after.particles[i].ball - before.particles[i].ball).norm(), 0.1) << i;
+    }
     changed += after.particles[i].stance != before.particles[i].stance;
   }
   // A step of this speed lasts some 17 frames.
   EXPECT_GT(changed, kWalkers / 40);
   EXPECT_LT(changed, kWalkers / 8);
+}
+
+// Both legs are behind the hips when it falls, as in videos of 7 Hz: it is at the end of a step,
+// although it began only a moment ago.
+TEST(WalkOn, AFallLeavesTheHipsWhereTheyAre) {
+  const Walking walking;
+  const MotionContext context = walking.context(kDt);
+  for (WalkerParticle p : walkers_on_their_way(context, kWalkers)) {
+    p.walker.q << -0.07, 0.78, 0.44, 1.02, 1.82;
+    p.walker.qd << -0.3, 2.5, 1.8, 2.4, 4;
+    p.walker.since_transfer = 0.02;
+    const auto hips = [&]() -> Eigen::Vector2d {
+      return pose_of(context.model, p.walker, p.stance, p.aim, p.ball, p.residual).root.head<2>();
+    };
+    const Eigen::Vector2d before = hips();
+    Rng rng(2, Purpose::kTest);
+    Outcome outcome;
+    walk_on(context, {&p, 1}, {&rng, 1}, {&outcome, 1});
+    ASSERT_EQ(outcome, Outcome::kFallen);
+    EXPECT_LT((hips() - before).norm(), 0.1);
+  }
 }
 
 // On a slope walkers are simulated one by one, each with the gravity in its own plane; on a tiny

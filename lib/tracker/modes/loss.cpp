@@ -57,8 +57,8 @@ std::optional<bool> on_somebody(const TrackerScene& scene, const SceneEvidence& 
 
 }  // namespace
 
-bool is_lost(const TrackContext& context, const SceneEvidence& evidence, const FrameRecord& record,
-             MonitorState& monitor) {
+bool is_lost(const TrackContext& context, const SceneEvidence& evidence, uint32_t frame,
+             const FrameRecord& record, MonitorState& monitor) {
   if (record.filter.all_dead) return true;
   const TrackerConfig& config = context.config;
   const double dt = context.scene.dt;
@@ -66,8 +66,10 @@ bool is_lost(const TrackContext& context, const SceneEvidence& evidence, const F
   const RigidFigure figure = best_figure(context, evidence, pose);
   if (is_fading(config.monitor, config.detector.least_score, dt, record.mean_log_likelihood,
                 figure.score, monitor)) {
-    if (monitor.frames_outscored > 0 && monitor.last_seen)
-      monitor.last_seen->position = figure.place;  // they are rather there
+    if (monitor.frames_outscored > 0 && monitor.last_seen) {  // they are rather there
+      monitor.last_seen->position = figure.place;
+      monitor.last_seen->frame = frame + 1;
+    }
     return true;
   }
   return is_off_people(config.monitor, dt,

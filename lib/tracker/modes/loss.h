@@ -11,8 +11,8 @@ inline namespace tracker {
 // Updates the monitor with the frame, unless no particle has survived it. A track is also lost to a
 // rigid figure with the usual gait that explains the images better in the same place, or, before
 // one camera, at another distance; the subject was then last seen where that figure is.
-bool is_lost(const TrackContext& context, const SceneEvidence& evidence, const FrameRecord& record,
-             MonitorState& monitor);
+bool is_lost(const TrackContext& context, const SceneEvidence& evidence, uint32_t frame,
+             const FrameRecord& record, MonitorState& monitor);
 
 }  // namespace tracker
 }  // namespace walktrack

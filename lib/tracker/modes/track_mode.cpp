@@ -68,7 +68,7 @@ std::vector<FrameRecord> track_frame(const TrackContext& context, const SceneEvi
   FrameRecord& record = filtered.record;
   allow_for_start(now.p_legs_swapped, record);
   note_pose(record, now);
-  if (is_lost(context, evidence, record, now.monitor)) {
+  if (is_lost(context, evidence, frame, record, now.monitor)) {
     record.tracked = false;
     record.evidence.clear();
     if (now.held) {  // a new start among them may know better

@@ -1,5 +1,6 @@
 #include "tracker/motion/support.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "body/kinematics.h"
@@ -35,6 +36,14 @@ void change_feet(const BodyModel& model, const KneedState& shown, WalkerParticle
   stand_on(model.body, other(landed), Eigen::Vector3d(particle.ball.x(), particle.ball.y(), 0),
            rolled_ankle(model, particle.walker.q[kSwingShank]), pose);
   particle.ball = landing_ball(model, pose, landed, particle.walker.q[kStanceShank]);
+}
+
+double phase_of_hips(const Eigen::Vector2d& ahead, double step_length,
+                     const WalkerParticle& particle) {
+  constexpr double kLatest = 0.95;  // not about to strike; by hand
+  const double heading = particle.residual[kHeading];
+  const Eigen::Vector2d forward(std::cos(heading), std::sin(heading));
+  return std::clamp(ahead.dot(forward) / step_length, 0.0, kLatest);
 }
 
 void perturb_step_target(const MotionConfig& config, StepAim& aim, Rng& rng) {

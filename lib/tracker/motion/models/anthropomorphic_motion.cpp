@@ -163,12 +163,22 @@ void AnthropomorphicMotion::change_support(const MotionContext& context, WalkerP
       particle.controls);
 }
 
-// A walker that stumbles continues with the state of its intended gait at this moment of the step.
+// A walker that stumbles continues with the state of its intended gait at the moment of the step at
+// which the hips are where they are now.
 void AnthropomorphicMotion::catch_step(const BodyModel& model, WalkerParticle& particle) const {
   const StraightGait gait = aimed_gait(model, particle);
-  const double phase = std::clamp(particle.walker.since_transfer / gait.period, 0.0, 0.95);
+  const auto hips = [&]() -> Eigen::Vector2d {
+    const Pose pose = pose_showing(
+        model, shown_state(particle.walker, particle.stance, particle.residual),
+        particle.walker.q[kStanceShank], particle.stance, particle.ball, particle.residual);
+    return pose.root.head<2>();
+  };
+  const Eigen::Vector2d now = hips();
   set(gait.controls, particle.controls);
+  set(gait.start, particle.walker);
+  const double phase = phase_of_hips(now - hips(), gait.step_length, particle);
   set(state_in_gait(model, gait, phase), particle.walker);
+  particle.ball += now - hips();
 }
 
 StraightGait AnthropomorphicMotion::aimed_gait(const BodyModel& model,

@@ -39,12 +39,20 @@ void change_support(const MotionContext& context, WalkerParticle& particle, Rng&
   choose_controls(context, particle, rng);
 }
 
-// A walker that stumbles continues with the state of its intended gait at this moment of the step.
+// A walker that stumbles continues with the state of its intended gait at the moment of the step at
+// which the hips are where they are now.
 void catch_step(const MotionContext& context, WalkerParticle& particle) {
   const PriorGait gait = aimed_gait(context, particle);
-  const double phase = std::clamp(particle.walker.since_transfer / gait.period, 0.0, 0.95);
+  const auto hips = [&](const KneedState& walker) -> Eigen::Vector2d {
+    const Pose pose = pose_of(context.model, walker, particle.stance, particle.aim, particle.ball,
+                              particle.residual);
+    return pose.root.head<2>();
+  };
+  const Eigen::Vector2d now = hips(particle.walker);
+  const double phase = phase_of_hips(now - hips(gait.start), gait.step_length, particle);
   particle.controls = gait.controls;
   particle.walker = state_in_gait(context.model, gait, phase);
+  particle.ball += now - hips(particle.walker);
 }
 
 // The inputs of the batch kernel for a group of particles.
