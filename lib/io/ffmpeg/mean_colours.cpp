@@ -75,8 +75,9 @@ class Conversion {
 
   void write(const Row& row, cv::Vec3b* out) {
     const size_t width = row.luma.size();
+    constexpr float kHalf = 0.5F;
     const auto level = [](float value) {  // rounded
-      return static_cast<int>(std::min(255.F, std::max(0.F, value)) + 0.5F);
+      return static_cast<int>(std::min(255.F, std::max(0.F, value)) + kHalf);
     };
     for (size_t i = 0; i < width; ++i) {
       const float y = gain_ * (row.luma[i] - black_);

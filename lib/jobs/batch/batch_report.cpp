@@ -12,6 +12,7 @@
 #include "jobs/batch/bids/bids_report.h"
 #include "jobs/batch/subject_table.h"
 #include "jobs/batch/workers/folder_lock.h"
+#include "jobs/batch/workers/sequence_claim.h"
 
 namespace walktrack {
 inline namespace jobs {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "io/drawing/overlay.h"
+#include "io/drawing/picture.h"
 #include "observation/image.h"
 
 namespace walktrack {

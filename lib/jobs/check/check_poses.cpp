@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <ranges>
 
 #include <fmt/format.h>
 
@@ -193,13 +192,12 @@ void check_common_ground(const Scene& scene, CheckReport& report) {
   if (scene.cameras.size() < 2) return;
   const std::vector<Camera> cameras = cameras_of(scene);
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
-    const auto shares = [&](size_t j) {
+    const auto shares = [&](const Camera& other) {
       const double height = scene.subject.height;
-      return j != i && (share_a_view(cameras[i], cameras[j], height) ||
-                        share_a_view(cameras[j], cameras[i], height));
+      return &other != &cameras[i] &&
+             (share_a_view(cameras[i], other, height) || share_a_view(other, cameras[i], height));
     };
-    const auto all = std::views::iota(size_t{0}, cameras.size());
-    if (std::ranges::any_of(all, shares)) continue;
+    if (std::ranges::any_of(cameras, shares)) continue;
     report.findings.push_back({scene.cameras[i].name, true,
                                "sees no place where another camera sees a person",
                                find_cure(scene, i)});

@@ -177,9 +177,10 @@ void report_missing_network(const TrackJob& given, const JobControl& control,
 TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   const TimePoint start;
   TrackOutcome outcome;
-  const auto [job, findings, lag] = checked_job(given, control);
-  outcome.checks = findings;
-  outcome.lag = lag;
+  const CheckedJob checked = checked_job(given, control);
+  const TrackJob& job = checked.job;
+  outcome.checks = checked.findings;
+  outcome.lag = checked.lag;
   const Elapsed checking = elapsed_since(start);
   SceneVideo video(job.scene);
   require_room_for_search(job.scene, job.config.values, video.frame_rate());

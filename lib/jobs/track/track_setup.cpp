@@ -11,6 +11,7 @@
 #include "jobs/track/input/learned_background.h"
 #include "observation/flow/flow.h"
 #include "observation/shrink.h"
+#include "tracker/detect/figure_places.h"
 #include "tracker/motion/models/planar_body.h"
 
 namespace walktrack {

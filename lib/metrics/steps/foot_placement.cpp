@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <ranges>
 
 #include "core/conventions.h"
 #include "metrics/steps/walking_direction.h"
@@ -33,11 +32,15 @@ std::optional<size_t> next_step(const Gait& gait, size_t stance) {
   return steps ? std::optional(stance + 1) : std::nullopt;
 }
 
+struct Rows {
+  size_t first, end;
+};
+
 // The rows from one time to another, both included.
-auto rows_between(const Motion& motion, double from, double to) {
+Rows rows_between(const Motion& motion, double from, double to) {
   const auto index = [&](auto at) { return static_cast<size_t>(at - motion.time.begin()); };
   const size_t first = index(std::ranges::lower_bound(motion.time, from));
-  return std::views::iota(first, std::max(first, index(std::ranges::upper_bound(motion.time, to))));
+  return {first, std::max(first, index(std::ranges::upper_bound(motion.time, to)))};
 }
 
 // The mean over the rows in which the sole of a stance is flat; nothing if there are none.
@@ -45,11 +48,12 @@ template <typename F>
 std::optional<Vector3d> mean_while_flat(const Motion& motion, const Stance& stance,
                                         const F& value) {
   const double length = stance.off - stance.on;
-  const auto rows =
+  const Rows rows =
       rows_between(motion, stance.on + kFlatFrom * length, stance.on + kFlatTo * length);
   Vector3d sum = Vector3d::Zero();
-  for (const size_t i : rows) sum += value(motion.joints[i]);
-  return rows.empty() ? std::nullopt : std::optional(Vector3d(sum / double(rows.size())));
+  for (size_t i = rows.first; i < rows.end; ++i) sum += value(motion.joints[i]);
+  if (rows.first == rows.end) return std::nullopt;
+  return Vector3d(sum / double(rows.end - rows.first));
 }
 
 }  // namespace
@@ -71,12 +75,12 @@ double toe_clearance(const Motion& motion, const Gait& gait, size_t stance) {
            (motion.time[b] - motion.time[a]);
   };
   double highest = 0, lowest = std::numeric_limits<double>::infinity();
-  const auto swing = rows_between(motion, before.off, after->on);
-  for (const size_t i : swing) {
+  const Rows swing = rows_between(motion, before.off, after->on);
+  for (size_t i = swing.first; i < swing.end; ++i) {
     if (!known(motion.joints[i][joint])) return kUnknown;
     highest = std::max(highest, speed(i));
   }
-  for (const size_t i : swing)
+  for (size_t i = swing.first; i < swing.end; ++i)
     if (speed(i) >= kFast * highest) lowest = std::min(lowest, motion.joints[i][joint].z());
   return std::isfinite(lowest) ? lowest - flat->z() : kUnknown;
 }

@@ -23,7 +23,7 @@ Vector2d on_ground(const Motion& motion, Joint joint, double time) {
   if (after == motion.time.end() || (after == motion.time.begin() && *after > time))
     return unknown();
   const auto b = static_cast<size_t>(after - motion.time.begin()), a = b > 0 ? b - 1 : b;
-  const Vector2d to = motion.joints[b][joint].head<2>();
+  Vector2d to = motion.joints[b][joint].head<2>();
   if (motion.time[b] == time) return to;
   const double share = (time - motion.time[a]) / (motion.time[b] - motion.time[a]);
   return (1 - share) * motion.joints[a][joint].head<2>() + share * to;

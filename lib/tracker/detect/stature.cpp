@@ -88,11 +88,13 @@ struct Fit {
 
 SizedWalk size_up(const DetectedWalk& walk, double height, const std::optional<Stature>& known,
                   const FigureScore& score, const SizedWindow& window) {
-  const auto& [frames, dt, camera_position, metres_per_px, line_known] = window;
   const double spread = known.value_or(kAdults).sd, step = std::min(kWidestStep, spread);
-  const double looks = independent_looks(frames, dt) / (kStrangeFigure * kStrangeFigure);
+  const double looks =
+      independent_looks(window.frames, window.dt) / (kStrangeFigure * kStrangeFigure);
   const auto fitted = [&](double tried, const DetectedWalk& from) {
-    Fit fit{{{tried, 0}, nearest_walk(from, frames, score(tried), dt, camera_position, line_known)},
+    Fit fit{{{tried, 0},
+             nearest_walk(from, window.frames, score(tried), window.dt, window.camera_position,
+                          window.known)},
             log_prior(known, tried)};
     fit.log_posterior += looks * fit.sized.walk.score;
     return fit;
@@ -117,7 +119,7 @@ SizedWalk size_up(const DetectedWalk& walk, double height, const std::optional<S
   const double shift =
       std::clamp(0.5 * (above.log_posterior - below.log_posterior) / bent, -1.0, 1.0);
   const double top = middle.sized.stature.height + step * shift;
-  const double error_sd = std::hypot(kOtherSd, kBlur_px * metres_per_px);
+  const double error_sd = std::hypot(kOtherSd, kBlur_px * window.metres_per_px);
   const Stature stature =
       believed(known, seen_by_images(known, top, bent / (step * step), error_sd), error_sd);
   SizedWalk out = next_to(middle, stature.height - middle.sized.stature.height).sized;

@@ -108,7 +108,7 @@ Starting start_around(const TrackContext& context, const DetectedWalk& walk,
 
 std::vector<FrameRecord> settle(TrackMode& mode) {
   Starting& start = std::get<Starting>(mode);
-  const std::vector<FrameRecord> records = start.hypotheses.records();
+  std::vector<FrameRecord> records = start.hypotheses.records();
   std::deque<double> log_likelihoods;
   for (const FrameRecord& record : records) log_likelihoods.push_back(record.mean_log_likelihood);
   Tracking now{.filter = std::move(start.before.filter),

@@ -13,7 +13,8 @@
 namespace walktrack {
 inline namespace tracker {
 
-struct Attempt {
+// A moved deque allocates an empty one.
+struct Attempt {  // NOLINT(bugprone-exception-escape)
   TrackMode mode;
   std::vector<FrameRecord> records{};
   std::optional<Moment> settled{};  // when the start was decided

@@ -89,7 +89,7 @@ std::vector<PhaseRange> likely_ranges(const TrackContext& context,
   const StartConfig& start = context.config.start;
   if (walk.given && context.scene.initial_phase)
     return phase_ranges(start, *context.scene.initial_phase);
-  const std::vector<PhaseRange> ranges = phase_ranges(start);
+  std::vector<PhaseRange> ranges = phase_ranges(start);
   if (walk.given || walk.standing || walk.hidden_frames > 0) return ranges;
   const std::vector<double> scores = stride_scores(context, window, walk, ranges);
   const auto best = std::max_element(scores.begin(), scores.end()) - scores.begin();

@@ -16,7 +16,8 @@
 namespace walktrack {
 inline namespace tracker {
 
-struct Trial {
+// A moved deque allocates an empty one.
+struct Trial {                         // NOLINT(bugprone-exception-escape)
   TrackMode mode;                      // after the window's frames; Searching: the trial has failed
   std::vector<FrameRecord> records{};  // of the frames that are finished, not refined
   double log_likelihood = 0;           // of the window's frames together, nats, by the particles

@@ -18,8 +18,9 @@ constexpr int kMostWider = 4;
 // How often the figure gets another trunk, for the same reason. By hand.
 constexpr int kMostTrunks = 2;
 
-// A start with the usual figure, which stands if the subject turns out not to be clearly wide.
-struct UsualStart {
+// A start with the usual figure, which stands if the subject turns out not to be clearly wide. A
+// moved deque allocates an empty one.
+struct UsualStart {                // NOLINT(bugprone-exception-escape)
   std::optional<Stature> stature;  // if the height is estimated
   WindowStart start;
   TrackMode mode;     // after the window's frames
@@ -175,11 +176,15 @@ std::optional<Trial> tried(SearchedWindow& window, const DetectedWalk& walk, siz
   Trial trial = try_start(window.subject.context(), search.window(), first, walk, ++window.starts,
                           window.searching());
   const bool failed = is_searching(trial.mode);
-  const bool dropped = !failed && figure_misleads(window, trial.records);
-  if (dropped && window.girth) keep_usual(window, std::move(trial), lead);
-  search.let_go(lead);
   if (failed) window.mode = std::move(trial.mode);
-  return failed || dropped ? std::nullopt : std::optional(std::move(trial));
+  const bool dropped = !failed && figure_misleads(window, trial.records);
+  std::optional<Trial> kept;
+  if (dropped && window.girth)
+    keep_usual(window, std::move(trial), lead);
+  else if (!failed && !dropped)
+    kept = std::move(trial);
+  search.let_go(lead);
+  return kept;
 }
 
 std::optional<WindowStart> start_of(SearchedWindow& window, std::optional<Trial> trial,

@@ -84,9 +84,9 @@ std::vector<double> numbers(const XmlElement& element, const char* key, size_t c
 // supported.
 XmlElement key_frame(const std::string& text, const std::string& file, const ViconCamera& camera,
                      const std::string& name) {
-  const XmlElement first(text, file, "KeyFrame",
-                         fmt::format("camera '{}' calibrated, with a <KeyFrame>", name),
-                         camera.from, camera.to);
+  XmlElement first(text, file, "KeyFrame",
+                   fmt::format("camera '{}' calibrated, with a <KeyFrame>", name), camera.from,
+                   camera.to);
   for (size_t at = text.find("<KeyFrame ", first.start() + 1); at < camera.to;
        at = text.find("<KeyFrame ", at + 1)) {
     const XmlElement other(text, file, "KeyFrame", kVicon, at, camera.to);

@@ -123,7 +123,7 @@ BackgroundModel learned_background(const SceneCamera& camera, int first_frame, c
   }
   if (from_video && background.without_people == TermSetting::kOn)
     hide_people(sampler, config.observation.keypoints, scale.person_px / scale.shrink, control);
-  const BackgroundModel model = sampler.model(thread_count(config.threads));
+  BackgroundModel model = sampler.model(thread_count(config.threads));
   if (from_video) return model;
   return with_moved_things(model, camera, first_frame, config, scale, control);
 }
