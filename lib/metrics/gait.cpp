@@ -330,10 +330,11 @@ const Stance* stride_end(const std::vector<Stance>& stances, size_t from) {
 
 Gait gait_from_motion(const Motion& motion) {
   Gait gait;
-  double length = 0, duration = 0;
+  double duration = 0;
   for (const Run& run : walking_runs(motion)) {
+    ++gait.walks;
     const std::vector<Vector2d> path = smoothed_path(motion, run);
-    for (size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+    for (size_t i = 1; i < path.size(); ++i) gait.way += (path[i] - path[i - 1]).norm();
     duration += motion.time[run.end - 1] - motion.time[run.begin];
     const std::vector<Vector2d> direction = directions(motion, run, path);
     const std::vector<GaitEvent> events = events_of(motion, run, direction, path);
@@ -344,7 +345,7 @@ Gait gait_from_motion(const Motion& motion) {
   std::stable_sort(gait.stances.begin(), gait.stances.end(), [](const Stance& a, const Stance& b) {
     return a.on < b.on || (a.on == b.on && a.off < b.off);
   });
-  if (duration > 0) gait.speed = length / duration;
+  if (duration > 0) gait.speed = gait.way / duration;
   gait.stride_time = stride_time_of(gait.stances);
   add_steps(motion, gait);
   gait.stance_share = mean_stance_share(gait.stances);

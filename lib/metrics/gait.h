@@ -63,6 +63,8 @@ struct Gait {
   std::vector<GaitEvent> events;  // by time
   std::vector<Stance> stances;    // by time of `on`, then `off`
   double speed = 0;  // m/s, length of the pelvis' smoothed path over its duration while walking
+  size_t walks = 0;  // parts of the motion in which the subject walks
+  double way = 0;    // m, length of that path in all of them
   std::vector<Step> steps;
   double stride_time = 0;       // s, twice the mean step time; 1.1 without steps
   double mean_step_length = 0;  // m, along the direction of walking; 0 without steps

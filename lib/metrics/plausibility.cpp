@@ -14,6 +14,7 @@ namespace {
 // By hand.
 constexpr double kPenetrates = 0.005;  // m; less is within the noise of any measurement
 constexpr size_t kFewestTimes = 3;     // of steps, for a median
+constexpr double kLongSteps = 1.1;     // m, of tall people
 constexpr double kRegular = 0.01;      // relative; rows further from equal steps are a gap
 
 // The known places of the foot over the ground in the flat part.
@@ -115,6 +116,12 @@ void add_steps(const Motion& motion, const Gait& gait, Plausibility& out) {
   out.steps_off_way = way > 0 ? std::abs(steps / way - 1) : 1;
 }
 
+// People get along by steps alone. Where none is complete they may be as long as anybody's.
+double missing_steps(const Gait& gait) {
+  const double length = gait.mean_step_length > 0 ? gait.mean_step_length : kLongSteps;
+  return std::max(0.0, gait.way / length - double(gait.steps.size() + 2 * gait.walks));
+}
+
 // If legs are swapped while the subject walks on, a step takes no time, or one foot strikes twice
 // in succession.
 double quickest_step(const Gait& gait) {
@@ -155,6 +162,7 @@ Plausibility plausibility(const Motion& motion, const Gait& gait) {
   out.jitter = mean_jerk(motion);
   add_steps(motion, gait, out);
   out.quickest_step = quickest_step(gait);
+  out.missing_steps = missing_steps(gait);
   out.fastest = fastest_half_second(motion);
   return out;
 }

@@ -27,6 +27,9 @@ struct Plausibility {
   // |sum of the steps' lengths / way of the pelvis between the same strikes - 1|: 0 if the feet
   // move as far as the body, and without steps.
   double steps_off_way = 0;
+  // Steps that are missing on the way of the pelvis: its length in steps of the mean length, less
+  // the complete steps and two incomplete ones, at the beginning and at the end of every walk.
+  double missing_steps = 0;
   // Speed of the pelvis over the ground in the fastest half second of known rows, m/s.
   double fastest = 0;
 };

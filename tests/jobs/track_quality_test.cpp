@@ -228,6 +228,15 @@ TEST_F(QualityOf, FeetThatGoElsewhereThanTheBodyFail) {
   EXPECT_FALSE(named(quality_of(frames), "steps_off_way_percent").passed());
 }
 
+TEST_F(QualityOf, ABodyThatMovesOnWithoutStepsFails) {
+  const TrackedFrames frames = walking(folder_ / "gliding", {}, [](double, JointPositions& joints) {
+    for (const Joint joint :
+         {Joint::kLeftAnkle, Joint::kLeftToe, Joint::kRightAnkle, Joint::kRightToe})
+      joints[joint].x() = joints[Joint::kPelvis].x();
+  });
+  EXPECT_FALSE(named(quality_of(frames), "missing_steps").passed());
+}
+
 TEST_F(QualityOf, StepsAndSpeedsThatNobodyWalksFail) {
   const auto nothing = [](double, JointPositions&) {};
   const Quality fast = quality_of(walking(folder_ / "fast", {.speed = 3}, nothing));

@@ -78,6 +78,24 @@ TEST(Plausibility, StepsGoAsFarAsTheBody) {
   EXPECT_NEAR(p.shortest_step, walk.speed * walk.step_time, 1e-3);
   EXPECT_LT(p.steps_off_way, 0.01);
   EXPECT_NEAR(p.fastest, walk.speed, 1e-6);
+  EXPECT_LT(p.missing_steps, 0.1);
+}
+
+TEST(Plausibility, FindsABodyThatMovesOnWithoutSteps) {
+  const TestWalk walk;
+  const Motion right = walk_motion(walk);
+  const Motion gliding = changed(right, [&](JointPositions& joints, size_t) {
+    for (const Joint joint :
+         {Joint::kLeftAnkle, Joint::kLeftToe, Joint::kRightAnkle, Joint::kRightToe})
+      joints[joint].x() = joints[Joint::kPelvis].x();
+  });
+  EXPECT_NEAR(of(gliding).missing_steps, walk.speed * walk.duration / 1.1 - 2, 0.1);
+  // Of two walks four steps are incomplete.
+  const Motion gap = changed(right, [&](JointPositions& joints, size_t i) {
+    if (i / 20 == right.time.size() / 40) joints = unknown_joints();
+  });
+  EXPECT_EQ(gait_from_motion(gap).walks, 2U);
+  EXPECT_LT(of(gap).missing_steps, 0.1);
 }
 
 // From the middle of a walk on, the legs are swapped.

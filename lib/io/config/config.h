@@ -45,6 +45,7 @@ struct QualityConfig {
   double legs_swapped = 0.2;   // mean probability
   double leg_swaps = 10;       // a minute
   double steps_off_way = 0.2;  // of the pelvis' way, by which the steps deviate from it
+  double missing_steps = 1;    // on the way of the pelvis
   double longest_step = 1.2;   // leg lengths
   double shortest_step = 0;    // m along the way; negative if a foot lands behind the other
   double quickest_step = 0.5;  // of the usual time of a step

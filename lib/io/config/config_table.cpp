@@ -229,6 +229,8 @@ void add_track(ParameterTable& table) {
   g.number("steps_off_way", &G::steps_off_way, 0, 1000,
            "largest difference between the sum of the steps and the path of the pelvis, as a share "
            "of the path");
+  g.number("missing_steps", &G::missing_steps, 0, 1000,
+           "most steps that are missing on the path of the pelvis");
   g.number("longest_step", &G::longest_step, 0, 1000, "longest step, leg lengths");
   g.number("shortest_step", &G::shortest_step, -1000, 1000,
            "shortest step along the walk, m; below 0 a foot ends behind the other one");

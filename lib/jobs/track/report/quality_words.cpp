@@ -65,6 +65,11 @@ constexpr QualityWords kWords[] = {
      "distance.",
      "Step lengths cannot be trusted: the legs in the overlay video are likely to be swapped, or "
      "to lie on something else than the subject's legs."},
+    {"missing_steps", "Steps missing on the path of the body", "", 1,
+     "The length of the path of the pelvis in steps of the mean length, less the complete steps "
+     "and two incomplete ones at the ends of every walk: people get along by steps alone.",
+     "The feet of the figure did not step while the body moved on; film from the side as well, or "
+     "cut the video to the walk."},
     {"longest_step_leg_lengths", "Longest step, in leg lengths", "", 2,
      "People's steps are at most about as long as their legs.",
      "A foot was lost or the figure jumped: look at the longest step in the overlay video. Is the "

@@ -90,6 +90,7 @@ Quality quality_of_motion(const Motion& motion, double rate, double leg) {
   const auto swaps = static_cast<double>(leg_swaps(motion));
   return {quality_measure("leg_swaps_per_min", minutes > 0 ? swaps / minutes : 0),
           quality_measure("steps_off_way_percent", 100 * p.steps_off_way),
+          quality_measure("missing_steps", p.missing_steps),
           quality_measure("longest_step_leg_lengths", p.longest_step / leg),
           quality_measure("shortest_step_m", p.shortest_step),
           quality_measure("quickest_step_percent", 100 * p.quickest_step),
@@ -117,6 +118,7 @@ Quality quality_of(const TrackedFrames& frames, const TrackedFrames& moving,
                         100 * limits.legs_swapped));
   const std::map<std::string, double> most{{"leg_swaps_per_min", limits.leg_swaps},
                                            {"steps_off_way_percent", 100 * limits.steps_off_way},
+                                           {"missing_steps", limits.missing_steps},
                                            {"longest_step_leg_lengths", limits.longest_step},
                                            {"fastest_m_s", limits.fastest},
                                            {"jitter_m_s3", limits.jitter}};
