@@ -4,7 +4,7 @@ document. What a command prints is kept in tests/figures/NAME.md with commit, da
 stands in the document between `<!-- figures: NAME -->` and `<!-- end of figures -->`. tests/figures/figures_test.py sees
 to it that documents say what was measured, and not too long ago.
 
-    scripts/figures.py WALKTRACK OUT [NAME ...]     measures all tables, or some
+    scripts/figures.py WALKTRACK OUT [NAME ...]     measures all tables, or some, in OUT/COMMIT
     scripts/figures.py --insert                     puts the kept ones into the documents again
 """
 import datetime
@@ -39,7 +39,8 @@ def measure(table, walktrack, out):
     if output_of("git", "status", "--porcelain", "lib", "configs"):
         sys.exit("lib/ or configs/ differ from the last commit: commit first, then measure")
     commit = output_of("git", "rev-parse", "--short", "HEAD").strip()
-    command = shlex.split(table["command"].format(walktrack=walktrack, out=out / table["name"], all=out))
+    results = out / commit  # the scripts measure what is not there yet: never what another commit has left
+    command = shlex.split(table["command"].format(walktrack=walktrack, out=results / table["name"], all=results))
     printed = output_of(*command).strip()
     head = (f"Measured on {datetime.date.today()} at commit {commit} with {len(os.sched_getaffinity(0))} cores of "
             f"{processor()}: `scripts/figures.sh {table['name']}`.")
