@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "core/errors.h"
+#include "io/scene/subject_file.h"
 #include "jobs/evaluate/analyse.h"
 #include "terminal.h"
 
@@ -27,12 +28,11 @@ int run_analyse(const Arguments& arguments) {
   add("mass", po::value(&mass)->value_name("KG"), "mass of the subject; default: 70");
   line.operand("MOTION", &motion);
   if (!line.parse(arguments)) return kDone;
-  if (height < 0 || mass < 0) throw UsageError("--height, --mass: allowed are numbers above 0");
   AnalyseJob job;
   job.motion = motion;
   job.output = line.required_output();
-  if (height > 0) job.height = height;
-  if (mass > 0) job.mass = mass;
+  job.height = line.within("height", height, kSmallestHeight, kGreatestHeight);
+  job.mass = line.within("mass", mass, kSmallestMass, kGreatestMass);
   job.config = line.config();
   job.overwrite = line.common().overwrite;
   job.command_line = {"walktrack", "analyse"};

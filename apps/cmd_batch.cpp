@@ -101,10 +101,13 @@ std::string result_line(const BatchJob& job, const BatchOutcome& outcome, int co
 }
 
 // The state of the whole output folder, for all workers.
-int report(const BatchJob& job) {
+int report(const BatchJob& job, const JobControl& control, bool json_line) {
   const SequenceList all(job);
   const BatchOutcome counts = write_batch_reports(job, all);
-  return counts.complete == static_cast<int>(all.size()) ? kDone : kFailed;
+  const int code = counts.complete == static_cast<int>(all.size()) ? kDone : kFailed;
+  control.say(last_words(job, counts));
+  if (json_line) fmt::print("{}", result_line(job, counts, code));
+  return code;
 }
 
 // Notes on the places of the sequences, once.
@@ -210,11 +213,11 @@ int run_batch(const Arguments& arguments) {
       in_data_set ? job.folder / "derivatives" / "walktrack" : fs::path(line.required_output());
   job.overwrite = line.common().overwrite;
   if (given.list_only) return list(job);
-  if (given.report_only) return report(job);
+  Terminal terminal(line.common());
+  if (given.report_only) return report(job, terminal.control(), given.json_line);
   job.config = line.config();  // a mistake in it would make every sequence fail
   if (given.dry_run) return list_work(job);
   job.command = track_command(line.common(), job.jobs, given.ignore_checks);
-  Terminal terminal(line.common());
   const JobControl control = terminal.control();
   const BatchOutcome outcome = run_batch(job, control);
   control.say(last_words(job, outcome));

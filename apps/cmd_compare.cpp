@@ -42,10 +42,14 @@ int run_compare(const Arguments& arguments) {
   job.seed = line.config().values.seed;
   job.overwrite = line.common().overwrite;
   const CompareOutcome outcome = compare(job);
-  Terminal(line.common())
-      .control()
-      .say(fmt::format("{} of {} differences exceed the minimal detectable change; open {}",
-                       outcome.exceeding, outcome.compared, outcome.look_at.string()));
+  const std::string found =
+      outcome.compared > 0
+          ? fmt::format("{} of {} differences exceed the minimal detectable change",
+                        outcome.exceeding, outcome.compared)
+          : std::string(
+                "no minimal detectable change is known: each group needs several results, "
+                "or strides of --unit strides");
+  Terminal(line.common()).control().say(found + "; open " + outcome.look_at.string());
   return kDone;
 }
 

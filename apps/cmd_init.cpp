@@ -18,15 +18,6 @@ namespace po = boost::program_options;
 
 namespace {
 
-std::optional<double> within(const CommandLine& line, const char* option, double value, double low,
-                             double high) {
-  if (!line.given(option)) return std::nullopt;
-  if (!(value >= low && value <= high))
-    throw UsageError(
-        fmt::format("--{}: found {:g}, allowed: {:g} to {:g}", option, value, low, high));
-  return value;
-}
-
 // U1,V1,U2,V2,METRES
 FloorLength floor_length(const std::string& text) {
   std::vector<double> numbers;
@@ -75,7 +66,7 @@ void declare(CommandLine& line, InitOptions& options) {
 }
 
 double subject_height(const CommandLine& line, double height) {
-  const auto tall = within(line, "height", height, 0.5, 2.5);
+  const auto tall = line.within("height", height, 0.5, 2.5);
   if (!tall) throw UsageError("--height is missing: the height of the subject in metres");
   return *tall;
 }
@@ -84,8 +75,8 @@ double subject_height(const CommandLine& line, double height) {
 void set_common(auto& job, const CommandLine& line, const InitOptions& options,
                 const Arguments& arguments) {
   job.height = subject_height(line, options.height);
-  job.mass = within(line, "mass", options.mass, 0.5, 1000);
-  job.frame_rate = within(line, "frame-rate", options.rate, 0.1, 1000);
+  job.mass = line.within("mass", options.mass, 0.5, 1000);
+  job.frame_rate = line.within("frame-rate", options.rate, 0.1, 1000);
   job.output = line.required_output();
   job.overwrite = line.common().overwrite;
   job.command_line = {"walktrack", "init"};
@@ -95,7 +86,7 @@ void set_common(auto& job, const CommandLine& line, const InitOptions& options,
 // The n-th value of an option that is given once for all videos or once for each.
 std::optional<double> field_of_view(const CommandLine& line, const InitOptions& options, size_t n) {
   if (options.fovs.empty()) return std::nullopt;
-  return within(line, "fov-deg", options.fovs[std::min(n, options.fovs.size() - 1)], 5, 150);
+  return line.within("fov-deg", options.fovs[std::min(n, options.fovs.size() - 1)], 5, 150);
 }
 
 void check_count(const char* option, size_t found, const char* allowed, bool fine) {
@@ -117,7 +108,7 @@ int run_one(const CommandLine& line, const InitOptions& options, const Arguments
   job.video = options.video;
   if (!options.backgrounds.empty()) job.background = options.backgrounds[0];
   job.fov_deg = field_of_view(line, options, 0);
-  job.tilt_deg = within(line, "tilt-deg", options.tilt, -45, 45);
+  job.tilt_deg = line.within("tilt-deg", options.tilt, -45, 45);
   for (const std::string& length : options.floor) job.floor.push_back(floor_length(length));
   job.threads = line.config().values.threads;
   set_common(job, line, options, arguments);

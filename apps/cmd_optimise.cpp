@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "core/errors.h"
 #include "io/scene/scene.h"
+#include "io/scene/subject_file.h"
 #include "jobs/optimise/optimise.h"
 #include "terminal.h"
 
@@ -58,15 +59,14 @@ int run_optimise(const Arguments& arguments) {
   line.operand("MOTION", &motion);
   line.operand("SCENE.yaml", &scene, true);
   if (!line.parse(arguments)) return kDone;
-  if (height < 0 || mass < 0) throw UsageError("--height, --mass: allowed are numbers above 0");
   if (!(joint_sd_mm >= 0.1 && joint_sd_mm <= 1000))
     throw UsageError(describe({"", 0, "--joint-sd-mm"}, fmt::format("{}", joint_sd_mm),
                               "a number from 0.1 to 1000"));
   OptimiseJob job;
   job.motion = motion;
   if (!scene.empty()) job.scene = read_scene(scene);
-  if (height > 0) job.height = height;
-  if (mass > 0) job.mass = mass;
+  job.height = line.within("height", height, kSmallestHeight, kGreatestHeight);
+  job.mass = line.within("mass", mass, kSmallestMass, kGreatestMass);
   job.joint_sd = joint_sd_mm / 1000;
   job.output = line.required_output();
   job.config = line.config();

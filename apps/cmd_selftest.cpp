@@ -23,8 +23,8 @@ int run_selftest(const Arguments& arguments) {
        .about =
            "Tries extreme walks, pictures, bodies and settings with this program and prints the "
            "outcome of\neach: tracked, degraded (with the reason) or reported (refused with a "
-           "reason).\nEvery other outcome is a failure, with exit code 1. It takes less than a "
-           "minute, with --stress some\nminutes and 8 GB of memory. It works in a temporary "
+           "reason).\nEvery other outcome is a failure, with exit code 1. It takes one to two "
+           "minutes, with --stress more\nand 8 GB of memory. It works in a temporary "
            "folder, inside of the folder --output if that is\ngiven, and removes it at the end.",
        .example = "walktrack selftest"});
   line.options().add_options()("stress", po::bool_switch(&stress),

@@ -178,6 +178,15 @@ ConfigWithOrigin CommandLine::config_of_run() const {
   return config;
 }
 
+std::optional<double> CommandLine::within(const std::string& option, double value, double low,
+                                          double high) const {
+  if (!given(option)) return std::nullopt;
+  if (!(value >= low && value <= high))
+    throw UsageError(
+        fmt::format("--{}: found {:g}, allowed: {:g} to {:g}", option, value, low, high));
+  return value;
+}
+
 void CommandLine::refuse(const std::vector<std::string>& options,
                          const std::string& allowed) const {
   for (const std::string& option : options)

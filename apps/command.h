@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -75,6 +76,9 @@ class CommandLine {
   const CommonOptions& common() const { return common_; }
   // Whether an option was given on the command line.
   bool given(const std::string& option) const { return given_.contains(option); }
+  // The value of an option that was given; UsageError if it is not in [low, high].
+  std::optional<double> within(const std::string& option, double value, double low,
+                               double high) const;
   // UsageError that names the first of these options that was given, because it has no effect here.
   void refuse(const std::vector<std::string>& options, const std::string& allowed) const;
   // The defaults, changed by --config, then by --set, then by --seed and --threads.

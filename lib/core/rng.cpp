@@ -1,5 +1,6 @@
 #include "core/rng.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/conventions.h"
@@ -37,7 +38,8 @@ uint32_t Rng::next() {
 double Rng::uniform() {
   const uint64_t high = next();
   const uint64_t bits = (high << 21) ^ (next() >> 11);  // 53 bits
-  return (static_cast<double>(bits) + 0.5) * 0x1p-53;
+  // The greatest sum would be rounded to 1.
+  return std::min((static_cast<double>(bits) + 0.5) * 0x1p-53, 1 - 0x1p-53);
 }
 
 double Rng::normal() {

@@ -19,7 +19,7 @@ constexpr double kEnough = 0.1;       // nats; iteration ends after a smaller ga
 constexpr double kNarrower = 0.5;     // factor of the spread after a round without a better step
 constexpr std::array kDampings{0.0, 3.0, 30.0, 300.0};  // in precisions of the spread
 
-// x, then points on both sides of it along every column of `root`, then the sum of every pair.
+// Points on both sides of x along every column of `root`, then along the sum of every pair of them.
 std::vector<VectorXd> sigma_points(const VectorXd& x, const MatrixXd& root) {
   const Eigen::Index n = x.size();
   std::vector<VectorXd> points;

@@ -57,7 +57,7 @@ concept StagedLikelihood = requires(const L& likelihood, const State& state) {
 struct FilterConfig {
   int particles = 200;
   double resample_below = 0.5;  // resample when ESS / particles falls below this
-  double layer_ess = 0.5;       // ESS / particles after each increment of the exponent
+  double layer_ess = 0.5;       // ESS after each increment of the exponent / ESS before it
   int max_layers = 8;           // the last layer takes the rest of the exponent
   int moves = 4;                // Metropolis-Hastings steps for each particle and layer
 };

@@ -190,7 +190,8 @@ std::vector<GaitEvent> toe_offs(const Motion& motion, const Run& run,
   return out;
 }
 
-// Twice the mean time between successive turning points of opposite feet.
+// Twice the mean time between successive turning points, which are those of one foot and the other
+// in turn. One that is missed makes it longer.
 double stride_time(const std::vector<GaitEvent>& turns) {
   if (turns.size() < 2) return kUsualStride;
   return 2 * (turns.back().time - turns.front().time) / static_cast<double>(turns.size() - 1);
@@ -318,14 +319,18 @@ bool is_step(const Stance& from, const Stance& to) {
          to.on <= from.off + kLongestFlight;
 }
 
-const Stance* stride_end(const std::vector<Stance>& stances, size_t from) {
+const Stance* next_of_side(const std::vector<Stance>& stances, size_t from) {
   constexpr double kLongestSwing = 1;  // s; by hand: those of .2 m/s last half of that
   const auto next =
       std::find_if(stances.begin() + static_cast<std::ptrdiff_t>(from) + 1, stances.end(),
                    [&](const Stance& s) { return s.side == stances[from].side; });
-  const bool complete = next != stances.end() && stances[from].starts_in_motion &&
-                        next->starts_in_motion && next->on <= stances[from].off + kLongestSwing;
-  return complete ? &*next : nullptr;
+  const bool swung = next != stances.end() && next->starts_in_motion &&
+                     next->on <= stances[from].off + kLongestSwing;
+  return swung ? &*next : nullptr;
+}
+
+const Stance* stride_end(const std::vector<Stance>& stances, size_t from) {
+  return stances[from].starts_in_motion ? next_of_side(stances, from) : nullptr;
 }
 
 Gait gait_from_motion(const Motion& motion) {

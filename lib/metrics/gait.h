@@ -46,8 +46,11 @@ struct Stance {
 // strikes are in the motion.
 bool is_step(const Stance& from, const Stance& to);
 
-// The next stance of the same foot: its stride ends with that strike. nullptr if either strike is
-// not in the motion, or if the foot comes down in another walk.
+// The next stance of the same foot; nullptr if its strike is not in the motion, or is of another
+// walk.
+const Stance* next_of_side(const std::vector<Stance>& stances, size_t from);
+// The same, with whose strike the stride ends; nullptr also if the first strike is not in the
+// motion.
 const Stance* stride_end(const std::vector<Stance>& stances, size_t from);
 
 // From a stance to the next one of the other foot; indices of Gait::stances. Steps exist only

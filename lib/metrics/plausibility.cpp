@@ -116,7 +116,8 @@ void add_steps(const Motion& motion, const Gait& gait, Plausibility& out) {
   out.steps_off_way = way > 0 ? std::abs(steps / way - 1) : 1;
 }
 
-// People get along by steps alone. Where none is complete they may be as long as anybody's.
+// A person who walks moves forward only by taking steps. Where none is complete they may be as long
+// as anybody's.
 double missing_steps(const Gait& gait) {
   const double length = gait.mean_step_length > 0 ? gait.mean_step_length : kLongSteps;
   return std::max(0.0, gait.way / length - double(gait.steps.size() + 2 * gait.walks));

@@ -41,7 +41,7 @@ FootPlantErrors foot_plant_errors(const std::vector<FootPlant>& truth, const Mot
     const double others =
         mean_offset(estimate, other(plant.side), plant.place, plant.on, plant.off);
     const double own = std::isnan(score.error) ? whole : score.error;
-    score.found = own <= kFoundWithin && whole < others;
+    score.found = own <= kFoundWithin && !(others <= whole);
     if (score.found) ++out.found;
     if (!std::isnan(score.error)) {
       sum += score.error;

@@ -13,8 +13,7 @@ SubjectModel::SubjectModel(const BodyModel& model, const GaitPrior& prior,
       markov(markov_steps(*moves, motion, dt)),
       figures(model, prior) {
   // The other models have no walker, or none that can stand.
-  if (motion.standing && motion.model == MotionKind::kKneed)
-    standing = standing_process(*moves, motion, dt);
+  if (may_stand(motion)) standing = standing_process(*moves, motion, dt);
 }
 
 WalkerFilterContext filter_context(const TrackContext& context) {

@@ -233,6 +233,26 @@ TEST(BatchCommand, GoesOnListsFailuresAndExitsWithOne) {
   EXPECT_THAT(read_file(out + "/failures.txt"), HasSubstr("\nother: exit "));
   EXPECT_EQ(run_walktrack({"batch", in, "-o", out, "--dry-run", "--retry-failed"}).out,
             "bad one\nother\n");
+  const ProgramResult report = run_walktrack({"batch", in, "-o", out, "--report", "--json-line"});
+  EXPECT_EQ(report.exit_code, 1);
+  EXPECT_THAT(report.err, HasSubstr("0 complete, 0 degraded, 2 failed, 0 left"));
+  EXPECT_THAT(report.out, HasSubstr("\"failed\":2"));
+  EXPECT_EQ(run_walktrack({"batch", in, "-o", out + "2", "--report"}).exit_code, 3);
+}
+
+TEST(AnalyseCommand, RefusesSizesThatNobodyHas) {
+  const TemporaryFolder folder;
+  const std::string motion = std::string(WALKTRACK_SOURCE_DIR) + "/data/demo/truth.csv";
+  for (const std::string command : {"analyse", "optimise"}) {
+    const auto run = [&](const char* option, const char* value) {
+      return run_walktrack({command, motion, "-o", folder / "out", option, value});
+    };
+    const ProgramResult tall = run("--height", "175"), heavy = run("--mass", "1e6");
+    EXPECT_EQ(tall.exit_code, 2) << command;
+    EXPECT_THAT(tall.err, HasSubstr("--height: found 175, allowed: 0.2 to 4"));
+    EXPECT_EQ(heavy.exit_code, 2) << command;
+    EXPECT_THAT(heavy.err, HasSubstr("--mass: found 1e+06, allowed: 0.5 to 1000"));
+  }
 }
 
 class CalibrateCommand : public testing::Test {

@@ -80,7 +80,7 @@ TEST_F(ShortVideo, StatesOneSpeedAndThatInTheStride) {
   EXPECT_GT(stride, speed);
   std::ostringstream words;
   words << std::fixed << std::setprecision(1) << speed << " frames/s (" << stride
-        << " in the stride)\n";
+        << " while tracking)\n";
   EXPECT_THAT(result.err, HasSubstr(words.str()));
   EXPECT_THAT(read_file(folder_ / "out/report.html"),
               HasSubstr("\"frames_per_second\":" + timing.at("frames_per_second").dump()));

@@ -96,7 +96,7 @@ TEST_F(CheckpointFile, IsRefusedIfItIsInconsistentEvenWithACorrectDigest) {
       {"out of its bounds", [](Checkpoint& c) { c.observers[0].frames = -1; }},
       {"a background", [](Checkpoint& c) { c.observers[0].background->green.pop_back(); }},
       {"a background", [](Checkpoint& c) { c.observers[0].background->width = 1 << 20; }},
-      {"a background", [](Checkpoint& c) { c.observers[0].background->change.brightness = 1e6F; }},
+      {"a background", [](Checkpoint& c) { c.observers[0].background->change.levels.gain = 1e6F; }},
       {"an image", [](Checkpoint& c) { c.observers[0].grey_before.width = 1 << 20; }},
       {"colours", [](Checkpoint& c) { c.observers[0].appearance.resize(1); }},
       {"colours",

@@ -137,8 +137,11 @@ TEST_F(SceneFile, ThePlaceOfTheSubjectHasToBeOne) {
   EXPECT_THAT(message("{time: 1}"), HasSubstr("neither 'position' nor 'feet_px'"));
   EXPECT_THAT(message("{time: 1, feet_px: [3, 4]}"), HasSubstr("camera"));
   EXPECT_THAT(message("{time: 1, camera: b, feet_px: [3, 4]}"), HasSubstr("the name of a camera"));
-  EXPECT_THAT(message("{time: 1, camera: a, feet_px: [30, -900]}"),
+  EXPECT_THAT(message("{time: 1, camera: a, feet_px: [30, 2]}"),
               HasSubstr("a pixel in which the camera sees the ground"));
+  for (const char* pixel : {"[30, 49]", "[-1, 40]", "[65, 40]"})
+    EXPECT_THAT(message(fmt::format("{{time: 1, camera: a, feet_px: {}}}", pixel)),
+                HasSubstr("allowed: a pixel of its pictures, 64 x 48"));
   EXPECT_THAT(message("{time: 1, position: [2, -1], feet_px: [3, 4]}"), HasSubstr("one of them"));
   EXPECT_THAT(message("{time: 1, position: [2, -1]}}\ninitial: {position: [0, 0], heading: 0"),
               HasSubstr("one of them"));

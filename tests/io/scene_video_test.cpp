@@ -1,11 +1,13 @@
 #include "io/video/scene_video.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
 #include "tests/io/sample_files.h"
 #include "tests/io/sample_video.h"
+#include "tests/message_of.h"
 
 namespace walktrack {
 namespace {
@@ -229,6 +231,25 @@ TEST_F(SceneVideoTest, RefusesARangeBeyondTheEnd) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("first_frame: found 20, allowed: a frame before"));
   }
+}
+
+TEST_F(SceneVideoTest, RefusesACameraThatStartsAfterItsEnd) {
+  EXPECT_THAT(message_of([&] { open("", ", start_frame: 20", ""); }),
+              HasSubstr("cameras[1].start_frame: found 20, allowed: less than 20, the frames of"));
+}
+
+// 20 frames of 25 Hz last .8 s.
+TEST_F(SceneVideoTest, RefusesTimesAfterTheEnd) {
+  const auto initial = [](const char* time) {
+    return fmt::format("initial: {{time: {}, position: [0, 0], heading: 0}}\n", time);
+  };
+  EXPECT_NO_THROW(open("", "", initial("0.79")));
+  EXPECT_THAT(message_of([&] { open("", "", initial("0.8")); }),
+              HasSubstr("initial.time: found 0.8 s, allowed: less than 0.80 s"));
+  EXPECT_THAT(message_of([&] { open("", "", "first_frame: 10\n" + initial("0.5")); }),
+              HasSubstr("less than 0.40 s"));
+  EXPECT_THAT(message_of([&] { open("", "", "subject: {near: {time: 99, position: [2, -1]}}\n"); }),
+              HasSubstr("subject.near.time: found 99 s, allowed: less than 0.80 s"));
 }
 
 TEST_F(SceneVideoTest, PassesOnTroubleOfACamera) {

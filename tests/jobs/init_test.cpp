@@ -165,7 +165,7 @@ TEST_F(Init, OfTwoRealTelephonesStandAsTheyDo) {
 TEST_F(Init, OfTwoVideosWantsAWalk) {
   if (!has_pose_net()) GTEST_SKIP() << "without the pose network";
   EXPECT_THAT(message_of([&] {
-                init_pair(pair_job(kDemo, {"side_background.mp4", "side_background.mp4"}, 1.75,
+                init_pair(pair_job(kDemo, {"side_background.mp4", "front_background.mp4"}, 1.75,
                                    place_ / "two"),
                           {});
               }),
@@ -177,6 +177,14 @@ TEST_F(Init, OfTwoVideosWantsAWalk) {
               }),
               HasSubstr("a person who stays in one place"));
   EXPECT_FALSE(fs::exists(place_ / "two"));
+}
+
+TEST_F(Init, OfTwoVideosWantsTwo) {
+  EXPECT_THAT(
+      message_of<UsageError>([&] {
+        init_pair(pair_job(kDemo, {"side.mp4", "../demo/side.mp4"}, 1.75, place_ / "two"), {});
+      }),
+      HasSubstr("found the same video twice, allowed: the videos of two cameras"));
 }
 
 TEST_F(Init, SaysWhenNobodyWalksThroughThePicture) {

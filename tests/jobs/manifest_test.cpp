@@ -133,6 +133,14 @@ TEST_F(ManifestBatch, DoesItsRowsAndNoOthers) {
   EXPECT_EQ(read_file(job_.output / "a/ran"), folder_ / "a/scene.yaml\n");
 }
 
+TEST_F(ManifestBatch, AReportNeedsTheFolderOfABatch) {
+  folder_.write("0/scene.yaml", "");
+  write("0/scene.yaml\n");
+  EXPECT_THAT(message_of([&] { write_batch_reports(job_, SequenceList(job_)); }),
+              HasSubstr("found no folder, allowed: the output folder of a batch that has begun"));
+  EXPECT_FALSE(fs::exists(job_.output));
+}
+
 TEST_F(ManifestBatch, SharesCoverEveryRowOnceAndLeaveTheSummaryToTheReport) {
   std::string list;
   for (int i = 0; i < 7; ++i) {

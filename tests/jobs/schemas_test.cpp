@@ -5,6 +5,7 @@
 #include "core/errors.h"
 #include "io/scene/scene.h"
 #include "jobs/evaluate/analyse.h"
+#include "jobs/optimise/optimise.h"
 #include "tests/io/json_schema.h"
 #include "tests/run_program.h"
 
@@ -49,6 +50,7 @@ Json full_scene() {
            {{"height", 1.7},
             {"height_sd", 0.02},
             {"mass", 60},
+            {"girth", 1.2},
             {"lengths", {{"thigh", 0.4}, {"foot", 0.2}}}}},
           {"initial",
            {{"time", 0.5}, {"position", {0, 0}}, {"heading", 0}, {"speed", 1}, {"phase", 0.1}}},
@@ -90,6 +92,7 @@ TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
   refused("/camera", 1, "/camera: an unknown key");
   refused("/subject/height", 175, "/subject/height: too large");
   refused("/subject/height_sd", 3, "/subject/height_sd: too large");
+  refused("/subject/girth", 3, "/subject/girth: too large");
   refused("/subject/weight", 60, "/subject/weight: an unknown key");
   refused("/subject/near", Json::object(), "/subject/near: lacks \"time\"");
   refused("/subject/lengths/toe", 0.1, "/subject/lengths/toe: an unknown key");
@@ -125,6 +128,16 @@ TEST(ResultSchemas, HoldForAnAnalysis) {
   EXPECT_THAT(schema_trouble(schema("gait"), gait), HasSubstr("/contacts/0/side: is none of"));
   gait["contacts"][0].erase("side");
   EXPECT_THAT(schema_trouble(schema("gait"), gait), HasSubstr("/contacts/0: lacks"));
+}
+
+TEST(ResultSchemas, HoldForAnOptimisedMotion) {
+  const TemporaryFolder place;
+  OptimiseJob job;
+  job.motion = kSource / "data/demo/truth.csv";
+  job.output = place.path() / "out";
+  job.overlay = false;
+  optimise(job, {});
+  expect_valid_result(job.output);
 }
 
 TEST(ResultSchemas, HoldForATrack) {

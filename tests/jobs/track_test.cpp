@@ -124,18 +124,28 @@ TEST(SearchWindow, TooLargeForMemoryIsRefusedWithAdvice) {
   Config fine, coarse;
   fine.observation.person_px = 4000;  // nothing is shrunk
   coarse.observation.person_px = 40;
-  EXPECT_DOUBLE_EQ(search_window_bytes(scene, fine, 30), 2.0 * 640 * 480 * 36 * 4);
+  constexpr double kFrames = 36 + 90;  // of the window, and those in which somebody may stand
+  EXPECT_DOUBLE_EQ(search_window_bytes(scene, fine, 30), 2 * 640 * 480 * kFrames * 4);
   Scene one = scene;  // whose subject is searched by their clothes as well
   one.cameras.pop_back();
-  EXPECT_DOUBLE_EQ(search_window_bytes(one, fine, 30), 640 * 480 * 36 * 16);
-  EXPECT_NO_THROW(require_room_for_search(scene, fine, kFastestRate));
+  EXPECT_DOUBLE_EQ(search_window_bytes(one, fine, 30), 640 * 480 * kFrames * 16);
+  EXPECT_NO_THROW(require_room_for_search(scene, Config{}, kFastestRate));
   for (SceneCamera& camera : scene.cameras)
     camera.camera.width_px = camera.camera.height_px = kMostPixelsAlongASide;
   EXPECT_THAT(
       message_of([&] { require_room_for_search(scene, fine, 30); }),
-      testing::AllOf(testing::HasSubstr("would hold 19.3 GB"),
+      testing::AllOf(testing::HasSubstr("would hold 67.6 GB"),
                      testing::HasSubstr("at most 8.6 GB: a smaller observation.person_px")));
   EXPECT_NO_THROW(require_room_for_search(scene, coarse, 30));
+}
+
+TEST_F(Track, RefusesSpeedsThatNoWalkHas) {
+  TrackJob none = job(60, "none");
+  none.config.values.tracker.detector.slowest = 5;
+  none.config.values.tracker.detector.fastest = 1;
+  EXPECT_THAT(
+      message_of<UsageError>([&] { track_scene(none, {}); }),
+      testing::HasSubstr("detector.slowest: found 5, allowed: at most detector.fastest, 1"));
 }
 
 TEST_F(Track, FindsTheWalkerOfTheDemoWhereTheyAre) {

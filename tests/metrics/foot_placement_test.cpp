@@ -45,6 +45,14 @@ TEST(ToeClearance, UnknownWhereTheSwingIs) {
   EXPECT_TRUE(std::isnan(toe_clearance(gap, gait, kMiddle)));
 }
 
+// A foot that comes down in another walk has not swung all the time.
+TEST(ToeClearance, EndsWithAWalk) {
+  const Motion motion = walk_motion({});
+  Gait gait = gait_from_motion(motion);
+  for (size_t i = kMiddle + 1; i < gait.stances.size(); ++i) gait.stances[i].on += 1.5;
+  EXPECT_TRUE(std::isnan(toe_clearance(motion, gait, kMiddle)));
+}
+
 // Whose toes point outwards by 12 degrees on either side, wherever the person goes.
 TEST(FootProgression, IsPositiveOutwards) {
   for (const double heading : {0.0, 2.0, -2.5}) {

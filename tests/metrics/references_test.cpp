@@ -46,6 +46,16 @@ TEST(FootPlantErrors, SwappedSidesAreNotFound) {
   EXPECT_EQ(foot_plant_errors(plants_of(walk), bad, kTrim).found, 0u);
 }
 
+TEST(FootPlantErrors, TheOtherFootNeedNotBeKnown) {
+  const TestWalk walk;
+  const Motion left = changed(walk_motion(walk), [](JointPositions& joints, size_t) {
+    joints[ankle(Side::kRight)] = joints[toe(Side::kRight)] = unknown_joints()[Joint::kPelvis];
+  });
+  std::vector<FootPlant> plants = plants_of(walk);
+  std::erase_if(plants, [](const FootPlant& plant) { return plant.side == Side::kRight; });
+  EXPECT_EQ(foot_plant_errors(plants, left, kTrim).found, plants.size());
+}
+
 TEST(FootPlantErrors, AShortStanceCountsForPresenceOnly) {
   const TestWalk walk;
   std::vector<FootPlant> plants = plants_of(walk);

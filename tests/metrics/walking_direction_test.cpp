@@ -43,6 +43,18 @@ TEST(WalkingDirection, StepsOfWhoeverSwaysAreAsLongAndWide) {
   }
 }
 
+// Sums of times are rounded.
+TEST(WalkingDirection, IsKnownToTheEndsWhateverTheStride) {
+  for (const double rate : {30.0, 29.97, 60.0}) {
+    const TestWalk walk{.rate = rate};
+    const Motion motion = walk_motion(walk);
+    for (double stride = 0.9; stride < 9; stride *= 1.003) {
+      EXPECT_NEAR(off_deg(walking_direction(motion, motion.time.back(), stride)), 0, 1) << stride;
+      EXPECT_NEAR(off_deg(walking_direction(motion, motion.time.front(), stride)), 0, 1) << stride;
+    }
+  }
+}
+
 TEST(WalkingDirection, FollowsATurn) {
   Motion motion = walk_motion({.speed = 1});
   for (size_t i = 0; i < motion.time.size(); ++i) {

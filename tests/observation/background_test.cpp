@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -104,11 +105,13 @@ TEST(Background, ThingsStandOutAndShadowsDoNot) {
   EXPECT_GT(foreground_share(log_ratios(model, frame), kBox), 0.9);
 }
 
-TEST(Brightness, IsRaisedWhereNineTenthsAreDark) {
+TEST(Levels, AreRaisedWhereNineTenthsAreDark) {
   const auto of = [](double share_of_lamps, float rest) {
     std::vector<float> luma(1000, rest);
     for (size_t i = 0; static_cast<double>(i) < 1000 * share_of_lamps; ++i) luma[i] = 250;
-    return brightness_for(luma);
+    const Levels levels = levels_of_dark(luma);
+    EXPECT_EQ(levels.black, 0);
+    return levels.gain;
   };
   EXPECT_EQ(of(0, 200), 1);
   EXPECT_EQ(of(0, 85), 1);
@@ -119,8 +122,30 @@ TEST(Brightness, IsRaisedWhereNineTenthsAreDark) {
   EXPECT_EQ(of(0, 0), 8);      // the most
 }
 
+// The darkest and the brightest values come to be as far from the ends of the range as usual,
+TEST(Levels, AreStretchedWhereTheRangeIsSmall) {
+  const auto of = [](float lowest, float highest, float noise = 0) {
+    LumaRange range;
+    for (const float each : {lowest, highest}) range.take(each);
+    return range.levels(noise);
+  };
+  for (const auto& [lowest, highest] : {std::pair{70.F, 182.F}, {100.F, 150.F}, {40.F, 220.F}}) {
+    const Levels levels = of(lowest, highest);
+    EXPECT_NEAR(levels.gain * (highest - lowest), 224, 1e-3F) << lowest;
+    EXPECT_NEAR(levels.gain * (lowest - levels.black), 15.5F, 1e-3F) << lowest;
+  }
+  EXPECT_FALSE(of(20, 215).stretch());
+  EXPECT_EQ(of(0, 158).black, 0);  // black stays black
+  EXPECT_EQ(of(90, 100).gain, kMostGain);
+  EXPECT_EQ(of(90, 90).gain, kMostGain);
+  EXPECT_FALSE(LumaRange{}.is_small()) << "no picture";
+  EXPECT_EQ(of(70, 182, 0.25F).gain, 2);
+  EXPECT_EQ(of(70, 182, 0.5F).gain, 1.5F);  // the noise becomes as large as usual
+  EXPECT_FALSE(of(70, 182, 0.75F).stretch());
+}
+
 // Values become brighter, and noise does not become larger.
-TEST(Brightness, BlursTheNoiseAway) {
+TEST(Levels, BlurTheNoiseAway) {
   Rng rng(11, Purpose::kTest);
   cv::Mat dark(200, 300, CV_8UC3);
   for (int y = 0; y < dark.rows; ++y)
@@ -129,10 +154,10 @@ TEST(Brightness, BlursTheNoiseAway) {
         dark.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uint8_t>(24 + 3 * rng.normal());
   cv::Scalar mean, deviation, before;
   cv::meanStdDev(dark, mean, before);
-  for (const float brightness : {1.5F, 2.5F, 5.0F}) {
-    cv::meanStdDev(brightened(dark, brightness), mean, deviation);
-    EXPECT_NEAR(mean[1], 24 * static_cast<double>(brightness), 1) << brightness;
-    EXPECT_LT(deviation[1], 1.05 * before[1]) << brightness;
+  for (const float gain : {1.5F, 2.5F, 5.0F}) {
+    cv::meanStdDev(stretched(dark, {4, gain}), mean, deviation);
+    EXPECT_NEAR(mean[1], 20 * static_cast<double>(gain), 1) << gain;
+    EXPECT_LT(deviation[1], 1.05 * before[1]) << gain;
   }
 }
 
@@ -142,17 +167,48 @@ TEST(Background, ThingsStandOutInTheDark) {
   std::vector<cv::Mat> frames;
   for (int i = 0; i < 10; ++i) frames.push_back(scene(rng, 2.5, 0.15));
   const BackgroundModel model = model_of(frames);
-  EXPECT_GT(model.change.brightness, 5);
+  EXPECT_GT(model.change.levels.gain, 5);
   cv::Mat frame = scene(rng, 2.5, 0.15);
   for (int y = kBox.y; y < kBox.y + kBox.height; ++y)
     for (int x = kBox.x; x < kBox.x + kBox.width; ++x)
       for (int c = 0; c < 3; ++c)
         frame.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uint8_t>(
             0.15 * std::array{60, 70, 150}[static_cast<size_t>(c)] + 2.5 * rng.normal());
-  const std::vector<double> ratios = log_ratios(model, brightened(frame, model.change.brightness));
+  const std::vector<double> ratios = log_ratios(model, stretched(frame, model.change.levels));
   EXPECT_GT(foreground_share(ratios, kBox), 0.8);
   EXPECT_LT(foreground_share(ratios, {0, 0, 24, kHeight}), 0.05);
-  EXPECT_EQ(model_of({scene(rng, 2)}).change.brightness, 1);
+  EXPECT_EQ(model_of({scene(rng, 2)}).change.levels.gain, 1);
+}
+
+// Law: what stands out does not depend on the contrast of the camera. Grey clothes before a grey
+// wall in a haze look like the wall unless its levels are stretched.
+TEST(Background, ThingsStandOutInAHaze) {
+  const auto seen = [](double contrast, bool stretch) {
+    Rng rng(13, Purpose::kTest);
+    const auto hazy = [&](cv::Mat picture) {
+      picture.convertTo(picture, -1, contrast, 125 * (1 - contrast));
+      return picture;
+    };
+    const auto with_thing = [&] {
+      cv::Mat picture = scene(rng, 1);
+      picture(kBox).setTo(cv::Scalar::all(95));
+      picture({0, 0, 8, 4}).setTo(cv::Scalar::all(8));
+      picture({8, 0, 8, 4}).setTo(cv::Scalar::all(247));
+      return hazy(picture);
+    };
+    BackgroundSampler sampler({});
+    for (int i = 0; i < 10; ++i) sampler.add(hazy(scene(rng, 1)));
+    EXPECT_FALSE(sampler.has_little_contrast()) << "before the video is known";
+    const cv::Mat frame = with_thing();
+    if (stretch) sampler.show(frame);
+    EXPECT_EQ(sampler.has_little_contrast(), stretch && contrast < 0.7);
+    const BackgroundModel model = sampler.model();
+    return foreground_share(log_ratios(model, changed(frame, model.change)), kBox);
+  };
+  const double clear = seen(1, true);
+  EXPECT_GT(clear, 0.5);
+  EXPECT_GT(seen(0.4, true), 0.8 * clear);
+  EXPECT_LT(seen(0.4, false), 0.2 * clear);
 }
 
 TEST(Colourless, IsWhatHasNoColourInNinetyNineOfAHundredPixels) {

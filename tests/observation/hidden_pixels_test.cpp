@@ -76,6 +76,38 @@ TEST(HiddenPixels, AreThoseOfTheThingInFrontOfTheSubject) {
   EXPECT_FALSE(at(mask, 11, 10)) << "further away";
 }
 
+LogRatioPlanes part_of(const LogRatioPlanes& planes, const PixelRect& area) {
+  LogRatioPlanes part;
+  resize(part, area, 1);
+  for (int y = area.y0; y < area.y1; ++y) {
+    std::vector<float> row;
+    for (int x = area.x0; x < area.x1; ++x)
+      row.push_back(static_cast<float>(log_ratio_at(planes, Appearance::kTrunk, x, y)));
+    set_row(part, 0, y, row, 4);
+  }
+  return part;
+}
+
+// After a track is lost, frames of which only the surroundings of the subject were compared are
+// searched together with whole ones.
+TEST(HiddenPixels, FramesMayHaveDifferentAreas) {
+  Comer comer(16, kTree);
+  const PixelMask whole = comer.mask(4);
+  constexpr PixelRect kPart{9, 20, 100, 130};
+  for (const size_t t : {0u, 3u, 7u}) comer.planes(t) = part_of(comer.planes(t), kPart);
+  PixelMask mask = comer.mask(4);
+  EXPECT_EQ(mask.area.x0, kArea.x0);
+  EXPECT_EQ(mask.area.y1, kArea.y1);
+  EXPECT_EQ(mask.set, whole.set);
+  LogRatioPlanes planes = comer.planes(7), full = *Comer(16, kTree).frame(7).planes;
+  hide(mask, planes);
+  hide(mask, full);
+  for (int y = kPart.y0; y < kPart.y1; ++y)
+    for (int x = kPart.x0; x < kPart.x1; ++x)
+      EXPECT_EQ(log_ratio_at(planes, Appearance::kTrunk, x, y),
+                log_ratio_at(full, Appearance::kTrunk, x, y));
+}
+
 TEST(HiddenPixels, AreNoneIfTheSubjectIsWhole) {
   EXPECT_TRUE(Comer(16, kNothing).mask(4).set.empty());
 }

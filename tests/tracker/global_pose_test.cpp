@@ -34,6 +34,25 @@ TEST(GlobalPoseSpread, DeadParticlesCountForNothing) {
   EXPECT_EQ(global_pose_spread(set, std::vector<double>{dead, dead}).factor.norm(), 0);
 }
 
+// Law: the spread of headings is the same in every direction, also about -x, where pi becomes -pi.
+TEST(GlobalPoseSpread, OfHeadingsIsTheSameInEveryDirection) {
+  const Walking walking;
+  const MotionContext context = walking.context(kDt);
+  for (const double direction : {0.0, kPi, -kPi}) {
+    std::vector<WalkerParticle> set = walkers_on_their_way(context, 2);
+    set[0].residual[kHeading] = std::remainder(direction + 0.1, 2 * kPi);
+    set[1].residual[kHeading] = std::remainder(direction - 0.1, 2 * kPi);
+    const GlobalPoseSpread spread = global_pose_spread(set, equal_weights(2));
+    EXPECT_NEAR(std::remainder(spread.mean[2] - direction, 2 * kPi), 0, 1e-12) << direction;
+    EXPECT_NEAR(spread.factor.row(2).norm(), 0.1, 1e-12) << direction;
+    // A move by the whole spread, without noise of its own, stays near.
+    Rng rng(1, Purpose::kTest);
+    const double before = set[0].predicted_residual[kHeading];
+    move_global_pose(context, spread, 0.01, set[0], rng);
+    EXPECT_LT(std::abs(set[0].predicted_residual[kHeading] - before), 0.1) << direction;
+  }
+}
+
 // The factor is the covariance's: an independent sum over two coordinates.
 TEST(GlobalPoseSpread, FactorGivesTheCovariance) {
   const Walking walking;

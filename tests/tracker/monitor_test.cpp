@@ -43,6 +43,16 @@ TEST(Monitor, BadFramesAreNotTheMeasureOfGoodOnes) {
   EXPECT_EQ(state.log_likelihoods.back(), 90);
 }
 
+// A start may take longer than the time of which the median is taken.
+TEST(Monitor, RemembersTheNewestFramesOfALongStart) {
+  const MonitorConfig config;
+  MonitorState state;
+  begin_watch(std::deque<double>(100, 50.0), state);
+  is_fading(config, 1, kDt, 100, kNobody, state);
+  EXPECT_EQ(state.log_likelihoods.size(), size_t(frames_in(config.evidence_window, kDt)));
+  EXPECT_EQ(state.log_likelihoods.back(), 100);
+}
+
 // An empty scene explains nothing: below the least score a track is lost whatever came before.
 TEST(Monitor, LowScoresAreLost) {
   MonitorState state;

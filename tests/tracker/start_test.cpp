@@ -1,5 +1,7 @@
 #include "tracker/start/start.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "fixture.h"
@@ -27,6 +29,22 @@ TEST(PhaseRanges, AStatedPhaseNamesItsFoot) {
   const PhaseRange range = phase_ranges(config, 0.25)[0];
   EXPECT_LT(range.from, 0.5);
   EXPECT_GT(range.to, 0.5);
+}
+
+// At a strike the phase may be late in the step before as well as early in the one after.
+TEST(PhaseRanges, AStatedPhaseReachesIntoTheStepBeforeAndAfter) {
+  const StartConfig config;
+  const double width = 1.0 / config.phases;
+  for (const double phase : {0.0, 0.02, 0.25, 0.48, 0.5, 0.99}) {
+    double length = 0;
+    for (const PhaseRange& range : phase_ranges(config, phase)) {
+      length += range.to - range.from;
+      const double foot = range.stance == Side::kLeft ? 0 : 1;
+      for (const double step : {range.from, range.to})
+        EXPECT_LE(std::abs(std::remainder(foot + step - 2 * phase, 2)), width + 1e-12) << phase;
+    }
+    EXPECT_NEAR(length, 2 * width, 1e-12) << phase;
+  }
 }
 
 TEST(Spawn, ParticlesStandAtTheDetectionAndFaceAhead) {

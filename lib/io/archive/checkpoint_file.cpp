@@ -15,7 +15,7 @@ inline namespace io {
 
 namespace {
 
-constexpr std::string_view kFormat = "walktrack checkpoint 10\n";
+constexpr std::string_view kFormat = "walktrack checkpoint 11\n";
 constexpr size_t kDigestBytes = 64;
 
 template <typename Archive, ArchivedAs<Checkpoint> T>

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "io/archive/state_fields.h"
-#include "observation/background/brightness.h"
+#include "observation/background/levels.h"
 
 namespace walktrack {
 inline namespace io {
@@ -55,8 +55,9 @@ bool all_finite(const T& value) {
 
 bool sound(const BackgroundModel& model) {
   if (model.width < 1 || model.height < 1) return false;
-  const float brightness = model.change.brightness;
-  if (!(brightness >= 1 && brightness <= kMostBrightening)) return false;
+  const Levels& levels = model.change.levels;
+  if (!(levels.gain >= 1 && levels.gain <= kMostGain)) return false;
+  if (!(levels.black >= 0 && levels.black <= 255)) return false;
   const size_t pixels = static_cast<size_t>(model.width) * static_cast<size_t>(model.height);
   return std::ranges::all_of(
       std::array{&model.luma, &model.orange, &model.green, &model.luma_precision,

@@ -155,8 +155,9 @@ template <typename Archive, ArchivedAs<BackgroundModel> T>
 void fields(Archive& archive, T& value) {
   auto& [width, height, change, from_video, luma, orange, green, luma_precision, chroma_precision] =
       value;
-  archive(a_count(width), a_count(height), change.brightness, change.colourless,
-          a_share(from_video), luma, orange, green, luma_precision, chroma_precision);
+  archive(a_count(width), a_count(height), change.levels.black, change.levels.gain,
+          change.colourless, a_share(from_video), luma, orange, green, luma_precision,
+          chroma_precision);
 }
 
 template <typename Archive, ArchivedAs<AppearanceState> T>

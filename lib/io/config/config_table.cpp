@@ -122,7 +122,7 @@ void add_filter(ParameterTable& table) {
   f.number("resample_below", &F::resample_below, 0, 1,
            "effective share of the particles below which they are resampled");
   f.number("layer_ess", &F::layer_ess, 0, 1,
-           "effective share of the particles that a tempered layer keeps");
+           "share of the effective sample size that a tempered layer keeps");
   f.integer("max_layers", &F::max_layers, 1, 1000,
             "most tempered layers of a frame; 1 = no tempering");
   f.integer("moves", &F::moves, 0, 1000,
@@ -168,7 +168,7 @@ void add_track(ParameterTable& table) {
   using M = MonitorConfig;
   ParameterGroup<M> m(table, "track", "", &Config::tracker, &T::monitor);
   m.number("lost_below", &M::lost_below, 0, 1,
-           "share of the likelihood's median below which a frame counts as lost");
+           "share of the log-likelihood's median below which a frame counts as lost");
   m.number("lost_after", &M::lost_after, 0, 100,
            "time below lost_below after which the track is lost, s");
   m.number("outscored_after", &M::outscored_after, 0, 100,

@@ -198,7 +198,11 @@ Eigen::Vector2d place_in_picture(const YamlValue& near, const std::vector<SceneC
   const std::vector<double> pixel = feet.numbers(2);
   const auto camera = std::ranges::find(cameras, name.text(), &SceneCamera::name);
   if (camera == cameras.end()) name.fail(name.describe_found(), "the name of a camera");
-  const auto place = ground_point(camera->camera, Eigen::Vector2d(pixel.data()));
+  const Camera& sees = camera->camera;
+  if (pixel[0] < 0 || pixel[1] < 0 || pixel[0] > sees.width_px || pixel[1] > sees.height_px)
+    feet.fail(fmt::format("[{:g}, {:g}]", pixel[0], pixel[1]),
+              fmt::format("a pixel of its pictures, {} x {}", sees.width_px, sees.height_px));
+  const auto place = ground_point(sees, Eigen::Vector2d(pixel.data()));
   if (!place)
     feet.fail(fmt::format("[{:g}, {:g}]", pixel[0], pixel[1]),
               "a pixel in which the camera sees the ground");

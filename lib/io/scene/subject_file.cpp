@@ -43,13 +43,14 @@ StatedSubject read_map(const YamlValue& value) {
   StatedSubject out;
   out.height_stated = value.has("height");
   out.mass_stated = value.has("mass");
-  if (out.height_stated) out.subject.height = value.at("height").number(0.2, 4);
+  if (out.height_stated)
+    out.subject.height = value.at("height").number(kSmallestHeight, kGreatestHeight);
   if (value.has("height_sd")) {
     if (!out.height_stated)
       value.at("height_sd").fail("no 'height' beside it", "the height that it belongs to");
     out.height_sd = value.at("height_sd").number(kLeastSd, kMostSd);
   }
-  if (out.mass_stated) out.subject.mass = value.at("mass").number(0.5, 1000);
+  if (out.mass_stated) out.subject.mass = value.at("mass").number(kSmallestMass, kGreatestMass);
   out.girth_stated = value.has("girth");
   if (out.girth_stated) out.subject.girth = value.at("girth").number(kLeastGirth, kMostGirth);
   if (value.has("lengths")) out.subject.lengths = read_lengths(value.at("lengths"));

@@ -15,6 +15,10 @@ inline namespace io {
 
 inline constexpr const char* kSubjectFile = "subject.yaml";
 
+// Limits of what may be stated, m and kg.
+inline constexpr double kSmallestHeight = 0.2, kGreatestHeight = 4;
+inline constexpr double kSmallestMass = 0.5, kGreatestMass = 1000;
+
 struct StatedSubject {
   Subject subject;                  // usual values for what is not stated
   std::optional<double> height_sd;  // m; then the height is only known so well

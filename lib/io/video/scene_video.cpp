@@ -59,10 +59,36 @@ SceneVideo::SceneVideo(const Scene& scene)
   for (double& rate : rates_)
     if (std::abs(rate / rate_ - 1) < kSameRate) rate = rate_;
   shown_.assign(sources_.size(), -1);
+  refuse_late_starts(scene);
   if (frame_count() < 0) {
     throw InputError(describe({scene.file.string(), 0, "first_frame"}, std::to_string(first_frame_),
                               "a frame before the videos' end"));
   }
+  refuse_late_times(scene);
+}
+
+void SceneVideo::refuse_late_starts(const Scene& scene) const {
+  for (size_t i = 0; i < sources_.size(); ++i) {
+    const int held = sources_[i].facts().frame_count;
+    if (held > 0 && start_frames_[i] >= held)
+      throw InputError(describe(
+          {scene.file.string(), 0, fmt::format("cameras[{}].start_frame", i)},
+          std::to_string(start_frames_[i]),
+          fmt::format("less than {}, the frames of {}", held, scene.cameras[i].video.string())));
+  }
+}
+
+void SceneVideo::refuse_late_times(const Scene& scene) const {
+  const int frames = frame_count();
+  const auto refuse = [&](const char* key, double time) {
+    if (frames > 0 && time * rate_ >= frames)
+      throw InputError(describe({scene.file.string(), 0, key}, fmt::format("{:g} s", time),
+                                fmt::format("less than {:.2f} s, the time from first_frame to the "
+                                            "end",
+                                            frames / rate_)));
+  };
+  if (scene.initial) refuse("initial.time", scene.initial->time);
+  if (scene.near) refuse("subject.near.time", scene.near->time);
 }
 
 // Determines the camera's rate and when its frames were taken.

@@ -52,6 +52,8 @@ class SceneVideo {
   void close();
 
  private:
+  void refuse_late_starts(const Scene& scene) const;
+  void refuse_late_times(const Scene& scene) const;
   void place_frames(size_t camera, const Scene& scene);
   double wanted(size_t camera) const;
   double place_of(size_t camera, int frame) const;

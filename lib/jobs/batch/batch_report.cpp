@@ -147,6 +147,9 @@ Outputs batch_outputs(const BatchJob& job) {
 BatchOutcome write_batch_reports(const BatchJob& job, const SequenceList& list) {
   const Outputs outputs = batch_outputs(job);
   refuse_what_is_not_ours(outputs);
+  if (!std::filesystem::is_directory(outputs.folder))
+    throw InputError(describe({outputs.folder.string(), 0, ""}, "no folder",
+                              "the output folder of a batch that has begun"));
   const FolderLock claim = lock_of(outputs.folder);
   // Reports are replaced and never removed first, because others may be reading them.
   const std::vector<std::string_view> kept(outputs.files.begin(), outputs.files.end());

@@ -159,7 +159,8 @@ void Manifest::refuse_doubles(const std::vector<uint64_t>& seen) const {
   Reader reader(*this);
   while (reader.advance()) {
     const std::string name = reader.row().name;
-    const auto [first, last] = std::ranges::equal_range(seen, std::hash<std::string>{}(name));
+    const auto [first, last] =
+        std::equal_range(seen.begin(), seen.end(), std::hash<std::string>{}(name));
     if (last - first < 2) continue;
     const auto [earlier, is_new] = lines.emplace(name, reader.line_number());
     if (!is_new)

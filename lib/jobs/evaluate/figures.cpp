@@ -110,7 +110,7 @@ void add_gait_errors(const Gait& truth, const Gait& estimate, Figures& out) {
             estimate.mean_step_width - truth.mean_step_width, 3);
   const EventErrors events = event_errors(truth.events, estimate.events);
   const bool any = events.matched > 0;
-  out.add("event_error_ms", "gait events, mean |error|, ms",
+  out.add("event_error_ms", "gait events, mean absolute error, ms",
           any ? kMs * events.mean_absolute : kNone, 0);
   out.add("event_late_ms", "gait events, mean late, ms", any ? kMs * events.mean_late : kNone, 0);
   out.add("events_missed", "gait events missed", static_cast<double>(events.missed), 0);

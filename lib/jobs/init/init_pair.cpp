@@ -56,7 +56,7 @@ void check_way(const InitPairJob& job, const std::vector<Eigen::Vector3d>& place
                               "a person who walks through both videos at the same time"));
 }
 
-// Removes the lag if it is at least a frame and more than two standard deviations.
+// Removes the lag, to the nearest frame, if it is more than two standard deviations.
 void take_out_lag(InitPairOutcome& out, double frame_rate) {
   const Measured& lag = out.views.lag;
   if (std::abs(lag.value) < 2 * lag.sd) return;
@@ -163,6 +163,9 @@ std::string use_text(const TwoViews& views) {
 
 InitPairOutcome init_pair(const InitPairJob& job, const JobControl& control) {
   refuse_what_is_not_ours(outputs_of(job));
+  if (std::error_code none; std::filesystem::equivalent(job.videos[0], job.videos[1], none))
+    throw UsageError(describe({job.videos[1].string(), 0, ""}, "the same video twice",
+                              "the videos of two cameras"));
   // Results of the pose network depend on the number of OpenCV's threads.
   set_image_threads(1);
   const std::array<SeenPerson, 2> seen{seen_person(job.videos[0], job.frame_rate, control),

@@ -272,10 +272,12 @@ void advise_cameras(const Scene& scene, const Config& config, double all,
   const std::optional<size_t> side = side_camera(scene);
   Scene one = scene;
   one.cameras = {scene.cameras[side.value_or(0)]};
+  const double alone = total_ms(one, config);
+  if (alone >= all) return;  // a track before one camera is checked against others
   out.push_back(fmt::format(
       "Cameras: speed, steps and sagittal angles need only one camera at the side{}; this {}. Step "
       "width, turning and the distance to the camera need a second one.",
-      side ? fmt::format(" ({})", one.cameras[0].name) : "", saving(total_ms(one, config), all)));
+      side ? fmt::format(" ({})", one.cameras[0].name) : "", saving(alone, all)));
 }
 
 std::vector<std::string> advice_of(const Scene& scene, const ConfigWithOrigin& config, double all) {

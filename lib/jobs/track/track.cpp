@@ -183,6 +183,7 @@ TrackOutcome track_scene(const TrackJob& given, const JobControl& control) {
   outcome.lag = checked.lag;
   const Elapsed checking = elapsed_since(start);
   SceneVideo video(job.scene);
+  require_speeds_in_order(job.config.values.tracker.detector);
   require_room_for_search(job.scene, job.config.values, video.frame_rate());
   const Outputs outputs = track_outputs(job);
   refuse_what_is_not_ours(outputs);

@@ -53,11 +53,11 @@ TrackerConfig tracker_config(const Config& config) {
 std::vector<std::string> notes_on_pictures(const std::string& camera, const Observer& observer) {
   std::vector<std::string> out;
   const PictureChange& change = observer.change();
-  if (change.brightness > 1)
-    out.push_back(
-        fmt::format("camera {} is dark: for tracking its pictures are made {:.1f} times as bright, "
-                    "and blurred against their noise",
-                    camera, change.brightness));
+  if (change.levels.stretch())
+    out.push_back(fmt::format(
+        "camera {} {}: for tracking the levels of its pictures are multiplied by "
+        "{:.1f}, and their noise is blurred",
+        camera, change.levels.black > 0 ? "has little contrast" : "is dark", change.levels.gain));
   if (change.colourless)
     out.push_back(
         fmt::format("the pictures of camera {} have no colours: only brightness tells "

@@ -12,7 +12,9 @@
 #include "observation/flow/flow.h"
 #include "observation/shrink.h"
 #include "tracker/detect/figure_places.h"
+#include "tracker/detect/walk_search.h"
 #include "tracker/motion/models/planar_body.h"
+#include "tracker/motion/standing.h"
 
 namespace walktrack {
 inline namespace jobs {
@@ -145,8 +147,16 @@ double search_window_bytes(const Scene& scene, const Config& config, double fram
   const ObservationConfig& terms = config.observation;
   const bool clothes =
       scene.cameras.size() == 1 && terms.background.enabled && terms.foreground.enabled;
-  return std::ceil(config.tracker.detector.window * frame_rate) * pixels *
+  const double seconds =
+      config.tracker.detector.window + WalkSearch::kept_seconds(may_stand(config.tracker.motion));
+  return std::ceil(seconds * frame_rate) * pixels *
          (sizeof(int32_t) + flow_bytes + (clothes ? kClothesBytes : 0));
+}
+
+void require_speeds_in_order(const DetectorConfig& config) {
+  if (config.slowest > config.fastest)
+    throw UsageError(describe({"", 0, "detector.slowest"}, fmt::format("{:g}", config.slowest),
+                              fmt::format("at most detector.fastest, {:g}", config.fastest)));
 }
 
 void require_room_for_search(const Scene& scene, const Config& config, double frame_rate) {

@@ -35,7 +35,11 @@ void learn_appearance(const Body& body, const Pose& pose, const SceneEvidence& e
 // The scale at which a camera's images are processed.
 WorkingScale working_scale(const Scene& scene, const Camera& camera, const Config& config);
 
-// Memory of the search for a walk, for all cameras: the evidence of a window of frames, in bytes.
+// UsageError if no speed is both fast and slow enough to be that of a walk.
+void require_speeds_in_order(const DetectorConfig& config);
+
+// Memory of the search for a walk, for all cameras: the evidence of a window of frames and of those
+// that are kept before it, in bytes.
 // It grows with the frame rate and with the number of pixels after shrinking.
 double search_window_bytes(const Scene& scene, const Config& config, double frame_rate);
 inline constexpr double kMostSearchBytes = 8.0 * (1 << 30);

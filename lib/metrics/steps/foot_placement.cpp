@@ -61,11 +61,8 @@ std::optional<Vector3d> mean_while_flat(const Motion& motion, const Stance& stan
 double toe_clearance(const Motion& motion, const Gait& gait, size_t stance) {
   const Stance& before = gait.stances[stance];
   const Joint joint = toe(before.side);
-  const auto after = std::find_if(gait.stances.begin() + static_cast<std::ptrdiff_t>(stance) + 1,
-                                  gait.stances.end(),
-                                  [&](const Stance& each) { return each.side == before.side; });
-  if (after == gait.stances.end() || !before.ends_in_motion || !after->starts_in_motion)
-    return kUnknown;
+  const Stance* after = next_of_side(gait.stances, stance);
+  if (!after || !before.ends_in_motion) return kUnknown;
   const auto flat =
       mean_while_flat(motion, before, [&](const JointPositions& joints) { return joints[joint]; });
   if (!flat) return kUnknown;

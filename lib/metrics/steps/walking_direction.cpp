@@ -40,10 +40,11 @@ Vector2d walking_direction(const Motion& motion, double time, double stride_time
          motion.time[last] - time < stride_time)
     ++last;
   const double begin = motion.time[first], end = motion.time[last];
-  const double length = std::min(stride_time, end - begin);
-  const double from = std::clamp(time - length / 2, begin, end - length);
+  // Sums are rounded: neither end may come to lie outside.
+  const double from = std::max(begin, std::min(time - stride_time / 2, end - stride_time));
+  const double to = std::min(end, from + stride_time);
   const Vector2d way =
-      on_ground(motion, Joint::kPelvis, from + length) - on_ground(motion, Joint::kPelvis, from);
+      on_ground(motion, Joint::kPelvis, to) - on_ground(motion, Joint::kPelvis, from);
   return way.norm() > 0 ? Vector2d(way.normalized()) : unknown();
 }
 

@@ -124,12 +124,12 @@ struct PixelRows {
   return std::max(w.log_unknown, std::max(plain, shadow));
 }
 
+}  // namespace
+
 float luma_at(const cv::Mat& bgr, int x, int y) {
   const uint8_t* p = bgr.ptr<uint8_t>(y) + 3 * x;
   return 0.25F * static_cast<float>(p[0] + 2 * p[1] + p[2]);
 }
-
-}  // namespace
 
 std::vector<LightPoint> light_points(int width, int height) {
   // Points along each side of the grid; by hand.

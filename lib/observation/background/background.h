@@ -49,6 +49,9 @@ struct LightPoint {
 };
 std::vector<LightPoint> light_points(int width, int height);
 
+// Grey levels.
+float luma_at(const cv::Mat& bgr, int x, int y);
+
 // Brightness of `bgr` relative to the model: the median ratio of luma over those points.
 double light_gain(const BackgroundModel& model, const cv::Mat& bgr);
 

@@ -100,6 +100,11 @@ Statistics robust_statistics(std::vector<Sample>& samples, float reach,
           0.5F * (variance(1) + variance(2))};
 }
 
+void add_range(const cv::Mat& bgr, LumaRange& range) {
+  for (const LightPoint& point : light_points(bgr.cols, bgr.rows))
+    range.take(luma_at(bgr, point.x, point.y));
+}
+
 Sample sample_at(const std::vector<uint8_t>& bgr, size_t pixel, float gain) {
   const float b = bgr[3 * pixel], g = bgr[3 * pixel + 1], r = bgr[3 * pixel + 2];
   return {0.25F * (r + 2 * g + b) / gain, (r - b) / gain, (g - 0.5F * (r + b)) / gain};
@@ -307,6 +312,34 @@ cv::Mat BackgroundSampler::frame(int index) const {
   return {height_, width_, CV_8UC3, const_cast<uint8_t*>(bgr.data())};
 }
 
+void BackgroundSampler::show(const cv::Mat& frame_bgr) {
+  if (!range_) {
+    range_.emplace();
+    for (int f = 0; f < frames(); ++f) add_range(frame(f), *range_);
+  }
+  add_range(frame_bgr, *range_);
+}
+
+bool BackgroundSampler::has_little_contrast() const { return range_ && range_->is_small(); }
+
+float BackgroundSampler::noise() const {
+  if (kept_.size() < 2) return 0;
+  const auto count = static_cast<float>(kept_.size());
+  std::vector<float> deviations;
+  for (const LightPoint& point : light_points(width_, height_)) {
+    float sum = 0, squares = 0;
+    for (const auto& bgr : kept_) {
+      const float luma = sample_at(bgr, point.pixel, 1).luma;
+      sum += luma;
+      squares += luma * luma;
+    }
+    deviations.push_back(std::sqrt(std::max(0.F, squares - sum * sum / count) / (count - 1)));
+  }
+  const auto middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
+  std::nth_element(deviations.begin(), middle, deviations.end());
+  return *middle;
+}
+
 PictureChange BackgroundSampler::change() const {
   const std::vector<LightPoint> points = light_points(width_, height_);
   std::vector<float> luma, chroma;
@@ -325,8 +358,9 @@ PictureChange BackgroundSampler::change() const {
                      static_cast<float>(kept_.size()));
   }
   PictureChange out;
-  out.brightness = brightness_for(luma);
-  out.colourless = is_colourless(chroma, out.brightness);
+  out.levels = levels_of_dark(luma);
+  if (!out.levels.stretch() && range_) out.levels = range_->levels(noise());
+  out.colourless = is_colourless(chroma, out.levels.gain);
   return out;
 }
 
@@ -344,14 +378,14 @@ BackgroundModel BackgroundSampler::model(int threads) const {
   hidden.resize(kept_.size());
   BackgroundModel model = sized(width_, height_);
   model.change = change();
-  const bool changes = model.change.brightness > 1 || model.change.colourless;
+  const bool changes = model.change.levels.stretch() || model.change.colourless;
   std::vector<std::vector<uint8_t>> as_compared;
   for (int f = 0; changes && f < static_cast<int>(kept_.size()); ++f)
     changed(frame(f), model.change).reshape(1, 1).copyTo(as_compared.emplace_back());
   Frames frames{width_, height_, changes ? as_compared : kept_, hidden, {}};
   frames.gains.assign(kept_.size(), 1);
   frames.reach *=
-      std::sqrt(model.change.brightness);  // noise is larger, differences are too; by hand
+      std::sqrt(model.change.levels.gain);  // noise is larger, differences are too; by hand
   if (kept_.size() > 1) measure_light(frames);
   parallel_for(static_cast<size_t>(height_), threads,
                [&](size_t y) { fill_row(frames, y, model); });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "observation/background/background.h"
@@ -33,19 +34,30 @@ class BackgroundSampler {
   // the last frame was added.
   void hide(int index, const cv::Mat& mask);
 
-  // Dark frames are made as bright as others, and frames without colours are compared by luma alone
-  // (picture_change.h). The result does not depend on `threads`. Throws InputError if no frame was
-  // added.
+  // Shows a frame of the video, which is not kept: in its contrast people count as well, who may be
+  // darker and brighter than the empty scene. To be called after the last frame was added.
+  void show(const cv::Mat& frame_bgr);
+  // Whether all frames, and those that were shown, have little contrast (levels.h); false before
+  // one was shown.
+  bool has_little_contrast() const;
+
+  // Dark frames and those of little contrast are stretched over more levels, and frames without
+  // colours are compared by luma alone (picture_change.h). The result does not depend on `threads`.
+  // Throws InputError if no frame was added.
   BackgroundModel model(int threads = 1) const;
 
  private:
   PictureChange change() const;
+  // Standard deviation of luma over the frames that are kept, grey levels: its median over the
+  // picture; 0 of a single frame.
+  float noise() const;
 
   BackgroundConfig config_;
   int64_t seen_ = 0, stride_ = 1;
   std::vector<std::vector<uint8_t>> kept_;    // BGR
   std::vector<std::vector<uint8_t>> hidden_;  // by kept frame: 0 = used; empty = all used
   int width_ = 0, height_ = 0;
+  std::optional<LumaRange> range_;  // of all frames, once one was shown
 };
 
 }  // namespace observation

@@ -16,10 +16,10 @@ constexpr float kColour = 15, kRoundedChroma = 4;
 
 }  // namespace
 
-bool is_colourless(std::span<float> chroma, float brightness) {
+bool is_colourless(std::span<float> chroma, float gain) {
   const auto high = chroma.begin() + static_cast<std::ptrdiff_t>(99 * chroma.size() / 100);
   std::nth_element(chroma.begin(), high, chroma.end());
-  return *high < std::max(kColour / brightness, kRoundedChroma);
+  return *high < std::max(kColour / gain, kRoundedChroma);
 }
 
 cv::Mat without_colours(const cv::Mat& bgr) {

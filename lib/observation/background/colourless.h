@@ -12,8 +12,8 @@ namespace walktrack {
 inline namespace observation {
 
 // Whether pictures have no colours, from the larger chroma of pixels, which is sorted in part, and
-// the factor by which the pictures are made brighter (brightness.h).
-bool is_colourless(std::span<float> chroma, float brightness);
+// the factor by which the pictures are stretched (levels.h).
+bool is_colourless(std::span<float> chroma, float gain);
 
 // The 8-bit BGR picture in grey.
 cv::Mat without_colours(const cv::Mat& bgr);

@@ -6,8 +6,8 @@ namespace walktrack {
 inline namespace observation {
 
 cv::Mat changed(const cv::Mat& bgr, const PictureChange& change) {
-  const cv::Mat bright = brightened(bgr, change.brightness);
-  return change.colourless && !bright.empty() ? without_colours(bright) : bright;
+  const cv::Mat out = stretched(bgr, change.levels);
+  return change.colourless && !out.empty() ? without_colours(out) : out;
 }
 
 }  // namespace observation

@@ -1,14 +1,14 @@
 // What is done to all pictures of a camera before they are compared.
 #pragma once
 
-#include "observation/background/brightness.h"
 #include "observation/background/colourless.h"
+#include "observation/background/levels.h"
 
 namespace walktrack {
 inline namespace observation {
 
 struct PictureChange {
-  float brightness = 1;     // factor on dark pictures (brightness.h)
+  Levels levels;            // of dark pictures and of little contrast (levels.h)
   bool colourless = false;  // whether chroma is set to zero (colourless.h)
 };
 

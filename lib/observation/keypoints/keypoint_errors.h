@@ -44,7 +44,7 @@ struct PointResidual {
 // `dof` of the Student-t; `temper`: the number of independent residuals that one represents.
 void learn(const PointResidual& residual, double dof, double temper, KeypointErrors& errors);
 
-// To be called after each frame.
+// To be called after each frame from whose points something was learned.
 void forget(KeypointErrors& errors);
 
 }  // namespace observation

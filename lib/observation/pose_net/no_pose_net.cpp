@@ -17,7 +17,7 @@ PoseNet::PoseNet(PoseNet&&) noexcept = default;
 PoseNet& PoseNet::operator=(PoseNet&&) noexcept = default;
 PoseNet::~PoseNet() = default;
 
-DetectedPerson PoseNet::detect(const cv::Mat&, const CutOut&, const cv::Point&) { return {}; }
+DetectedPerson PoseNet::detect(const ImagePart&, const CutOut&) { return {}; }
 
 }  // namespace observation
 }  // namespace walktrack

@@ -49,23 +49,39 @@ cv::Mat coverage_image(const PixelRect& area, std::span<const CapsuleList> figur
 }
 
 struct PixelSums {
+  PixelRect area;
   cv::Mat visible;     // nats for nothing being in front of the subject
   cv::Mat foreground;  // 255 where a pixel has once looked like a foreground
 };
 
+// The smallest area that contains those of all frames with an image.
+PixelRect area_of(std::span<const CoveredFrame> half_hidden, std::span<const CoveredFrame> whole) {
+  cv::Rect area;
+  for (const std::span<const CoveredFrame> frames : {half_hidden, whole}) {
+    for (const CoveredFrame& frame : frames) {
+      const PixelRect& own = frame.planes->area;
+      if (frame.planes->count > 0) area |= cv::Rect(own.x0, own.y0, own.width(), own.height());
+    }
+  }
+  return {area.x, area.y, area.br().x, area.br().y};
+}
+
 void add_frame(const CoveredFrame& frame, PixelSums& sums) {
   if (frame.planes->count == 0) return;  // no image
+  const PixelRect& part = frame.planes->area;
+  const cv::Rect there(part.x0 - sums.area.x0, part.y0 - sums.area.y0, part.width(), part.height());
   const cv::Mat ratios = ratio_image(*frame.planes),
                 cover = coverage_image(frame.planes->area, frame.figures);
   for (int y = 0; y < ratios.rows; ++y) {
     const float *l = ratios.ptr<float>(y), *c = cover.ptr<float>(y);
-    float* const sum = sums.visible.ptr<float>(y);
+    float* const sum = sums.visible.ptr<float>(there.y + y) + there.x;
     for (int x = 0; x < ratios.cols; ++x)
       if (c[x] > 0) sum[x] += std::log1p(c[x] * std::expm1(l[x]));
   }
   cv::Mat together;
   cv::blur(ratios, together, {kTogether, kTogether});
-  sums.foreground |= together > kForeground;
+  cv::Mat seen = sums.foreground(there);
+  seen |= together > kForeground;
 }
 
 // Of the pixels inside a figure, those that look like the empty scene.
@@ -94,11 +110,9 @@ double hidden_share(const CoveredFrame& frame) {
 
 PixelMask hidden_pixels(std::span<const CoveredFrame> half_hidden,
                         std::span<const CoveredFrame> whole, double metres_per_px) {
-  const auto seen = std::ranges::find_if(
-      half_hidden, [](const CoveredFrame& frame) { return frame.planes->count > 0; });
-  if (seen == half_hidden.end()) return {};
-  const PixelRect area = seen->planes->area;
-  PixelSums sums{cv::Mat::zeros(area.height(), area.width(), CV_32F),
+  const PixelRect area = area_of(half_hidden, whole);
+  if (area.empty()) return {};  // no image
+  PixelSums sums{area, cv::Mat::zeros(area.height(), area.width(), CV_32F),
                  cv::Mat::zeros(area.height(), area.width(), CV_8U)};
   for (const CoveredFrame& frame : half_hidden) add_frame(frame, sums);
   const cv::Mat hidden = sums.visible < -kSure;
@@ -115,8 +129,11 @@ PixelMask hidden_pixels(std::span<const CoveredFrame> half_hidden,
 void hide(const PixelMask& mask, LogRatioPlanes& planes) {
   if (mask.set.empty() || planes.count == 0) return;
   const auto width = static_cast<size_t>(planes.area.width());
+  const auto row_of_mask = static_cast<size_t>(mask.area.width());
+  const auto left = static_cast<size_t>(planes.area.x0 - mask.area.x0);
   for (int y = planes.area.y0; y < planes.area.y1; ++y) {
-    const uint8_t* const set = mask.set.data() + width * static_cast<size_t>(y - planes.area.y0);
+    const uint8_t* const set =
+        mask.set.data() + row_of_mask * static_cast<size_t>(y - mask.area.y0) + left;
     for (int plane = 0; plane < planes.count; ++plane) {
       const std::span<int32_t> row = planes.row(plane, y);
       int32_t before = row[0], sum = row[0];

@@ -19,7 +19,7 @@ namespace walktrack {
 inline namespace observation {
 
 struct CoveredFrame {
-  const LogRatioPlanes* planes;      // of the same area in all frames that have any
+  const LogRatioPlanes* planes;
   std::vector<CapsuleList> figures;  // one of which is the subject, each with the same probability
 };
 
@@ -37,7 +37,7 @@ struct PixelMask {
 PixelMask hidden_pixels(std::span<const CoveredFrame> half_hidden,
                         std::span<const CoveredFrame> whole, double metres_per_px);
 
-// From then on the pixels of the mask, which has the area of the planes, contain no evidence.
+// From then on the pixels of the mask, whose area contains that of the planes, contain no evidence.
 void hide(const PixelMask& mask, LogRatioPlanes& planes);
 
 }  // namespace observation

@@ -28,7 +28,7 @@ struct SilhouetteTerm {
 
   struct Evidence {
     LogRatioPlanes planes;  // empty if foreground and background are both off
-    SeenColours colours;    // empty unless Region::picture, and if the subject's are known
+    SeenColours colours;    // empty unless Region::picture and the clothes are not known yet
   };
 
   struct State {

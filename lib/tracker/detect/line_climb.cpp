@@ -74,10 +74,10 @@ Vector2d end_of(const DetectedWalk& line, double time) {
 }
 
 DetectedWalk shifted(const DetectedWalk& line, const Shift& shift, double step, double time) {
-  return {.position = line.position + step * shift.begin,
-          .velocity = line.velocity + step / time * (shift.end - shift.begin),
-          .ray = line.ray,
-          .given = line.given};
+  DetectedWalk out = line;
+  out.position += step * shift.begin;
+  out.velocity += step / time * (shift.end - shift.begin);
+  return out;
 }
 
 using Figures = std::vector<FigureInFrame>;

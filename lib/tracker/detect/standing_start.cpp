@@ -42,7 +42,7 @@ std::optional<StandingStart> standing_before(const DetectedWalk& walk, const Sta
                                              double dt, const DetectorConfig& config) {
   // By hand.
   constexpr double kLook = 0.15, kGap = 0.15;  // s
-  // M in front of the line's beginning.
+  // In m, in front of the line's beginning.
   constexpr double kNearest = -0.4, kFarthest = 0.4, kStep = 0.05;
   constexpr double kAsGood = 0.6;  // of the score just before the walk; by hand
   const auto frames_of = [&](double s) {

@@ -254,6 +254,7 @@ void WalkSearch::step_on() {
 void WalkSearch::hide_occluders(const TrackContext& context, const FoundWalk& found) {
   const DetectedWalk begin = moved(found.walk, -context.scene.dt * double(found.lead));
   reach_back(found.lead);
+  unhidden_.assign(window_.begin(), window_.end());
   walktrack::hide_occluders(context, begin, found.lead + found.walk.hidden_frames, window_);
   let_go(found.lead);
 }
@@ -309,7 +310,17 @@ NearbyPeople WalkSearch::hide_others(const TrackContext& context, FoundWalk& fou
   return people;
 }
 
+void WalkSearch::show_occluders() {
+  if (unhidden_.empty()) return;
+  const size_t lead = unhidden_.size() - window_.size();
+  reach_back(lead);
+  std::move(unhidden_.begin(), unhidden_.end(), window_.begin());
+  unhidden_.clear();
+  let_go(lead);
+}
+
 void WalkSearch::restore_evidence(const TrackContext& context) {
+  show_occluders();
   for (auto& [i, frame] : std::exchange(with_others_, {})) window_[i] = std::move(frame);
   for (std::deque<SceneEvidence>* frames : {&waiting_, &window_}) {
     for (SceneEvidence& frame : *frames) {
@@ -325,9 +336,14 @@ void WalkSearch::restore_evidence(const TrackContext& context) {
   forget_scores();
 }
 
+double WalkSearch::kept_seconds(bool may_stand) {
+  return may_stand ? kStandingKept : kMostPatience;
+}
+
 bool WalkSearch::slide(const TrackContext& context) {
   let_go(1);
-  const double kept = context.subject.standing ? kStandingKept : half_hidden_ ? kMostPatience : 0;
+  const bool may_stand = context.subject.standing.has_value();
+  const double kept = may_stand || half_hidden_ ? kept_seconds(may_stand) : 0;
   const bool needed = waiting_.size() <= passed_.value_or(0);
   if (needed || static_cast<double>(waiting_.size()) * context.scene.dt <= kept) return false;
   waiting_.pop_front();
@@ -342,6 +358,7 @@ std::deque<SceneEvidence> WalkSearch::take() {
   slight_walks_ = {};
   search_weights_.clear();
   with_others_.clear();
+  unhidden_.clear();
   clothed_ = false;
   for (SceneEvidence& frame : window_) drop_colours(frame);
   return std::exchange(window_, {});

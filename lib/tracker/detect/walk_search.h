@@ -44,6 +44,9 @@ class WalkSearch {
   // and whose records have not been returned yet.
   size_t waiting() const { return waiting_.size(); }
 
+  // Seconds of such frames that are kept at most, of a subject who may stand at first or not.
+  static double kept_seconds(bool may_stand);
+
   // Looks whether somebody walks through the window. Of a window that slides on by a frame at a
   // time only every `step`-th is looked at. Returns how many windows back the first one is that may
   // have a walk and was not looked at, or had a walk that was not believed until it had moved on;
@@ -123,6 +126,9 @@ class WalkSearch {
   std::optional<DetectedWalk> find_here(const TrackContext& context, const SearchMoment& moment,
                                         double clearly);
 
+  // Undoes hide_occluders().
+  void show_occluders();
+
   struct HalfHidden {
     DetectedWalk walk;
     uint32_t frame;      // number of the first frame of its window
@@ -137,8 +143,9 @@ class WalkSearch {
   SlightWalks slight_walks_;      // of the newest windows
   std::optional<HalfHidden> half_hidden_;
   std::vector<std::pair<size_t, SceneEvidence>> with_others_;  // frames of the window, before
-  std::vector<double> search_weights_;  // by camera, while the frames are weighed at a walk
-  bool clothed_ = false;                // whether frames are compared with the subject's clothes
+  std::vector<SceneEvidence> unhidden_;  // frames that end with the window's, before
+  std::vector<double> search_weights_;   // by camera, while the frames are weighed at a walk
+  bool clothed_ = false;                 // whether frames are compared with the subject's clothes
 };
 
 }  // namespace tracker

@@ -42,7 +42,7 @@ bool is_fading(const MonitorConfig& config, double least_score, double dt, doubl
   state.frames_below = below || outscored ? state.frames_below + 1 : 0;
   // Frames that are explained badly do not enter the median.
   if (state.frames_below == 0) past.push_back(log_likelihood);
-  if (static_cast<int>(past.size()) > frames_in(config.evidence_window, dt)) past.pop_front();
+  while (static_cast<int>(past.size()) > frames_in(config.evidence_window, dt)) past.pop_front();
   return state.frames_below >= frames_in(config.lost_after, dt) ||
          state.frames_outscored >= frames_in(config.outscored_after, dt);
 }

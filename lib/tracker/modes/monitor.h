@@ -19,7 +19,7 @@ inline namespace tracker {
 
 // By hand; sensitivity not measured.
 struct MonitorConfig {
-  // Share of the likelihood's median below which the track counts as lost
+  // Share of the log-likelihood's median below which the track counts as lost
   double lost_below = 0.35;
   double lost_after = 1;  // s below it: the time for which a subject may be hidden
   // s of explaining the images worse than a rigid figure

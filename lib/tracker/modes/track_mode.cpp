@@ -67,7 +67,6 @@ std::vector<FrameRecord> track_frame(const TrackContext& context, const SceneEvi
       filter_frame(context, filter_context(context), evidence, frame, context.seed, now.filter);
   FrameRecord& record = filtered.record;
   allow_for_start(now.p_legs_swapped, record);
-  note_pose(record, now);
   if (is_lost(context, evidence, frame, record, now.monitor)) {
     record.tracked = false;
     record.evidence.clear();
@@ -83,6 +82,7 @@ std::vector<FrameRecord> track_frame(const TrackContext& context, const SceneEvi
     if (!found) mode = Searching{std::move(now.filter), now.monitor.last_seen};
     return records;
   }
+  note_pose(record, now);
   if (now.monitor.frames_below == 0) see(record.estimate, frame + 1, context.scene.dt, now.monitor);
   if (holds_frames(context)) {
     if (!now.held) now.held = held_from(context, frame);

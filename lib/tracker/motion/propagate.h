@@ -7,9 +7,9 @@
 //   noise ~ N(0, s^2 (1 - r^2) ((1 - r^2)^2 + 4 r^2 sin^2 w) / (1 + r^2)):
 //   s is the process's own standard deviation
 // so that the process does not depend on the frame rate; truncated at anatomical limits. Without a
-// period w = 0: critically damped. The heading has no rest: b = 0, and its rate has the standard
-// deviation s. Because people face the direction in which they walk, the heading relaxes to the
-// direction of travel of about the last step with the time constant
+// period w = 0: critically damped. The heading has no rest: a = r, b = 0, and its rate has the
+// standard deviation s. Because people face the direction in which they walk, the heading relaxes
+// to the direction of travel of about the last step with the time constant
 // MotionConfig::heading_time_constant. On a sagittal path the heading is constant.
 #pragma once
 

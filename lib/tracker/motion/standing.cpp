@@ -59,6 +59,10 @@ bool stops(const MotionContext& context, WalkerParticle& particle, Rng& rng) {
 
 }  // namespace
 
+bool may_stand(const MotionConfig& config) {
+  return config.standing && config.model == MotionKind::kKneed;
+}
+
 StandingProcess standing_process(const MotionModel& moves, const MotionConfig& config, double dt) {
   StandingProcess out;
   for (const ResidualAngle residual : kAllResiduals) {

@@ -20,6 +20,9 @@ struct StandingProcess {
   NoiseScale scale;
   MarkovSteps markov;
 };
+// Whether a subject may stand: only the kneed walker can.
+bool may_stand(const MotionConfig& config);
+
 StandingProcess standing_process(const MotionModel& moves, const MotionConfig& config, double dt);
 
 // Makes a particle, whose stance and residual angles are set, stand upright and at rest.

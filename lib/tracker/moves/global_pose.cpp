@@ -1,6 +1,8 @@
 #include "tracker/moves/global_pose.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -17,9 +19,13 @@ using Matrix = Eigen::Matrix<double, 5, 5>;
 // The angles of the global pose among the residual angles, in its order.
 constexpr std::array<ResidualAngle, 3> kAngles{kHeading, kCrouch, kTilt};
 
-GlobalPose global_pose_of(const WalkerParticle& particle) {
+// Its heading is at most half a turn from `near`: particles that walk towards -x have headings of
+// about -pi and of about pi.
+GlobalPose global_pose_of(const WalkerParticle& particle, double near) {
+  const double heading =
+      near + std::remainder(particle.residual[kHeading] - near, 2 * std::numbers::pi);
   GlobalPose out;
-  out << particle.pose.root.head<2>(), particle.residual[kHeading], particle.residual[kCrouch],
+  out << particle.pose.root.head<2>(), heading, particle.residual[kCrouch],
       particle.residual[kTilt];
   return out;
 }
@@ -59,12 +65,14 @@ GlobalPoseSpread global_pose_spread(std::span<const WalkerParticle> particles,
                                     std::span<const double> log_weights) {
   const std::vector<double> weights = normalised_weights(log_weights);
   GlobalPoseSpread out;
+  const auto heaviest = static_cast<size_t>(std::ranges::max_element(weights) - weights.begin());
+  const double near = weights.empty() ? 0 : particles[heaviest].residual[kHeading];
   for (size_t i = 0; i < particles.size(); ++i)
-    if (weights[i] > 0) out.mean += weights[i] * global_pose_of(particles[i]);
+    if (weights[i] > 0) out.mean += weights[i] * global_pose_of(particles[i], near);
   Matrix covariance = Matrix::Zero();
   for (size_t i = 0; i < particles.size(); ++i) {
     if (!(weights[i] > 0)) continue;
-    const GlobalPose away = global_pose_of(particles[i]) - out.mean;
+    const GlobalPose away = global_pose_of(particles[i], near) - out.mean;
     covariance += weights[i] * away * away.transpose();
   }
   out.factor = factor_of(covariance);
@@ -73,7 +81,7 @@ GlobalPoseSpread global_pose_spread(std::span<const WalkerParticle> particles,
 
 void move_global_pose(const MotionContext& context, const GlobalPoseSpread& spread,
                       double step_size, WalkerParticle& particle, Rng& rng) {
-  const GlobalPose now = global_pose_of(particle);
+  const GlobalPose now = global_pose_of(particle, spread.mean[2]);
   GlobalPose normal;
   for (double& z : normal) z = rng.normal();
   const GlobalPose wanted = spread.mean +

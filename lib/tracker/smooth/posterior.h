@@ -10,6 +10,7 @@
 // Metres, radians, world axes.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -51,11 +52,11 @@ class Posterior {
   std::vector<ModelErrorDraw> errors_;  // by sample
 };
 
-// The value below which a share `quantile` of the mixture of two normal distributions lies, of
-// which the second has the weight `share`.
 struct Normal {
   double mean = 0, sd = 0;
 };
+// The value below which a share `quantile` of the mixture of two normal distributions lies, of
+// which the second has the weight `share`.
 double mixture_quantile(const Normal& one, const Normal& other, double share, double quantile);
 
 }  // namespace tracker

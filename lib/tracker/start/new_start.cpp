@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tracker/overlaps.h"
+#include "tracker/start/attempt.h"
 #include "tracker/start/set_off.h"
 #include "tracker/start/trial.h"
 
@@ -66,7 +67,8 @@ DetectedWalk walk_of(const TrackContext& context, std::span<const FrameRecord> r
   const auto place = [](const FrameRecord& each) -> Eigen::Vector2d {
     return each.estimate.pose.root.head<2>();
   };
-  const size_t later = std::min(records.size() - 1, frames_of(context, kStep));
+  size_t later = std::min(records.size() - 1, frames_of(context, kStep));
+  while (later > 1 && !records[later].tracked) --later;
   DetectedWalk walk;
   walk.position = place(records.front());
   walk.velocity =
@@ -149,8 +151,8 @@ std::vector<FrameRecord> decide_held(const TrackContext& context,
                                      uint32_t& starts, TrackMode& mode) {
   Tracking& now = std::get<Tracking>(mode);
   HeldFrames held = *std::exchange(now.held, std::nullopt);
-  set_off_better(context, frames, held, mode);
   std::vector<FigureFit> earlier = std::exchange(now.monitor.fits, {});
+  set_off_better(context, frames, held, mode);
   std::vector<FrameRecord>& records = held.records;
   const std::optional<PossibleStart> start = possible_start(context, records);
   judge_all(context, frames, records);

@@ -43,8 +43,12 @@ std::vector<PhaseRange> phase_ranges(const StartConfig& config) {
 std::vector<PhaseRange> phase_ranges(const StartConfig& config, double stride_phase) {
   const double steps = 2 * (stride_phase - std::floor(stride_phase));
   const Side side = steps < 1 ? Side::kLeft : Side::kRight;
-  const double phase = steps - std::floor(steps), half = 1.0 / config.phases;
-  return {{side, std::max(0.0, phase - half), std::min(1.0, phase + half)}};
+  const double phase = steps - std::floor(steps), width = 1.0 / config.phases;
+  std::vector<PhaseRange> ranges{
+      {side, std::max(0.0, phase - width), std::min(1.0, phase + width)}};
+  if (phase < width) ranges.push_back({other(side), 1 + phase - width, 1});
+  if (phase > 1 - width) ranges.push_back({other(side), 0, phase + width - 1});
+  return ranges;
 }
 
 std::vector<WalkerParticle> spawn(const MotionContext& context, const StartConfig& config,

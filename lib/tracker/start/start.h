@@ -27,8 +27,8 @@ struct PhaseRange {
   double from = 0, to = 1;
 };
 std::vector<PhaseRange> phase_ranges(const StartConfig& config);
-// The ranges that contain a stated phase of the stride (0 = left foot strike), and their
-// neighbours.
+// All phases that are at most the length of a range from a stated phase of the stride (0 = left
+// foot strike): two ranges where these reach into the step before or after.
 std::vector<PhaseRange> phase_ranges(const StartConfig& config, double stride_phase);
 
 // Particles drawn around a detected walk; the first frame still has to draw their noise.

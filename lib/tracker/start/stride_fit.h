@@ -25,7 +25,8 @@ std::vector<double> stride_scores(const TrackContext& context,
 // Those of phase_ranges() whose phase is the best one or next to it, or half a stride from these;
 // all of them for a subject who stands at first, which has no phase, for one who is half hidden at
 // first, on whom it was half a stride off, and for a walk that the scene states, perhaps without
-// any evidence in single frames. A phase that the scene states and its neighbours are tried alone.
+// any evidence in single frames. Around a phase that the scene states nothing else is
+// tried.
 std::vector<PhaseRange> likely_ranges(const TrackContext& context,
                                       const std::deque<SceneEvidence>& window,
                                       const DetectedWalk& walk);

@@ -61,10 +61,9 @@ Attempt with_labelled_legs(const WindowFrames& window, Attempt first) {
   double p_swapped = std::get<Tracking>(first.mode).p_legs_swapped, odds = first.legs;
   if (odds < kAgreed) {
     Attempt other = with_mirrored_legs(window, first);
-    odds = 0.5 * (first.legs - other.legs);
-    // In either case colours are learned from the pose that was computed last.
-    std::get<Tracking>(first.mode).mean_pose = other.records.back().estimate.pose;
-    if (is_tracking(other.mode) && odds < -kSwapped) {
+    const bool comparable = is_tracking(other.mode);
+    if (comparable) odds = 0.5 * (first.legs - other.legs);
+    if (comparable && odds < -kSwapped) {
       first = std::move(other);
       p_swapped = 0.5;  // the outlines contain little evidence here
       odds = -odds;

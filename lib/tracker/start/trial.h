@@ -8,7 +8,6 @@
 #pragma once
 
 #include <deque>
-#include <span>
 #include <vector>
 
 #include "tracker/modes/track_mode.h"
@@ -23,9 +22,6 @@ struct Trial {                         // NOLINT(bugprone-exception-escape)
   double log_likelihood = 0;           // of the window's frames together, nats, by the particles
   bool legs_in_doubt = false;          // before several cameras
 };
-
-// Of frames together, by the particles, nats.
-double total_log_likelihood(std::span<const FrameRecord> records);
 
 // `window`: the frames from number `first_frame` on. `number` counts the starts from 1. `before`:
 // the mode from which the walk is tried.

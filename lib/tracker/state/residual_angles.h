@@ -24,8 +24,7 @@ void stand_under(const BodyModel& model, const Pose& pose, WalkerParticle& propo
 
 // A Metropolis-Hastings step: `proposal`, whose walker, stance and aim are set, replaces the
 // particle if it explains the particle's pose with more probable residuals; returns whether it did.
-// If both are beyond their limits, or if no residual angle has a process, the particle stays and no
-// random number is drawn.
+// If both are beyond their limits, or if no residual angle has a process, the particle stays.
 bool try_proposal(const MotionContext& context, WalkerParticle proposal, WalkerParticle& particle,
                   Rng& rng);
 

@@ -48,8 +48,8 @@ using ResidualAngles = std::array<double, kResidualCount>;  // rad
 
 // Constants of a Markov process.
 struct MarkovConstants {
-  double rest, time, spread;                                // rad, s, rad (the heading: rad/s)
-  double lowest, highest;                                   // rad
+  double rest, time, spread;  // rad, s, rad (the heading has MotionConfig::yaw_rate_sd)
+  double lowest, highest;     // rad
   double period = std::numeric_limits<double>::infinity();  // s, period of its oscillation;
                                                             // infinite: none
 };
@@ -87,7 +87,7 @@ inline constexpr std::array kResidualTable = [] {
   // clang-format off
   return std::array<ResidualRow, 13>{{
     // left, right, moves, plane, is_deviation, {rest, time, spread, lowest, highest}, standing time
-    {kHeading, kHeading, kTrunk, kSideways, kOwn, {0, .5, .3, -1e9, 1e9}, .5},
+    {kHeading, kHeading, kTrunk, kSideways, kOwn, {0, .5, 0, -1e9, 1e9}, .5},
     {kList, kList, kTrunk, kSideways, kOwn, {0, .15, deg(3), deg(-15), deg(15)}, .6},
     {kAbduction, kAbductionRight, kLeg, kSideways, kOwn, {deg(-2.5), .15, deg(3.5), deg(-20), deg(30)}, .6},
     {kRotation, kRotationRight, kLeg, kSideways, kOwn, {deg(-5), .2, deg(6), deg(-40), deg(40)}, .6},

@@ -27,8 +27,7 @@ void append_entity(std::string& text, std::string_view key, std::string_view lab
   text += fmt::format("{}{}-{}", text.empty() ? "" : "_", key, label);
 }
 
-// Converts UsageError, which is for options, to InputError, because these names come from the data
-// set.
+// The name; InputError if it is not that of a video of the subject's folder.
 BidsName checked(const fs::path& file, const fs::path& subject, const BidsName& name) {
   if (!name.label("task"))
     throw InputError(describe({file.string(), 0, ""}, "a name without task-", kFormOfName));

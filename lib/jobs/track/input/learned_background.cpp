@@ -58,9 +58,35 @@ void hide_people(BackgroundSampler& frames, const KeypointConfig& config, double
     frames.hide(f, people_mask(people[static_cast<size_t>(f)], frames.frame(f).size()));
 }
 
+int frames_between(const FrameSource& video, double seconds) {
+  constexpr double kUsualRate = 30;
+  const double rate = video.facts().frame_rate > 0 ? video.facts().frame_rate : kUsualRate;
+  return std::max(1, static_cast<int>(std::lround(seconds * rate)));
+}
+
+// By hand. Time between the frames of the video that show how bright and dark people are, s, and
+// their number.
+constexpr double kBetweenShown = 0.5;
+constexpr int kMostShown = 20;
+
+// Shows frames of the video for as long as it seems to have little contrast.
+void show_video(const SceneCamera& camera, int first_frame, const WorkingScale& scale,
+                const JobControl& control, BackgroundSampler& sampler) {
+  FrameSource video(camera.video, PixelSize(camera.camera.width_px, camera.camera.height_px));
+  bool more = video.skip(camera.start_frame + first_frame);
+  const int step = frames_between(video, kBetweenShown);
+  Image frame;
+  for (int shown = 0; more && shown < kMostShown && !control.stopping() && video.advance();
+       ++shown) {
+    video.picture(scale.shrink, frame);
+    sampler.show(frame);
+    more = sampler.has_little_contrast() && video.skip(step - 1);
+  }
+}
+
 // By hand. Time between the frames of the video that are compared with the empty scene, s; side of
 // the smallest thing that is found, as a share of the subject's height.
-constexpr double kBetweenCompared = 0.5, kUsualRate = 30;
+constexpr double kBetweenCompared = 0.5;
 constexpr double kSmallestThing = 0.05;
 
 // Compares the video with the empty scene for as long as something may never be as in that.
@@ -69,8 +95,7 @@ BackgroundModel with_moved_things(const BackgroundModel& empty_scene, const Scen
                                   const JobControl& control) {
   FrameSource video(camera.video, PixelSize(camera.camera.width_px, camera.camera.height_px));
   if (!video.skip(camera.start_frame + first_frame)) return empty_scene;
-  const double rate = video.facts().frame_rate > 0 ? video.facts().frame_rate : kUsualRate;
-  const auto step = static_cast<size_t>(std::max(1L, std::lround(kBetweenCompared * rate)));
+  const auto step = static_cast<size_t>(frames_between(video, kBetweenCompared));
   const auto total = static_cast<size_t>(video.facts().frame_count);
   MovedThings things(config.observation.background, empty_scene,
                      kSmallestThing * scale.person_px / scale.shrink, thread_count(config.threads));
@@ -123,6 +148,7 @@ BackgroundModel learned_background(const SceneCamera& camera, int first_frame, c
   }
   if (from_video && background.without_people == TermSetting::kOn)
     hide_people(sampler, config.observation.keypoints, scale.person_px / scale.shrink, control);
+  show_video(camera, first_frame, scale, control, sampler);
   BackgroundModel model = sampler.model(thread_count(config.threads));
   if (from_video) return model;
   return with_moved_things(model, camera, first_frame, config, scale, control);

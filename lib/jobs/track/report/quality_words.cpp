@@ -67,7 +67,8 @@ constexpr QualityWords kWords[] = {
      "to lie on something else than the subject's legs."},
     {"missing_steps", "Steps missing on the path of the body", "", 1,
      "The length of the path of the pelvis in steps of the mean length, less the complete steps "
-     "and two incomplete ones at the ends of every walk: people get along by steps alone.",
+     "and two incomplete ones at the ends of every walk: a person who walks moves forward only by "
+     "taking steps.",
      "The feet of the figure did not step while the body moved on; film from the side as well, or "
      "cut the video to the walk."},
     {"longest_step_leg_lengths", "Longest step, in leg lengths", "", 2,

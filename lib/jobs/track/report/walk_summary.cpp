@@ -53,7 +53,7 @@ std::string summary_text(const TrackOutcome& outcome) {
   std::string text = fmt::format("{} of {} frames tracked, {:.1f} frames/s", outcome.tracked,
                                  outcome.frames, outcome.frames_per_second);
   if (outcome.stride_frames_per_second)
-    text += fmt::format(" ({:.1f} in the stride)", *outcome.stride_frames_per_second);
+    text += fmt::format(" ({:.1f} while tracking)", *outcome.stride_frames_per_second);
   if (outcome.tracked > 0) {
     const WalkSummary& walk = outcome.walk;
     text += fmt::format("\n  steps        {}\n  speed        {}\n  cadence      {}\n", walk.steps,
