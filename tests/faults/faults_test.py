@@ -8,7 +8,7 @@ import tomllib
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
-LEAST = 228  # caught: all
+LEAST = 233  # caught: all
 
 
 def main():
