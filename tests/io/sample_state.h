@@ -10,7 +10,7 @@ namespace walktrack {
 inline ObserverState sample_observer() {
   ObserverState out;
   out.background =
-      BackgroundModel{2, 1, {2, true}, 0.25, {.1f, .2f}, {0, 0}, {0, 0}, {1, 1}, {1, 1}};
+      BackgroundModel{2, 1, {{2, 1.5F}, true}, 0.25, {.1f, .2f}, {0, 0}, {0, 0}, {1, 1}, {1, 1}};
   out.grey_before = {3, 1, {1, 2, 3}};
   out.errors.scale[2] = 0.25;
   out.use.matched = 9;
