@@ -46,9 +46,7 @@ int run_compare(const Arguments& arguments) {
       outcome.compared > 0
           ? fmt::format("{} of {} differences exceed the minimal detectable change",
                         outcome.exceeding, outcome.compared)
-          : std::string(
-                "no minimal detectable change is known: each group needs several results, "
-                "or strides of --unit strides");
+          : std::string("too few results or strides for a minimal detectable change");
   Terminal(line.common()).control().say(found + "; open " + outcome.look_at.string());
   return kDone;
 }

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "core/conventions.h"
 #include "core/errors.h"
+#include "io/scene/subject_file.h"
 #include "jobs/init/init.h"
 #include "jobs/init/init_pair.h"
 #include "terminal.h"
@@ -75,7 +76,7 @@ double subject_height(const CommandLine& line, double height) {
 void set_common(auto& job, const CommandLine& line, const InitOptions& options,
                 const Arguments& arguments) {
   job.height = subject_height(line, options.height);
-  job.mass = line.within("mass", options.mass, 0.5, 1000);
+  job.mass = line.within("mass", options.mass, kSmallestMass, kGreatestMass);
   job.frame_rate = line.within("frame-rate", options.rate, 0.1, 1000);
   job.output = line.required_output();
   job.overwrite = line.common().overwrite;

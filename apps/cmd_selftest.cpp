@@ -24,8 +24,8 @@ int run_selftest(const Arguments& arguments) {
            "Tries extreme walks, pictures, bodies and settings with this program and prints the "
            "outcome of\neach: tracked, degraded (with the reason) or reported (refused with a "
            "reason).\nEvery other outcome is a failure, with exit code 1. It takes one to two "
-           "minutes, with --stress more\nand 8 GB of memory. It works in a temporary "
-           "folder, inside of the folder --output if that is\ngiven, and removes it at the end.",
+           "minutes, with --stress\nsome minutes more and 8 GB of memory. It works in a temporary "
+           "folder, inside of the folder --output if\nthat is given, and removes it at the end.",
        .example = "walktrack selftest"});
   line.options().add_options()("stress", po::bool_switch(&stress),
                                "add the trials that take minutes")(

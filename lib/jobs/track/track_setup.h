@@ -39,8 +39,8 @@ WorkingScale working_scale(const Scene& scene, const Camera& camera, const Confi
 void require_speeds_in_order(const DetectorConfig& config);
 
 // Memory of the search for a walk, for all cameras: the evidence of a window of frames and of those
-// that are kept before it, in bytes.
-// It grows with the frame rate and with the number of pixels after shrinking.
+// that are kept before it, in bytes. It grows with the frame rate and with the number of pixels
+// after shrinking.
 double search_window_bytes(const Scene& scene, const Config& config, double frame_rate);
 inline constexpr double kMostSearchBytes = 8.0 * (1 << 30);
 // InputError with advice if that is more than kMostSearchBytes.

@@ -17,8 +17,8 @@ constexpr float kDark = 85, kUsuallyBelow = 128;
 // Pictures have little contrast if all their luma is in a smaller range than the first value, grey
 // levels, which is then stretched to the second (reports/dark.md).
 constexpr float kSmallRange = 190, kUsualRange = 224, kAllLevels = 255;
-// The noise of two telephones in a room, grey levels. Where it would become larger it is noise, and
-// not the fixed sizes, that hides people (reports/dark.md).
+// Grey levels: telephones in a room have about so much noise, and where it would become larger it
+// is noise, and not the fixed sizes, that hides people. Chosen in reports/dark.md.
 constexpr float kUsualNoise = 0.75F;
 constexpr float kLeastStretch = 1.1F;  // less is not worth a change; by hand
 // Variance of the blur for each unit of gain above 1, px^2: with 4 times the values, noise that is

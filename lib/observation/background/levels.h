@@ -1,7 +1,6 @@
 // Pictures that use few of their grey levels, dark ones or those of little contrast, stretched over
-// more of them. Sizes
-// in this module are in grey levels, and colours are counted in bins of 16 of them: in the dark or
-// in a haze, everybody would look like the background.
+// more of them. Sizes in this module are in grey levels, and colours are counted in bins of 16 of
+// them: in the dark or in a haze, everybody would look like the background.
 #pragma once
 
 #include <limits>
